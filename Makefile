@@ -1,0 +1,43 @@
+# Two commands matter: `make demo` and `make test`. Both make their own environment.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+ifneq ($(wildcard ../shared),)
+export OSC2TX_TEST_DATA ?= $(abspath ../shared)
+endif
+
+.PHONY: demo test test-all lint goldens parser maps clean
+
+demo: $(STAMP)
+	$(BIN)/osc2tx build scenarios/ -o generated/
+	$(BIN)/osc2tx run scenarios/cut_in_and_evade.osc --trace out/cut_in_and_evade.jsonl --report out/cut_in_and_evade.html
+	@echo "Open out/cut_in_and_evade.html in a browser."
+
+test: lint
+	$(BIN)/pytest -q -m "not slow"
+
+test-all: lint
+	$(BIN)/pytest -q
+
+lint: $(STAMP)
+	$(BIN)/ruff check .
+	$(BIN)/black --check --quiet .
+	$(BIN)/mypy
+
+goldens: $(STAMP)
+	$(BIN)/pytest -q --update-golden
+
+parser: $(STAMP)
+	sh tools/make_parser.sh
+
+maps: $(STAMP)
+	$(BIN)/python tools/make_maps.py
+
+$(STAMP): pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet -e ".[test]"
+	touch $@
+
+clean:
+	rm -rf $(VENV) out build dist

@@ -1,0 +1,81 @@
+"""Scenario `cut_in`.
+
+Made by osc2tx from cut_in.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    main,
+    require_api,
+    rise,
+    within,
+)
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import kph, m, s
+
+require_api(1)
+
+
+class CutIn(Scenario):
+    """Scenario `cut_in` (cut_in.osc:6)."""
+
+    name = "cut_in"
+    source = "cut_in.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+        self.v_ego = self.parameter("v_ego", 70 * kph)
+
+        # Faster than the ego vehicle, but not by much
+        self.v_other = self.parameter("v_other", within(80 * kph, 95 * kph))
+        self.gap = self.parameter("gap", 8 * m)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(200 * m), speed(self.v_ego))
+        self.place(
+            self.other,
+            lane(side_of=self.ego, side="left"),
+            position(30 * m, behind=self.ego),
+            speed(self.v_other),
+        )
+
+    def behavior(self) -> Behaviour:  # cut_in.osc:18
+        return Parallel(
+            "cut_in",
+            self.ego.drive(speed(self.v_ego), label="ego_drives"),
+            self.other_cuts_in(),
+        )
+
+    def other_cuts_in(self) -> Behaviour:  # cut_in.osc:24
+        return Serial(
+            "other_cuts_in",
+            Until(
+                self.other.drive(speed(self.v_other), label="overtake"),
+                rise(
+                    lambda: self.other.space_gap(reference=self.ego, direction="longitudinal")
+                    > self.gap
+                ),
+            ),
+            self.other.change_lane(num_of_lanes=1, side="right"),
+            self.other.drive(speed(self.v_ego), duration=5 * s, label="settle"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return CutIn().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(CutIn))

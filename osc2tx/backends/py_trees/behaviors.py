@@ -1,0 +1,139 @@
+"""The behavior tree as methods that return nested constructor calls.
+
+The root gets a method, and so does every composition that the IR calls a phase; the others
+stand inline, nested as they are in the source.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import assert_never
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.calls import CallWriter, code, comments
+from osc2tx.backends.py_trees.code import (
+    Level,
+    PyComment,
+    PyExpr,
+    PyName,
+    literal,
+    name_expression,
+    self_attribute,
+)
+from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.source_map import ScenarioMap
+from osc2tx.backends.py_trees.view import ArgumentView, CallView, MethodView
+
+# Compositions nested deeper than this inside one method get a method of their own: far below
+# CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
+MAX_INLINE_DEPTH = 6
+
+CLASSES = {ir.Serial: "Serial", ir.Parallel: "Parallel", ir.OneOf: "OneOf"}
+
+
+class TreeWriter:
+    """Writes the methods of one scenario.
+
+    Args:
+        calls: Writer of calls.
+        names: Names of the scenario's fields and methods.
+        source_map: Where the nodes' lines go, in the pre-order of the tree.
+    """
+
+    def __init__(self, calls: CallWriter, names: NameTable, source_map: ScenarioMap) -> None:
+        """See the class."""
+        self._calls = calls
+        self._names = names
+        self._source_map = source_map
+        self._written: list[MethodView] = []
+
+    def write(self, root: ir.Behavior) -> tuple[MethodView, ...]:
+        """Return `behavior` and the methods it calls, in source order."""
+        self._method(PyName("behavior"), root)
+        return tuple(self._written)
+
+    def _method(self, name: PyName, node: ir.Behavior) -> None:
+        """Write a method; it is listed before those it calls."""
+        index = len(self._written)
+        value = self._node(node, depth=0)
+        method = MethodView(
+            name=name,
+            location=PyComment.of(str(node.span)),
+            value=replace(value, comments=()),
+            comments=value.comments,
+        )
+        self._written.insert(index, method)
+
+    def _member(self, node: ir.Behavior, *, depth: int) -> ArgumentView:
+        """Write a member of a composition: in place, or as the call of its own method."""
+        if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+            return self._node(node, depth=depth)
+        if not node.is_phase and depth <= MAX_INLINE_DEPTH:
+            return self._node(node, depth=depth)
+        name = self._names.add(f"method at {node.span.start}", method_name(node))
+        self._method(name, node)
+        return ArgumentView(call=CallView(self_attribute(name)))
+
+    def _node(self, node: ir.Behavior, *, depth: int) -> ArgumentView:
+        until = () if isinstance(node, ir.Wait | ir.Emit) else node.until
+        if until:
+            self._source_map.nodes.append((until[0].span.line, f"until, {node.name}"))
+        self._source_map.nodes.append((node.span.line, node.name))
+        call = self._call(node, depth=depth)
+        if until:
+            arguments = (ArgumentView(call=call), *self._calls.triggers(until))
+            call = replace(self._calls.runtime_call("Until", *arguments), exploded=True)
+        return ArgumentView(call=call, comments=comments(node.comments))
+
+    def _call(self, node: ir.Behavior, *, depth: int) -> CallView:
+        match node:
+            case ir.Serial() | ir.Parallel() | ir.OneOf():
+                return self._composition(node, depth=depth)
+            case ir.Invoke():
+                return self._invocation(node)
+            case ir.Wait(trigger=trigger):
+                arguments = (*self._calls.trigger(trigger), *self._label(node.label))
+                return self._calls.runtime_call("Wait", *arguments)
+            case ir.Emit(event=event):
+                target = code(self._calls.expressions.field(event.name))
+                keywords = self._calls.keywords(node.arguments)
+                return self._calls.runtime_call("Emit", target, *keywords, *self._label(node.label))
+            case _:
+                assert_never(node)
+
+    def _composition(self, node: ir.Composition, *, depth: int) -> CallView:
+        name = code(literal(node.label or node.name))
+        members = tuple(self._member(member, depth=depth + 1) for member in node.members)
+        arguments = (name, *members, *self._composition_arguments(node))
+        function = name_expression(self._calls.use_name(CLASSES[type(node)]))
+        return CallView(
+            function, arguments, exploded=True, end_comments=comments(node.end_comments)
+        )
+
+    def _composition_arguments(self, node: ir.Composition) -> tuple[ArgumentView, ...]:
+        arguments = self._calls.duration(node.duration)
+        if isinstance(node, ir.Parallel):
+            if node.overlap != "start":
+                arguments += (code(literal(node.overlap), "overlap"),)
+            arguments += self._calls.time_limit("start_to_start", node.start_to_start)
+            arguments += self._calls.time_limit("end_to_end", node.end_to_end)
+        return arguments
+
+    def _invocation(self, node: ir.Invoke) -> CallView:
+        actor = self._calls.expressions.write(node.actor)
+        action = PyExpr(f"{actor.within(Level.ATOM)}.{identifier(node.action)}", Level.ATOM)
+        arguments = (
+            *(self._calls.modifier(modifier) for modifier in node.modifiers),
+            *self._calls.keywords(node.arguments),
+            *self._calls.duration(node.duration),
+            *self._label(node.label),
+        )
+        return CallView(action, arguments)
+
+    def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
+        return () if label is None else (code(literal(label), "label"),)
+
+
+def method_name(node: ir.Composition) -> str:
+    """Return the method name for a phase: its label, else what it is called."""
+    return identifier(node.label or node.name.replace(": ", "_").replace(" ", "_"))

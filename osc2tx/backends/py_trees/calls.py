@@ -1,0 +1,131 @@
+"""Calls as the templates place them: actions, modifiers, constructors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import Level, PyComment, PyExpr, PyName, name_expression
+from osc2tx.backends.py_trees.expressions import ExpressionWriter
+from osc2tx.backends.py_trees.naming import identifier
+from osc2tx.backends.py_trees.view import ArgumentView, CallView
+
+
+def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:
+    """Return comment lines of the source as comment lines of the module."""
+    return tuple(PyComment.of(line) for line in lines)
+
+
+def code(expression: PyExpr, keyword: str | None = None) -> ArgumentView:
+    """Return a plain argument."""
+    return ArgumentView(code=expression, keyword=PyName(keyword) if keyword else None)
+
+
+class CallWriter:
+    """Writes modifiers, conditions and argument lists.
+
+    Args:
+        expressions: Writer of the scenario's expressions.
+        use_name: Told of each name needed from the runtime library.
+        use_modifier: Told of each modifier function needed.
+    """
+
+    def __init__(
+        self,
+        expressions: ExpressionWriter,
+        use_name: Callable[[str], PyName],
+        use_modifier: Callable[[str], PyName],
+    ) -> None:
+        """See the class."""
+        self.expressions = expressions
+        self.use_name = use_name
+        self._use_modifier = use_modifier
+
+    def runtime_call(self, name: str, *arguments: ArgumentView) -> CallView:
+        """Return a call of a function or class of the runtime library."""
+        return CallView(name_expression(self.use_name(name)), arguments)
+
+    def modifier(self, call: ir.ModifierCall) -> ArgumentView:
+        """Write a modifier; its first argument stays positional if the source has it so."""
+        arguments = tuple(
+            self._modifier_argument(argument, is_first=index == 0)
+            for index, argument in enumerate(call.arguments)
+        )
+        function = name_expression(self._use_modifier(identifier(call.name)))
+        return ArgumentView(call=CallView(function, arguments), comments=comments(call.comments))
+
+    def _modifier_argument(self, argument: ir.Argument, *, is_first: bool) -> ArgumentView:
+        value = self.expressions.value(argument.value)
+        if is_first and argument.is_positional:
+            return code(value)
+        return code(value, identifier(argument.parameter))
+
+    def keywords(self, arguments: tuple[ir.Argument, ...]) -> tuple[ArgumentView, ...]:
+        """Write arguments of an action, all by name: its positions are for modifiers."""
+        return tuple(
+            code(self.expressions.value(argument.value), identifier(argument.parameter))
+            for argument in arguments
+        )
+
+    def duration(self, duration: ir.Expression | None) -> tuple[ArgumentView, ...]:
+        """Write `duration=…`, a range as a pair."""
+        return self.time_limit("duration", duration)
+
+    def time_limit(self, keyword: str, value: ir.Expression | None) -> tuple[ArgumentView, ...]:
+        """Write a time or range of time as a keyword argument."""
+        if value is None:
+            return ()
+        if isinstance(value, ir.RangeValue):
+            lower = self.expressions.write(value.lower)
+            upper = self.expressions.write(value.upper)
+            return (code(PyExpr(f"({lower}, {upper})", Level.ATOM), keyword),)
+        return (code(self.expressions.write(value), keyword),)
+
+    def triggers(self, triggers: tuple[ir.Trigger, ...]) -> tuple[ArgumentView, ...]:
+        """Write triggers as arguments of `Until`."""
+        return tuple(argument for trigger in triggers for argument in self.trigger(trigger))
+
+    def trigger(self, trigger: ir.Trigger) -> tuple[ArgumentView, ...]:
+        """Write an event specification: an event, a condition, or both."""
+        arguments: list[ArgumentView] = []
+        match trigger.event:
+            case ir.EventRef(name=name):
+                arguments.append(code(self.expressions.field(name)))
+            case ir.LabelEvent():
+                arguments.append(self._label_event(trigger.event))
+            case None:
+                pass
+        if trigger.condition is not None:
+            arguments.append(self.condition(trigger.condition))
+        first = replace(arguments[0], comments=comments(trigger.comments))
+        return (first, *arguments[1:])
+
+    def _label_event(self, event: ir.LabelEvent) -> ArgumentView:
+        methods = {
+            ir.Moment.START: "started",
+            ir.Moment.END: "ended",
+            ir.Moment.FAIL: "failed",
+        }
+        method = PyExpr(f"self.{methods[event.moment]}", Level.ATOM)
+        label = ir.Literal(
+            span=event.span, type=ir.ValueType(ir.Kind.STRING, "string"), value=event.label
+        )
+        return ArgumentView(call=CallView(method, (code(self.expressions.write(label)),)))
+
+    def condition(self, condition: ir.Condition) -> ArgumentView:
+        """Write a condition; expressions over the world are read late."""
+        writer = self.expressions
+        match condition:
+            case ir.Level(expression=expression):
+                return code(writer.late(writer.write(expression)))
+            case ir.Edge(rising=rising, expression=expression):
+                late = code(writer.late(writer.write(expression)))
+                return ArgumentView(call=self.runtime_call("rise" if rising else "fall", late))
+            case ir.Elapsed(duration=duration):
+                time = code(writer.write(duration))
+                return ArgumentView(call=self.runtime_call("elapsed", time))
+            case ir.Every(period=period, offset=offset):
+                shift = () if offset is None else (code(writer.write(offset), "offset"),)
+                call = self.runtime_call("every", code(writer.write(period)), *shift)
+                return ArgumentView(call=call)

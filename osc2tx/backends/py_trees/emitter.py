@@ -1,0 +1,95 @@
+"""IR module in, text of the Python module and its source map out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import PyDocLine, PyName
+from osc2tx.backends.py_trees.environment import environment
+from osc2tx.backends.py_trees.formatting import format_module
+from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
+from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, API_LEVEL, STRUCT_CLASSES
+from osc2tx.backends.py_trees.scenarios import ScenarioWriter
+from osc2tx.backends.py_trees.source_map import render_source_map
+from osc2tx.backends.py_trees.uses import Uses
+from osc2tx.backends.py_trees.view import ModuleView
+
+# Names a module may import; a scenario class must not hide them.
+RUNTIME_CLASSES = frozenset(
+    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()}
+    | {"Behaviour", "Emit", "Event", "OneOf", "Parallel", "Scenario", "Serial", "Until", "Wait"}
+)
+
+ONE_OF_POLICIES = {
+    "race": "`one_of` is a race",
+    "first": "`one_of` takes its first member",
+    "seeded": "`one_of` chooses by the seed",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class GeneratedModule:
+    """What the backend makes of one source file.
+
+    Attributes:
+        stem: File name of the module without `.py`.
+        python: Text of the module.
+        source_map: Text of the sidecar map, JSON.
+    """
+
+    stem: str
+    python: str
+    source_map: str
+
+
+def emit(module: ir.Module) -> GeneratedModule:
+    """Write the module for one source file with at least one scenario."""
+    uses = Uses()
+    classes = NameTable(RUNTIME_CLASSES)
+    writers = [
+        ScenarioWriter(
+            scenario,
+            module.one_of,
+            classes.add(scenario.name, class_name(scenario.name), "Scenario"),
+            uses,
+        )
+        for scenario in module.scenarios
+    ]
+    scenarios = tuple(writer.write() for writer in writers)
+    view = ModuleView(
+        docstring=_docstring(module),
+        imports=uses.imports(),
+        api_level=API_LEVEL,
+        units=uses.units(),
+        scenarios=scenarios,
+        main=classes[main_scenario(module)],
+    )
+    text = environment().get_template("module.py.j2").render(module=view)
+    maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
+    return GeneratedModule(module_stem(module.source), format_module(text), render_source_map(maps))
+
+
+def module_stem(source: str) -> str:
+    """Return the module name for a source file: importable, as close to its name as can be."""
+    return PyName(identifier(PurePosixPath(source).stem)).text
+
+
+def main_scenario(module: ir.Module) -> str:
+    """Return the scenario that the module runs as a script: `top`, `main`, else the last."""
+    names = [scenario.name for scenario in module.scenarios]
+    return next((name for name in ("top", "main") if name in names), names[-1])
+
+
+def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
+    names = ", ".join(f"`{scenario.name}`" for scenario in module.scenarios)
+    word = "Scenario" if len(module.scenarios) == 1 else "Scenarios"
+    lines = (
+        f"{word} {names}.",
+        "",
+        f"Made by osc2tx from {module.source}: edit the scenario, not this module.",
+        f"OpenSCENARIO DSL {module.standard}, dialect {module.dialect}; "
+        f"{ONE_OF_POLICIES[module.one_of]}.",
+    )
+    return tuple(PyDocLine.of(line) for line in lines)

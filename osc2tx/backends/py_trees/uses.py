@@ -1,0 +1,67 @@
+"""What a module uses of the runtime library, collected while it is written."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import PyName, literal
+from osc2tx.backends.py_trees.naming import identifier
+from osc2tx.backends.py_trees.view import ImportView, UnitView
+
+RUNTIME = "osc2tx_runtime"
+
+
+class Uses:
+    """Collects names to import and units to define."""
+
+    def __init__(self) -> None:
+        """Start with what every module needs."""
+        self._names = {"Behaviour", "Scenario", "main", "require_api"}
+        self._modifiers: set[str] = set()
+        self._standard_units: set[str] = set()
+        self._own_units: dict[str, ir.Unit] = {}
+
+    def name(self, name: str) -> PyName:
+        """Use a public name of the runtime library."""
+        self._names.add(name)
+        return PyName(name)
+
+    def modifier(self, name: str) -> PyName:
+        """Use a modifier function."""
+        self._modifiers.add(name)
+        return PyName(name)
+
+    def unit(self, unit: ir.Unit) -> PyName:
+        """Use a unit: the runtime's constant, or one that the module defines itself."""
+        name = PyName(identifier(unit.name))
+        if unit.is_standard:
+            self._standard_units.add(name.text)
+        else:
+            self._own_units[name.text] = unit
+        return name
+
+    def imports(self) -> tuple[ImportView, ...]:
+        """Return the import lines, sorted as isort sorts them."""
+        groups = (
+            (RUNTIME, self._names),
+            (f"{RUNTIME}.modifiers", self._modifiers),
+            (f"{RUNTIME}.units", self._standard_units),
+        )
+        return tuple(
+            ImportView(module, tuple(PyName(name) for name in sorted(names, key=_isort_key)))
+            for module, names in groups
+            if names
+        )
+
+    def units(self) -> tuple[UnitView, ...]:
+        """Return the units that the module defines, by name."""
+        return tuple(
+            UnitView(PyName(name), literal(unit.factor))
+            for name, unit in sorted(self._own_units.items())
+        )
+
+
+def _isort_key(name: str) -> tuple[int, str]:
+    """Constants, then classes, then the rest: the order of isort and ruff."""
+    if name.isupper() and len(name) > 1:
+        return 0, name
+    return (1 if name[:1].isupper() else 2), name

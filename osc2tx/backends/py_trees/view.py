@@ -1,0 +1,87 @@
+"""View models: what the templates place, every decision already taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from osc2tx.backends.py_trees.code import PyComment, PyDocLine, PyExpr, PyName
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentView:
+    """An argument of a call: plain code, or a call of its own."""
+
+    code: PyExpr | None = None
+    call: CallView | None = None
+    keyword: PyName | None = None
+    comments: tuple[PyComment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class CallView:
+    """A call; `exploded` ones get a line for each argument."""
+
+    callee: PyExpr
+    arguments: tuple[ArgumentView, ...] = ()
+    exploded: bool = False
+    end_comments: tuple[PyComment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class StatementView:
+    """`target = value`, or the value alone."""
+
+    target: PyExpr | None
+    value: ArgumentView
+    comments: tuple[PyComment, ...] = ()
+    blank_before: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class MethodView:
+    """A method that returns one piece of the behavior tree."""
+
+    name: PyName
+    location: PyComment
+    value: ArgumentView
+    comments: tuple[PyComment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ImportView:
+    """`from module import names`."""
+
+    module: str
+    names: tuple[PyName, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class UnitView:
+    """A unit that the scenario's own files declare, as a constant of the module."""
+
+    name: PyName
+    factor: PyExpr
+
+
+@dataclass(frozen=True, slots=True)
+class ScenarioView:
+    """A scenario class."""
+
+    class_name: PyName
+    docstring: tuple[PyDocLine, ...]
+    attributes: tuple[StatementView, ...]
+    declarations: tuple[StatementView, ...]
+    placements: tuple[StatementView, ...]
+    methods: tuple[MethodView, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ModuleView:
+    """A module."""
+
+    docstring: tuple[PyDocLine, ...]
+    imports: tuple[ImportView, ...]
+    api_level: int
+    units: tuple[UnitView, ...]
+    scenarios: tuple[ScenarioView, ...]
+    main: PyName

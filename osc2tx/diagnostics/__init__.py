@@ -1,0 +1,25 @@
+"""Diagnostics: what the compiler has to say about a source text.
+
+A diagnostic is data (code, severity, message, spans, help); a stage puts it into a
+`DiagnosticSink` and goes on. Rendering is a separate matter.
+
+Modules, in reading order: `source` (texts and spans), `model` (the diagnostic itself),
+`codes` (the registry of codes), `sink` (collecting and ordering), `render` (text for people).
+"""
+
+from osc2tx.diagnostics.codes import CODES, Code
+from osc2tx.diagnostics.model import Diagnostic, InternalCompilerError, Label, Severity
+from osc2tx.diagnostics.sink import DiagnosticSink
+from osc2tx.diagnostics.source import SourceFile, Span
+
+__all__ = [
+    "CODES",
+    "Code",
+    "Diagnostic",
+    "DiagnosticSink",
+    "InternalCompilerError",
+    "Label",
+    "Severity",
+    "SourceFile",
+    "Span",
+]

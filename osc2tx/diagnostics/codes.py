@@ -1,0 +1,134 @@
+"""The registry of diagnostic codes.
+
+Families: 1xx text and syntax, 2xx names and imports, 3xx types and units, 4xx behaviors,
+modifiers and constraints, 5xx not supported by a backend, 6xx relaxations of a dialect.
+A code is permanent; a retired one is not used again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from osc2tx.diagnostics.model import Severity
+
+ERROR, WARNING = Severity.ERROR, Severity.WARNING
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """One kind of report.
+
+    Attributes:
+        code: `OSC203`.
+        slug: Short name in kebab case.
+        severity: What it does to the run.
+        summary: One sentence for the reference.
+        section: Section of OpenSCENARIO DSL 2.2 that states the rule, where there is one.
+        example: A faulty line.
+    """
+
+    code: str
+    slug: str
+    severity: Severity
+    summary: str
+    section: str = ""
+    example: str = ""
+
+
+def _table(*rows: Code) -> dict[str, Code]:
+    codes = {row.code: row for row in rows}
+    assert len(codes) == len(rows), "a diagnostic code is registered twice"
+    return codes
+
+
+CODES = _table(
+    # --- 1xx text and syntax ---
+    Code("OSC100", "syntax-error", ERROR, "The text does not follow the grammar.", "7.2.2"),
+    Code("OSC101", "unreadable-source", ERROR, "The file cannot be read or decoded.", "7.2.1.1"),
+    Code("OSC102", "unknown-character", ERROR, "A character starts no token.", "7.2.1.5"),
+    Code("OSC103", "unterminated-string", ERROR, "A string has no end.", "7.2.1.5.2"),
+    Code("OSC104", "inconsistent-dedent", ERROR, "No block has this indentation.", "7.2.1.4"),
+    Code("OSC105", "nesting-too-deep", ERROR, "Blocks or brackets nest too deeply.", "7.2.1"),
+    Code("OSC106", "unclosed-bracket", ERROR, "A bracket is not closed.", "7.2.1.3"),
+    Code("OSC107", "literal-out-of-range", ERROR, "A number does not fit its type.", "7.2.1.5.2"),
+    Code("OSC108", "invalid-member", ERROR, "A member does not belong here.", "7.2.2"),
+    Code("OSC109", "positional-after-named", ERROR, "A positional argument follows a named one."),
+    Code("OSC110", "use-statement", ERROR, "`use` is a clause of `namespace`.", "7.7.3"),
+    Code("OSC111", "foreign-comment", ERROR, "Comments begin with `#`.", "7.2.1.2"),
+    Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
+    Code("OSC113", "implicit-serial", WARNING, "`do:` stands for `do serial:`.", "7.3.13"),
+    Code("OSC114", "empty-parentheses", WARNING, "Empty parentheses are too much.", "7.3.10"),
+    # --- 5xx not supported by a backend ---
+    Code("OSC501", "unsupported-declaration", ERROR, "No backend can express this member yet."),
+    Code("OSC502", "unsupported-constraint", ERROR, "The constraint neither fixes nor bounds."),
+    Code("OSC503", "unsupported-expression", ERROR, "No backend can express this expression yet."),
+    Code("OSC504", "unsupported-invocation", ERROR, "No backend can express this invocation yet."),
+    Code("OSC505", "start-after-the-start", ERROR, "`at: start` asks for a jump during the run."),
+    Code("OSC506", "unsupported-directive", ERROR, "No backend can express this directive yet."),
+    Code("OSC507", "no-such-runtime-action", ERROR, "The runtime library has no such action."),
+    Code("OSC508", "no-such-runtime-modifier", ERROR, "The action cannot honour this modifier."),
+    Code("OSC509", "no-such-runtime-argument", ERROR, "The runtime cannot honour this argument."),
+    Code("OSC510", "nothing-to-do", WARNING, "The scenario has no `do`."),
+    # --- 2xx names and imports ---
+    Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),
+    Code("OSC202", "unknown-type", ERROR, "No type has this name.", "7.3"),
+    Code("OSC203", "duplicate-definition", ERROR, "A name is defined twice.", "7.3"),
+    Code("OSC204", "ambiguous-name", ERROR, "Several used namespaces offer a name.", "7.7.4"),
+    Code("OSC205", "import-not-found", ERROR, "What is imported does not exist.", "7.7.5"),
+    Code("OSC206", "unknown-namespace", ERROR, "No namespace has this name.", "7.7.3"),
+    Code("OSC207", "reserved-namespace", ERROR, "`std…` is for the standard library.", "7.7.3"),
+    Code("OSC208", "unknown-member", ERROR, "A type has no such member.", "7.3.5"),
+    Code("OSC209", "unknown-unit", ERROR, "No unit has this name.", "7.3.4"),
+    Code("OSC210", "unknown-event", ERROR, "An event is not declared.", "7.3.10"),
+    Code("OSC211", "unknown-behavior", ERROR, "An actor has no such behavior.", "7.3.13"),
+    Code("OSC212", "unknown-modifier", ERROR, "No modifier has this name.", "7.3.12"),
+    Code("OSC213", "newer-standard", ERROR, "A construct belongs to a later standard."),
+    Code("OSC214", "unknown-export", ERROR, "What is exported does not exist.", "7.7.4"),
+    Code("OSC215", "name-not-visible", ERROR, "A name lives in an unused namespace.", "7.7.4"),
+    # --- 3xx types and units ---
+    Code("OSC301", "type-mismatch", ERROR, "A value has the wrong type.", "7.4.2.6"),
+    Code("OSC302", "dimension-mismatch", ERROR, "Physical dimensions differ.", "7.3.4"),
+    Code("OSC303", "missing-unit", ERROR, "A physical value has no unit.", "7.3.4"),
+    Code("OSC304", "invalid-operands", ERROR, "An operator does not take these.", "7.4.2"),
+    Code("OSC305", "unit-exponents", ERROR, "A unit does not fit its type.", "7.3.4"),
+    Code("OSC306", "invalid-base", ERROR, "A type cannot inherit from this.", "7.3.8"),
+    Code("OSC307", "inheritance-cycle", ERROR, "A type inherits from itself.", "7.3.8"),
+    Code("OSC308", "invalid-condition", ERROR, "A condition of inheritance is invalid.", "7.3.8"),
+    Code("OSC310", "invalid-range-type", ERROR, "Only numbers form ranges.", "7.3.5.2.2"),
+    Code("OSC311", "not-a-type", ERROR, "A modifier is not a type.", "7.3.12"),
+    Code("OSC312", "enum-value-cycle", ERROR, "An enum value depends on itself.", "7.3.3"),
+    Code("OSC313", "ambiguous-enum-member", ERROR, "Several enums have this member.", "7.3.3"),
+    Code("OSC314", "no-common-type", ERROR, "Elements have no common type.", "7.4.2.7"),
+    Code("OSC315", "invalid-cast", ERROR, "A value cannot be converted so.", "7.4.2.6"),
+    Code("OSC316", "not-a-value", ERROR, "A name does not stand for a value.", "7.4.1"),
+    Code("OSC317", "negative-unsigned", ERROR, "An unsigned value is negative.", "7.4.2.6"),
+    Code("OSC318", "actor-association", ERROR, "Actors of base and type differ.", "7.3.8"),
+    Code("OSC319", "invalid-override", ERROR, "An overriding method does not fit.", "7.3.7"),
+    Code("OSC320", "event-specification", ERROR, "It excludes parameters.", "7.3.10"),
+    Code("OSC321", "invalid-extension", ERROR, "This cannot be extended so.", "7.3.9"),
+    # --- 4xx behaviors, modifiers and constraints ---
+    Code("OSC401", "several-do", ERROR, "A behavior has more than one `do`.", "7.3.13"),
+    Code("OSC402", "unknown-argument", ERROR, "No parameter has this name.", "7.3.5.1.3"),
+    Code("OSC403", "duplicate-argument", ERROR, "A parameter is given twice.", "7.3.5.1.3"),
+    Code("OSC404", "missing-argument", ERROR, "A required argument is missing.", "7.3.7"),
+    Code("OSC405", "too-many-arguments", ERROR, "There are more arguments than parameters."),
+    Code("OSC406", "modifier-not-applicable", ERROR, "A modifier fits elsewhere.", "7.3.12"),
+    Code("OSC407", "missing-actor", ERROR, "It is not said who acts.", "7.3.13"),
+    Code("OSC408", "exclusive-arguments", ERROR, "Arguments exclude each other.", "8.9.1.3"),
+    Code("OSC409", "range-argument", ERROR, "A method takes no range here.", "7.3.7"),
+    Code("OSC410", "no-result", ERROR, "A method without result is used as value.", "7.3.7"),
+    Code("OSC411", "constrained-variable", ERROR, "A variable is constrained.", "7.3.6"),
+    Code("OSC412", "invalid-coverage", ERROR, "Coverage arguments do not fit.", "7.5"),
+    Code("OSC413", "implicit-it", WARNING, "A parameter is named without `it.`.", "7.4.1.3"),
+    Code("OSC414", "implication-chain", WARNING, "`a => b => c` is not specified.", "7.4.2"),
+    # --- 6xx relaxations of a dialect ---
+    Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
+    Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),
+    Code("OSC603", "relaxed-event", WARNING, "An undeclared event is declared by use.", "7.3.10"),
+    Code("OSC604", "relaxed-dimension", WARNING, "A product is taken as number in SI.", "7.3.4"),
+    Code("OSC605", "relaxed-unit", WARNING, "A plain number is taken in SI units.", "7.3.4"),
+    Code("OSC606", "relaxed-import", WARNING, "The library is imported by file name.", "7.7.5"),
+    Code("OSC607", "prelude-member", WARNING, "A member belongs to the dialect's prelude."),
+    Code("OSC608", "prelude-parameter", WARNING, "A parameter belongs to the prelude."),
+    Code("OSC609", "prelude-behavior", WARNING, "A behavior belongs to the prelude."),
+)

@@ -1,0 +1,51 @@
+"""Where the stages put their diagnostics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx.diagnostics.codes import CODES
+from osc2tx.diagnostics.model import Diagnostic, InternalCompilerError, Label, Severity
+from osc2tx.diagnostics.source import Span
+
+
+class DiagnosticSink:
+    """Collects diagnostics; the same report at the same place is kept once."""
+
+    def __init__(self) -> None:
+        """Start empty."""
+        self._found: dict[tuple[object, ...], Diagnostic] = {}
+
+    def report(
+        self,
+        code: str,
+        primary: Span | None,
+        message: str,
+        *,
+        labels: Sequence[Label] = (),
+        notes: Sequence[str] = (),
+        help: str | None = None,
+    ) -> None:
+        """Add a diagnostic; its severity comes from the registry of codes."""
+        if code not in CODES:
+            raise InternalCompilerError(f"diagnostic code {code} is not registered")
+        diagnostic = Diagnostic(
+            code, CODES[code].severity, message, primary, tuple(labels), tuple(notes), help
+        )
+        place = (primary.source.name, primary.start, primary.end) if primary else ()
+        self._found.setdefault((code, message, *place), diagnostic)
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether anything found forbids going on to the next stage."""
+        return any(d.severity is Severity.ERROR for d in self._found.values())
+
+    def sorted(self) -> tuple[Diagnostic, ...]:
+        """Return everything found, ordered by file, position, severity and code."""
+
+        def key(diagnostic: Diagnostic) -> tuple[str, int, int, str]:
+            span = diagnostic.primary
+            place = (span.source.name, span.start) if span else ("", 0)
+            return *place, int(diagnostic.severity is Severity.WARNING), diagnostic.code
+
+        return tuple(sorted(self._found.values(), key=key))

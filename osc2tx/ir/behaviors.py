@@ -1,0 +1,212 @@
+"""Behavior of the IR: the tree that `do` describes, and what it waits for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import TypeAlias
+
+from osc2tx.diagnostics import Span
+from osc2tx.ir.expressions import Argument, Expression, RangeValue
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class EventRef:
+    """A declared event, by name."""
+
+    span: Span
+    name: str
+
+
+class Moment(Enum):
+    """The life-cycle events of a behavior (§7.3.13)."""
+
+    START = "start"
+    END = "end"
+    FAIL = "fail"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LabelEvent:
+    """A life-cycle event of a labelled member, `@cut_in.end`."""
+
+    span: Span
+    label: str
+    moment: Moment
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Level:
+    """True as long as the expression is."""
+
+    span: Span
+    expression: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Edge:
+    """`rise` or `fall` of an expression."""
+
+    span: Span
+    rising: bool
+    expression: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Elapsed:
+    """True once the time has passed."""
+
+    span: Span
+    duration: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Every:
+    """True at each multiple of the period."""
+
+    span: Span
+    period: Expression
+    offset: Expression | None
+
+
+Condition: TypeAlias = Level | Edge | Elapsed | Every
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Trigger:
+    """An event specification: an event, a condition, or an event with a condition."""
+
+    span: Span
+    event: EventRef | LabelEvent | None
+    condition: Condition | None
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BehaviorBase:
+    """What every member of the tree has.
+
+    Attributes:
+        span: The statement in the source.
+        label: Its label, if it has one.
+        name: What a person would call it; not unique.
+        comments: Comment lines above it in the source.
+    """
+
+    span: Span
+    label: str | None
+    name: str
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CompositionBase(BehaviorBase):
+    """What the compositions have in common.
+
+    Attributes:
+        members: In source order.
+        duration: Time or range of time.
+        until: Any of these ends it.
+        is_phase: Labelled, or directly below a `do`: worth a place of its own in the output.
+        end_comments: Comment lines below the last member.
+    """
+
+    members: tuple[Behavior, ...]
+    is_phase: bool = False
+    duration: Expression | None = None
+    until: tuple[Trigger, ...] = ()
+    end_comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Serial(CompositionBase):
+    """One member after the other."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Parallel(CompositionBase):
+    """Members together; `overlap` as in §7.3.13.2, offsets as times or ranges."""
+
+    overlap: str = "start"
+    start_to_start: Expression | None = None
+    end_to_end: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OneOf(CompositionBase):
+    """Alternatives; the policy belongs to the module."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ModifierCall:
+    """A modifier with its arguments; `at` (`start`, `end`, `all`) is taken out of them."""
+
+    span: Span
+    name: str
+    arguments: tuple[Argument, ...]
+    at: str = "all"
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Invoke(BehaviorBase):
+    """An action of an actor.
+
+    Attributes:
+        actor: Who acts.
+        owner: The actor type that the action belongs to.
+        action: Its name.
+        arguments: In source order, without `duration`.
+        modifiers: Those that act during the invocation.
+        duration: Time or range of time.
+        until: Any of these ends it.
+    """
+
+    actor: Expression
+    owner: str
+    action: str
+    arguments: tuple[Argument, ...]
+    modifiers: tuple[ModifierCall, ...]
+    duration: Expression | None = None
+    until: tuple[Trigger, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Wait(BehaviorBase):
+    """Blocks until the trigger."""
+
+    trigger: Trigger
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Emit(BehaviorBase):
+    """Lets an event occur."""
+
+    event: EventRef
+    arguments: tuple[Argument, ...]
+
+
+Composition: TypeAlias = Serial | Parallel | OneOf
+Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | Wait | Emit
+
+__all__ = [
+    "Behavior",
+    "Composition",
+    "Condition",
+    "Edge",
+    "Elapsed",
+    "Emit",
+    "EventRef",
+    "Every",
+    "Invoke",
+    "LabelEvent",
+    "Level",
+    "ModifierCall",
+    "Moment",
+    "OneOf",
+    "Parallel",
+    "RangeValue",
+    "Serial",
+    "Trigger",
+    "Wait",
+]

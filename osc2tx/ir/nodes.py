@@ -1,0 +1,136 @@
+"""Modules and scenarios of the IR."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from osc2tx.diagnostics import Span
+from osc2tx.ir.behaviors import Behavior, ModifierCall, Trigger
+from osc2tx.ir.expressions import Expression, RangeValue, ValueType
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DeclarationBase:
+    """What every declaration of a scenario has."""
+
+    name: str
+    span: Span
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FieldValue:
+    """A field of an actor or struct that a constraint fixes; `path` below the object."""
+
+    path: tuple[str, ...]
+    value: Expression
+    span: Span
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Actor(DeclarationBase):
+    """A member of the cast.
+
+    Attributes:
+        type: Its actor type.
+        lineage: The type and its library ancestors, most derived first.
+        values: What constraints fix about it.
+    """
+
+    type: str
+    lineage: tuple[str, ...]
+    values: tuple[FieldValue, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Struct(DeclarationBase):
+    """A value of a struct type, its fields fixed by constraints."""
+
+    type: str
+    values: tuple[FieldValue, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Parameter(DeclarationBase):
+    """A value that is constant during a run and may be set before it.
+
+    Attributes:
+        type: Its type.
+        value: Its value (`is_fixed`) or default.
+        domain: The values it may take; drawn from where there is no default.
+        is_fixed: A hard constraint leaves no other value.
+    """
+
+    type: ValueType
+    value: Expression | None
+    domain: RangeValue | None
+    is_fixed: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Variable(DeclarationBase):
+    """A value that may change during a run."""
+
+    type: ValueType
+    value: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Event(DeclarationBase):
+    """An event; without trigger it is emitted, or comes from outside."""
+
+    trigger: Trigger | None
+    is_implicit: bool
+
+
+Declaration: TypeAlias = Actor | Struct | Parameter | Variable | Event
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Placement:
+    """Where and how an actor is at the start of the scenario."""
+
+    actor: str
+    modifiers: tuple[ModifierCall, ...]
+    span: Span
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Scenario:
+    """A scenario, ready to be written down by a backend.
+
+    Attributes:
+        name: As in the source.
+        comments: The comment lines above it.
+        declarations: Cast, values and events in source order.
+        placements: Initial placement, in source order.
+        body: Its `do` tree.
+        end_comments: Comment lines below its last member.
+    """
+
+    name: str
+    span: Span
+    comments: tuple[str, ...]
+    declarations: tuple[Declaration, ...]
+    placements: tuple[Placement, ...]
+    body: Behavior
+    end_comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Module:
+    """All scenarios of one source file, with the settings that give them their meaning.
+
+    Attributes:
+        comments: The comment lines at the head of the file.
+    """
+
+    source: str
+    standard: str
+    dialect: str
+    one_of: str
+    scenarios: tuple[Scenario, ...]
+    comments: tuple[str, ...] = ()

@@ -1,0 +1,181 @@
+"""The invariants of the IR; a violation is a bug of the compiler, not of the source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.ir.behaviors import (
+    Behavior,
+    Condition,
+    Edge,
+    Elapsed,
+    Emit,
+    EventRef,
+    Every,
+    Invoke,
+    LabelEvent,
+    Level,
+    ModifierCall,
+    OneOf,
+    Parallel,
+    Serial,
+    Trigger,
+    Wait,
+)
+from osc2tx.ir.expressions import Expression, FieldRef, Kind, walk
+from osc2tx.ir.nodes import (
+    Actor,
+    Event,
+    Module,
+    Parameter,
+    Scenario,
+    Struct,
+    Variable,
+)
+
+
+def verify(module: Module) -> None:
+    """Check a module.
+
+    Raises:
+        InternalCompilerError: A name is declared twice or not at all, a value is used before
+            its declaration, a composition is empty, a reference dangles.
+    """
+    _require_unique((s.name for s in module.scenarios), f"scenarios of {module.source}")
+    for scenario in module.scenarios:
+        _ScenarioVerifier(scenario).run()
+
+
+def _require_unique(names: Iterator[str], what: str) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise InternalCompilerError(f"{what}: {name!r} stands twice")
+        seen.add(name)
+
+
+class _ScenarioVerifier:
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.fields = {d.name for d in scenario.declarations}
+        self.actors = {d.name for d in scenario.declarations if isinstance(d, Actor)}
+        self.events = {d.name for d in scenario.declarations if isinstance(d, Event)}
+        self.labels: list[str] = []
+
+    def run(self) -> None:
+        scenario = self.scenario
+        _require_unique((d.name for d in scenario.declarations), f"fields of {scenario.name}")
+        for member in walk_behaviors(scenario.body):
+            if member.label is not None:
+                self.labels.append(member.label)
+        _require_unique(iter(self.labels), f"labels of {scenario.name}")
+        self.check_declarations()
+        for placement in scenario.placements:
+            self.require(placement.actor in self.actors, f"placement of {placement.actor!r}")
+            for modifier in placement.modifiers:
+                self.check_modifier(modifier)
+        for member in walk_behaviors(scenario.body):
+            self.check_behavior(member)
+
+    def require(self, holds: bool, what: str) -> None:
+        if not holds:
+            raise InternalCompilerError(f"{self.scenario.name}: invalid {what}")
+
+    def check_declarations(self) -> None:
+        declared: set[str] = set()
+        for declaration in self.scenario.declarations:
+            match declaration:
+                case Actor(values=values) | Struct(values=values):
+                    for value in values:
+                        self.check_expression(value.value, declared)
+                case Parameter(value=value, domain=domain):
+                    self.require(
+                        value is not None or domain is not None,
+                        f"parameter {declaration.name!r} without value and domain",
+                    )
+                    for expression in (value, domain):
+                        if expression is not None:
+                            self.check_expression(expression, declared)
+                case Variable(value=value):
+                    self.check_expression(value, declared)
+                case Event(trigger=trigger):
+                    if trigger is not None:
+                        self.check_trigger(trigger)
+            declared.add(declaration.name)
+
+    def check_behavior(self, node: Behavior) -> None:
+        match node:
+            case Serial() | Parallel() | OneOf():
+                self.require(bool(node.members), f"empty composition {node.name!r}")
+                self.check_limits(node.duration, node.until)
+            case Invoke():
+                self.require(node.actor.type.kind is Kind.ACTOR, f"actor of {node.name!r}")
+                self.check_expression(node.actor)
+                for argument in node.arguments:
+                    self.check_expression(argument.value)
+                for modifier in node.modifiers:
+                    self.check_modifier(modifier)
+                self.check_limits(node.duration, node.until)
+            case Wait(trigger=trigger):
+                self.check_trigger(trigger)
+            case Emit(event=event):
+                self.check_event(event)
+
+    def check_limits(self, duration: Expression | None, until: tuple[Trigger, ...]) -> None:
+        if duration is not None:
+            self.check_expression(duration)
+        for trigger in until:
+            self.check_trigger(trigger)
+
+    def check_modifier(self, modifier: ModifierCall) -> None:
+        self.require(modifier.at in ("start", "end", "all"), f"`at` of {modifier.name!r}")
+        for argument in modifier.arguments:
+            self.check_expression(argument.value)
+
+    def check_trigger(self, trigger: Trigger) -> None:
+        self.require(
+            trigger.event is not None or trigger.condition is not None, "trigger without content"
+        )
+        match trigger.event:
+            case EventRef():
+                self.check_event(trigger.event)
+            case LabelEvent(label=label):
+                self.require(label in self.labels, f"reference to label {label!r}")
+            case None:
+                pass
+        if trigger.condition is not None:
+            for expression in condition_expressions(trigger.condition):
+                self.check_expression(expression)
+
+    def check_event(self, event: EventRef) -> None:
+        self.require(event.name in self.events, f"reference to event {event.name!r}")
+
+    def check_expression(self, expression: Expression, declared: set[str] | None = None) -> None:
+        known = self.fields if declared is None else declared
+        for part in walk(expression):
+            if isinstance(part, FieldRef):
+                self.require(part.name in known, f"reference to field {part.name!r}")
+
+
+def condition_expressions(condition: Condition) -> tuple[Expression, ...]:
+    """Return the expressions directly inside a condition."""
+    match condition:
+        case Level(expression=expression) | Edge(expression=expression):
+            return (expression,)
+        case Elapsed(duration=duration):
+            return (duration,)
+        case Every(period=period, offset=offset):
+            return (period,) if offset is None else (period, offset)
+
+
+def walk_behaviors(root: Behavior) -> tuple[Behavior, ...]:
+    """Return a behavior and everything below it in source order, without recursion."""
+    found: list[Behavior] = []
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        found.append(node)
+        if isinstance(node, Serial | Parallel | OneOf):
+            pending.extend(reversed(node.members))
+    return tuple(found)

@@ -1,0 +1,36 @@
+"""What every part of the lowering needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.semantics import SemanticModel
+from osc2tx.syntax import ast
+
+Part = TypeVar("Part")
+
+
+@dataclass(frozen=True, slots=True)
+class LoweringContext:
+    """The checked program and the place for complaints."""
+
+    model: SemanticModel
+    sink: DiagnosticSink
+
+    def unsupported(self, code: str, span: Span, what: str, help: str | None = None) -> None:
+        """Report what cannot be lowered."""
+        self.sink.report(code, span, what, help=help)
+
+
+def present(parts: Sequence[Part | None]) -> tuple[Part, ...]:
+    """Drop what could not be lowered; it has been reported."""
+    return tuple(part for part in parts if part is not None)
+
+
+def statement_comments(node: ast.Statement) -> tuple[str, ...]:
+    """Return the comment lines that belong to a statement, its trailing one last."""
+    trailing = () if node.trailing_comment is None else (node.trailing_comment,)
+    return (*node.comments, *trailing)

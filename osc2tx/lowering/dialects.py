@@ -1,0 +1,54 @@
+"""Defaults that a dialect changed are written out, so that backends need not know dialects."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.expressions import lower_type
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.syntax import ast
+
+# (modifier, parameter) -> its default in the standard, and the parameters it gives meaning to.
+STANDARD_DEFAULTS: dict[tuple[str, str], tuple[str | None, frozenset[str]]] = {
+    ("lane", "from"): ("right", frozenset({"lane"})),
+    ("position", "frame"): (None, frozenset({"x", "y", "z", "h"})),
+}
+
+
+def dialect_defaults(
+    callee: sym.Symbol, given: tuple[ir.Argument, ...], span: Span
+) -> tuple[ir.Argument, ...]:
+    """Return the defaults that differ from the standard's and matter for these arguments."""
+    if not isinstance(callee, sym.ModifierSymbol):
+        return ()
+    names = {argument.parameter for argument in given}
+    defaults = []
+    for (modifier, parameter), (standard, companions) in STANDARD_DEFAULTS.items():
+        if modifier != callee.name or parameter in names or not companions & names:
+            continue
+        value = _default(callee.members.get(parameter), span)
+        if value is not None and _text(value) != standard:
+            defaults.append(
+                ir.Argument(parameter=parameter, value=value, is_positional=False, span=span)
+            )
+    return tuple(defaults)
+
+
+def _text(value: ir.Literal | ir.EnumValue) -> str:
+    return value.member if isinstance(value, ir.EnumValue) else str(value.value)
+
+
+def _default(field: sym.Member | None, span: Span) -> ir.Literal | ir.EnumValue | None:
+    match field:
+        case sym.FieldSymbol(default=ast.StringLiteral(value=text)):
+            return ir.Literal(span=span, type=lower_type(field.type), value=text)
+        case sym.FieldSymbol(
+            default=ast.NameExpression(name=name), type=types.EnumType(symbol=enum)
+        ):
+            member = enum.members[name.text]
+            return ir.EnumValue(
+                span=span, type=lower_type(field.type), member=member.name, value=member.value
+            )
+        case _:
+            return None

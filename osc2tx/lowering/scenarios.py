@@ -1,0 +1,151 @@
+"""Entry of the lowering: modules and scenarios."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.lowering.behaviors import BehaviorLowering, lower_modifier
+from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.declarations import DeclarationLowering
+from osc2tx.lowering.placement import PlacementLowering
+from osc2tx.options import CompileOptions
+from osc2tx.semantics import SemanticModel
+from osc2tx.semantics import symbols as sym
+from osc2tx.syntax import ast
+
+
+def lower(model: SemanticModel, options: CompileOptions, sink: DiagnosticSink) -> ir.Module:
+    """Lower the scenarios of the root file; what is refused is reported and left out."""
+    ctx = LoweringContext(model, sink)
+    return ir.Module(
+        source=model.root.span.source.name,
+        standard=options.standard,
+        dialect=options.dialect,
+        one_of=options.one_of,
+        scenarios=present([_lower_scenario(ctx, scenario) for scenario in model.scenarios]),
+        comments=_head_comments(model.root),
+    )
+
+
+def _head_comments(file: ast.File) -> tuple[str, ...]:
+    """Return the comments above imports and namespace statements: they head the file."""
+    statements: list[ast.Statement] = [*file.imports]
+    for statement in file.statements:
+        if not isinstance(statement, ast.NamespaceStatement | ast.UseStatement):
+            break
+        statements.append(statement)
+    return tuple(line for s in statements for line in statement_comments(s))
+
+
+def _lower_scenario(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ir.Scenario | None:
+    node = scenario.node
+    if scenario.actor is not None:
+        ctx.unsupported(
+            "OSC504", node.name.span, f"scenario `{node.name}` of an actor is not supported yet"
+        )
+        return None
+    statements = _statements(scenario)
+    declarations = DeclarationLowering(ctx, scenario, statements).lower()
+    tree = _lower_body(ctx, scenario, statements)
+    if tree is None:
+        return None
+    placements, body = PlacementLowering(ctx).split(tree)
+    if body is None:
+        body = _nothing_left(scenario)
+    return ir.Scenario(
+        name=scenario.name,
+        span=node.name.span,
+        comments=statement_comments(node),
+        declarations=declarations,
+        placements=(*_member_placements(ctx, statements), *placements),
+        body=body,
+        end_comments=node.end_comments,
+    )
+
+
+def _statements(scenario: sym.ScenarioSymbol) -> tuple[ast.Statement, ...]:
+    """Return the member statements, those of base scenarios first."""
+    chain: list[sym.ScenarioSymbol] = []
+    current: sym.ScenarioSymbol | None = scenario
+    while current is not None:
+        chain.append(current)
+        current = current.base
+    return tuple(statement for symbol in reversed(chain) for statement in symbol.statements)
+
+
+def _lower_body(
+    ctx: LoweringContext, scenario: sym.ScenarioSymbol, statements: tuple[ast.Statement, ...]
+) -> ir.Behavior | None:
+    """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
+    for statement in statements:
+        if isinstance(statement, ast.OnDirective):
+            ctx.unsupported("OSC506", statement.span, "`on` is not supported yet")
+    directives = [s for s in statements if isinstance(s, ast.DoDirective)]
+    if not directives:
+        ctx.sink.report(
+            "OSC510", scenario.node.name.span, f"scenario `{scenario.name}` has no `do`"
+        )
+        return None
+    several = len(directives) > 1
+    lowering = BehaviorLowering(ctx)
+    lowered = [lowering.lower_do(do, is_phase=several) for do in directives]
+    bodies: tuple[ir.Behavior, ...] = present(lowered)
+    if not bodies:
+        return None
+    if several:
+        span = directives[0].span.to(directives[-1].span)
+        members = tuple(_named_as_do(body) for body in bodies)
+        return ir.Serial(span=span, label=None, name=scenario.name, members=members)
+    body = bodies[0]
+    if isinstance(body, ir.Serial | ir.Parallel | ir.OneOf):
+        return replace(body, name=scenario.name, is_phase=False)
+    return body
+
+
+def _named_as_do(body: ir.Behavior) -> ir.Behavior:
+    """Name one of several `do` after its operator: it is a phase of its own."""
+    match body:
+        case ir.Serial() | ir.Parallel() | ir.OneOf():
+            return replace(body, name=f"do {type(body).__name__.lower()}")
+        case _:
+            return body
+
+
+def _member_placements(
+    ctx: LoweringContext, statements: tuple[ast.Statement, ...]
+) -> tuple[ir.Placement, ...]:
+    """Lower modifiers that stand as members: only those that place an actor."""
+    placements = []
+    for statement in statements:
+        if not isinstance(statement, ast.ModifierApplication):
+            continue
+        modifier = lower_modifier(ctx, statement)
+        target = statement.actor and ctx.model.symbol_of(statement.actor)
+        if modifier.name != "location" or not isinstance(target, sym.FieldSymbol):
+            ctx.unsupported(
+                "OSC508",
+                statement.span,
+                f"modifier `{modifier.name}` of a whole scenario is not supported yet",
+            )
+            continue
+        placements.append(
+            ir.Placement(
+                actor=target.name,
+                modifiers=(replace(modifier, comments=()),),
+                span=statement.span,
+                comments=modifier.comments,
+            )
+        )
+    return tuple(placements)
+
+
+def _nothing_left(scenario: sym.ScenarioSymbol) -> ir.Behavior:
+    """Return a tree for a scenario that only places its actors: it ends at once."""
+    zero = ir.Literal(
+        span=scenario.node.name.span, type=ir.ValueType(ir.Kind.FLOAT, "float"), value=0.0
+    )
+    elapsed = ir.Elapsed(span=zero.span, duration=zero)
+    trigger = ir.Trigger(span=zero.span, event=None, condition=elapsed)
+    return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)

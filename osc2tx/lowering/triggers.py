@@ -1,0 +1,69 @@
+"""Event specifications and conditions."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+from osc2tx import ir
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.syntax import ast
+
+MOMENTS = {moment.value: moment for moment in ir.Moment}
+
+
+def lower_trigger(
+    ctx: LoweringContext, node: ast.EventSpecification, comments: tuple[str, ...] = ()
+) -> ir.Trigger | None:
+    """Lower an event specification; `None` if a part of it was refused."""
+    if node.field is not None:
+        ctx.unsupported("OSC506", node.field.span, "`as` of an event is not supported yet")
+        return None
+    event = None if node.event is None else _lower_event(ctx, node.event)
+    condition = None if node.condition is None else _lower_condition(ctx, node.condition)
+    if (node.event is None) != (event is None) or (node.condition is None) != (condition is None):
+        return None
+    return ir.Trigger(span=node.span, event=event, condition=condition, comments=comments)
+
+
+def _lower_event(ctx: LoweringContext, path: ast.Expression) -> ir.EventRef | ir.LabelEvent | None:
+    symbol = ctx.model.symbol_of(path)
+    if isinstance(path, ast.MemberAccess) and path.name.text in MOMENTS:
+        base = ctx.model.symbol_of(path.base)
+        if isinstance(base, sym.LabelSymbol):
+            moment = MOMENTS[path.name.text]
+            return ir.LabelEvent(span=path.span, label=base.name, moment=moment)
+    if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
+        return ir.EventRef(span=path.span, name=symbol.name)
+    ctx.unsupported("OSC506", path.span, f"event `{path.span.text}` cannot be waited for yet")
+    return None
+
+
+def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condition | None:
+    main = lower_expression(ctx, _main_expression(node))
+    if main is None:
+        return None
+    match node:
+        case ast.LevelCondition():
+            return ir.Level(span=node.span, expression=main)
+        case ast.RiseCondition() | ast.FallCondition():
+            rising = isinstance(node, ast.RiseCondition)
+            return ir.Edge(span=node.span, rising=rising, expression=main)
+        case ast.ElapsedCondition():
+            return ir.Elapsed(span=node.span, duration=main)
+        case ast.EveryCondition(offset=offset):
+            shift = None if offset is None else lower_expression(ctx, offset)
+            return ir.Every(span=node.span, period=main, offset=shift)
+        case _:
+            assert_never(node)
+
+
+def _main_expression(node: ast.EventCondition) -> ast.Expression:
+    match node:
+        case ast.ElapsedCondition(duration=duration):
+            return duration
+        case ast.EveryCondition(period=period):
+            return period
+        case _:
+            return node.expression

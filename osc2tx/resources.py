@@ -1,0 +1,25 @@
+"""The way to the folders of data that belong to osc2tx."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def resource_dir(name: str) -> Path:
+    """Return the folder of `templates` or `grammar`.
+
+    In a wheel it lies inside of the package. In a checkout it lies beside it, and counts only if
+    `pyproject.toml` lies there too: a stranger's `templates` in site-packages is none of ours.
+
+    Raises:
+        FileNotFoundError: If there is no such folder.
+    """
+    from importlib.resources import files
+
+    package = Path(str(files("osc2tx")))
+    if (package / name).is_dir():
+        return package / name
+    checkout = package.parent
+    if (checkout / "pyproject.toml").is_file() and (checkout / name).is_dir():
+        return checkout / name
+    raise FileNotFoundError(f"osc2tx is installed without its folder {name!r}")

@@ -1,0 +1,203 @@
+"""`osc2tx run`: the one command that loads the runtime."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from osc2tx.build import compile_all
+from osc2tx.cli import Exit, compile_options, complain, report
+from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.inputs import InputError, find_inputs
+from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
+from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.main import verdict
+from osc2tx_runtime.settings import OPTIONS
+
+if TYPE_CHECKING:
+    from osc2tx.driver import Compilation
+
+
+def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of the runtime's table."""
+    for option in reversed(OPTIONS):
+        default = "" if option.default is None else f"  [default: {option.default}]"
+        command = click.option(
+            f"--{option.name}",
+            option.field,
+            metavar=option.metavar,
+            multiple=option.repeatable,
+            help=option.help + default,
+        )(command)
+    return command
+
+
+@click.command()
+@click.argument("file", metavar="FILE")
+@click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
+@compile_options
+@run_options
+def run(
+    file: str,
+    scenario: str | None,
+    std: str | None,
+    dialect: str | None,
+    one_of: str | None,
+    **run_texts: str | tuple[str, ...] | None,
+) -> Exit:
+    """Run a scenario file, or a module made from one, in the embedded world."""
+    path = Path(file)
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder; name one scenario file")
+    find_inputs([path])  # refuses what is not there
+    config = ConfigFiles().for_source(path)
+    try:
+        settings = merge_settings(config, path, run_texts)
+    except SettingsError as error:
+        raise click.UsageError(error.message) from None
+    if path.suffix == ".py":
+        return _run_written(path, scenario, settings)
+    (compilation,) = compile_all([path], GivenOptions(std, dialect, one_of))
+    return _run_source(compilation, scenario, settings)
+
+
+def _run_source(compilation: Compilation, wanted: str | None, settings: RunSettings) -> Exit:
+    module = compilation.module
+    code = report([compilation])
+    path = compilation.path
+    if module is None:
+        if code is Exit.OK:
+            raise click.UsageError(f"{path} declares no scenario")
+        return code
+    with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
+        place = Path(folder, f"{module.stem}.py")
+        place.write_text(module.python, encoding="utf-8")
+        place.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")
+        with _imported(place, Path(folder).name) as imported:
+            return _run_one_of(_scenarios_of(imported), path, wanted, settings)
+
+
+def _run_written(path: Path, wanted: str | None, settings: RunSettings) -> Exit:
+    """Run a module that somebody gives us: it may be anything."""
+    imported = ExitStack()
+    try:
+        module = imported.enter_context(_imported(path, f"osc2tx_run_{path.stem}"))
+    except (ImportError, SyntaxError, ValueError, OSError) as error:
+        raise InputError(f"{path}: cannot be imported: {error}") from error
+    with imported:
+        return _run_one_of(_scenarios_of(module), path, wanted, settings)
+
+
+def _run_one_of(
+    scenarios: Mapping[str, type[Scenario]], path: Path, wanted: str | None, settings: RunSettings
+) -> Exit:
+    scenario = choose_scenario(scenarios, wanted, path)
+    try:
+        result = _run_with_progress(scenario, settings)
+    except ScenarioError as error:
+        complain(f"{error.source or scenario.source}: error: {error.message}")
+        return Exit(error.exit_code)
+    click.echo(verdict(scenario.name, result))
+    return Exit.OK if result.status == "success" else Exit.FAILED
+
+
+@contextmanager
+def _imported(place: Path, name: str) -> Iterator[ModuleType]:
+    """Import a module from its file under a name of its own, and forget it afterwards."""
+    spec = importlib.util.spec_from_file_location(name, place)
+    assert spec is not None and spec.loader is not None, "every .py file has a loader"
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+        yield module
+    finally:
+        del sys.modules[name]
+
+
+def _scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:
+    """Return the scenario classes that a module defines, by the names in the source."""
+    return {
+        value.name: value
+        for value in vars(module).values()
+        if isinstance(value, type)
+        and issubclass(value, Scenario)
+        and value.__module__ == module.__name__
+    }
+
+
+def choose_scenario(
+    scenarios: Mapping[str, type[Scenario]], wanted: str | None, path: Path
+) -> type[Scenario]:
+    """Return the scenario that was asked for, else `top`, `main` or the only one."""
+    names = ", ".join(scenarios) or "none"
+    if wanted is not None:
+        if wanted not in scenarios:
+            raise click.UsageError(f"{path} has no scenario `{wanted}`; it has: {names}")
+        return scenarios[wanted]
+    for name in ("top", "main"):
+        if name in scenarios:
+            return scenarios[name]
+    if len(scenarios) == 1:
+        return next(iter(scenarios.values()))
+    if not scenarios:
+        raise click.UsageError(f"{path} has no scenario")
+    raise click.UsageError(f"{path} has several scenarios; choose with --scenario: {names}")
+
+
+def merge_settings(
+    config: Config, path: Path, given: Mapping[str, str | Sequence[str] | None]
+) -> RunSettings:
+    """Return the settings of a run: the command line beats the file, item by item.
+
+    Maps are searched in the folders of the command line, those of the file, then beside the
+    scenario.
+
+    Raises:
+        ConfigError: If a text in the file does not have the form of its option.
+        SettingsError: If a text of the command line does not.
+    """
+    stated = config.run_settings(path)
+    try:
+        RunSettings.from_options(stated)
+    except SettingsError as error:
+        where = f"{config.path}: in [scenarios.{path.stem}.run]"
+        raise ConfigError(f"{where}: {error.message}") from None
+    texts: dict[str, tuple[str, ...]] = {}
+    for option in OPTIONS:
+        written = given.get(option.field)
+        own = (written,) if isinstance(written, str) else tuple(written or ())
+        texts[option.name] = (*stated.get(option.name, ()), *own)  # the last one of a key counts
+    maps = tuple(given.get("map_path") or ())
+    texts["map-path"] = (*maps, *stated.get("map-path", ()))
+    settings = RunSettings.from_options(texts)
+    return replace(settings, map_path=(*settings.map_path, path.resolve().parent))
+
+
+def _run_with_progress(scenario: type[Scenario], settings: RunSettings) -> RunResult:
+    if not sys.stderr.isatty():
+        return run_scenario(scenario, settings, keep_trace=False)
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.completed:.0f} s of at most {task.total:.0f} s"),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(scenario.name, total=settings.max_time)
+
+        def show(time: float, most: float) -> None:
+            progress.update(task, completed=time, total=most)
+
+        return run_scenario(scenario, settings, show, keep_trace=False)

@@ -1,0 +1,195 @@
+"""Arguments meet parameters (§7.3.5.1.3, §7.3.7)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx.diagnostics import Span
+from osc2tx.semantics.assign import check_value
+from osc2tx.semantics.builtins import DURATION
+from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
+from osc2tx.semantics.exclusive import check_exclusive
+from osc2tx.semantics.lookup import parameters_of
+from osc2tx.semantics.model import Binding
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    BehaviorSymbol,
+    EventSymbol,
+    FieldSymbol,
+    MethodSymbol,
+    ParameterSymbol,
+    ScenarioSymbol,
+    Symbol,
+)
+from osc2tx.semantics.types import RangeType
+from osc2tx.syntax import ast
+
+Parameter = FieldSymbol | ParameterSymbol
+Pairs = tuple[tuple[Parameter, ast.Expression], ...]
+
+
+def bind_behavior(
+    r: Resolution,
+    node: ast.Invocation | ast.ModifierApplication,
+    callee: BehaviorSymbol,
+    env: Environment,
+) -> None:
+    """Bind the arguments of an invocation or modifier application; any may be left out."""
+    parameters: list[Parameter] = list(parameters_of(callee))
+    if isinstance(callee, ScenarioSymbol | ActionSymbol):
+        parameters.append(DURATION)
+    pairs = _match(r, node.arguments, parameters, callee, env)
+    for parameter, value in pairs:
+        check_value(r, value, parameter.type, env, f"`{parameter.name}`", allow_range=True)
+    check_exclusive(r, callee, pairs)
+    r.bindings[node] = Binding(callee, node.actor, pairs)
+
+
+def bind_call(
+    r: Resolution,
+    node: ast.Call | ast.CallDirective | ast.EmitDirective,
+    callee: MethodSymbol | EventSymbol,
+    receiver: ast.Expression | None,
+    span: Span,
+    env: Environment,
+) -> None:
+    """Bind the arguments of a method call or an emit; those without default are required."""
+    pairs = _match(r, node.arguments, list(callee.parameters), callee, env)
+    for parameter, value in pairs:
+        type_ = r.type_of(value, env, parameter.type)
+        if isinstance(type_, RangeType) and not isinstance(parameter.type, RangeType):
+            r.report("OSC409", value.span, f"`{parameter.name}` takes one value, not a range")
+            continue
+        check_value(r, value, parameter.type, env, f"`{parameter.name}`")
+    given = {parameter for parameter, _ in pairs}
+    known = {p.name for p in callee.parameters}
+    misnamed = any(a.name is not None and a.name.text not in known for a in node.arguments)
+    for required in callee.parameters:
+        if required not in given and not _has_default(required) and not misnamed:
+            r.report(
+                "OSC404",
+                span,
+                f"`{callee.name}` misses its argument `{required.name}`",
+                labels=declared_here(required),
+            )
+    r.bindings[node] = Binding(callee, receiver, pairs)
+
+
+def _has_default(parameter: ParameterSymbol) -> bool:
+    return parameter.default is not None
+
+
+def type_arguments(r: Resolution, arguments: Sequence[ast.Argument], env: Environment) -> None:
+    """Type the arguments of a call whose callee is unknown, to find mistakes inside them."""
+    for argument in arguments:
+        if not isinstance(argument.value, ast.NameExpression):
+            r.type_of(argument.value, env)
+
+
+def _match(
+    r: Resolution,
+    arguments: Sequence[ast.Argument],
+    parameters: Sequence[Parameter],
+    callee: Symbol,
+    env: Environment,
+) -> Pairs:
+    """Pair arguments with parameters in source order; report what does not pair."""
+    pairs: list[tuple[Parameter, ast.Expression]] = []
+    taken: set[Parameter] = set()
+    unknown: list[ast.Name] = []
+    for index, argument in enumerate(arguments):
+        parameter: Parameter | None
+        if argument.name is not None:
+            parameter = _find_named(r, argument.name, parameters, callee, env)
+            if parameter is None:
+                unknown.append(argument.name)
+        else:
+            parameter = parameters[index] if index < len(parameters) else None
+            if parameter is None:
+                _report_too_many(r, argument, parameters, callee)
+        if parameter is None:
+            type_arguments(r, [argument], env)
+        elif parameter in taken:
+            r.report("OSC403", argument.span, f"`{parameter.name}` is given twice")
+            type_arguments(r, [argument], env)
+        else:
+            taken.add(parameter)
+            pairs.append((parameter, argument.value))
+    _report_unknown(r, unknown, parameters, callee)
+    return tuple(pairs)
+
+
+def _report_too_many(
+    r: Resolution, argument: ast.Argument, parameters: Sequence[Parameter], callee: Symbol
+) -> None:
+    count = len([p for p in parameters if p is not DURATION])
+    r.report(
+        "OSC405",
+        argument.span,
+        f"`{callee.name}` takes {count or 'no'} argument{'' if count == 1 else 's'}",
+        labels=declared_here(callee),
+    )
+
+
+def _find_named(
+    r: Resolution,
+    name: ast.Name,
+    parameters: Sequence[Parameter],
+    callee: Symbol,
+    env: Environment,
+) -> Parameter | None:
+    named = [p for p in parameters if p.name == name.text]
+    if len(named) > 1 or name.namespace is not None:
+        named = r.scope.select(named, name, env.context) or (
+            named if name.namespace is None else []
+        )
+    if not named:
+        return None
+    parameter = named[0]
+    r.references[name] = parameter
+    if parameter.origin == "prelude" and callee.origin == "library":
+        r.relaxes(
+            "OSC608",
+            name.span,
+            f"parameter `{parameter.name}` of `{callee.name}` belongs to dialect "
+            f"`{r.relaxations.dialect.name}`, not to the standard library",
+            key=callee.name,
+        )
+    return parameter
+
+
+def _report_unknown(
+    r: Resolution, names: Sequence[ast.Name], parameters: Sequence[Parameter], callee: Symbol
+) -> None:
+    """Report names that no parameter has; those of a prelude together, the others one by one."""
+    hints = {n: PRELUDE_PARAMETERS.get((callee.name, n.text)) for n in names}
+    foreign = [n for n in names if hints[n] is not None and callee.origin == "library"]
+    for name in names:
+        hint = hints[name]
+        if hint is not None and name in foreign:
+            if name is foreign[0]:
+                _report_foreign(r, foreign, hint, callee)
+            continue
+        r.report(
+            "OSC402",
+            name.span,
+            f"`{callee.name}` has no parameter `{name}`",
+            help=did_you_mean(name.text, [p.name for p in parameters]),
+            labels=declared_here(callee),
+        )
+
+
+def _report_foreign(
+    r: Resolution, names: Sequence[ast.Name], hint: PreludeHint, callee: Symbol
+) -> None:
+    """Report parameters that only the prelude of some dialect gives to a library modifier."""
+    listed = ", ".join(f"`{name}`" for name in names)
+    plural = "s" if len(names) > 1 else ""
+    r.report(
+        "OSC402",
+        names[0].span,
+        f"`{callee.name}` has no parameter{plural} {listed} in the standard library",
+        notes=[f"{hint.instead}; dialect `{hint.dialect}` has {'them' if plural else 'it'}"],
+        help=f"check with `--dialect {hint.dialect}`",
+    )

@@ -1,0 +1,125 @@
+"""The driver of the stage: imports, definition pass, resolution pass."""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from dataclasses import dataclass, field
+
+from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.semantics.check import check_bodies
+from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
+from osc2tx.semantics.dialects import Dialect, Relaxations
+from osc2tx.semantics.expressions import infer
+from osc2tx.semantics.imports import ImportWalk, LoadFile
+from osc2tx.semantics.library import Library, build_library, shared_library
+from osc2tx.semantics.model import SemanticModel
+from osc2tx.semantics.resolution import Resolution
+from osc2tx.semantics.resolve import resolve_declarations
+from osc2tx.semantics.scope import Scope
+from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol, TypeSymbol
+from osc2tx.syntax import ast
+
+
+@dataclass(slots=True, eq=False)
+class ModelBuilder:
+    """Builds the semantic model of a program; never raises on bad input.
+
+    Attributes:
+        sink: Where reports go.
+        standard: `"2.1"` or `"2.2"`.
+        dialect: The dialect in force.
+        load: Finds and parses imported files; `None` means that there is no such file.
+    """
+
+    sink: DiagnosticSink
+    standard: str = field(kw_only=True)
+    dialect: Dialect = field(kw_only=True)
+    load: LoadFile = field(kw_only=True)
+
+    def build(self, root: ast.File) -> SemanticModel:
+        """Check the program that starts at a file."""
+        relaxations = Relaxations(self.dialect)
+        walk = ImportWalk(self.load, self.sink, relaxations)
+        walk.visit(root)
+        library = self._library(walk)
+        resolution, collector = self._new_layer(library, walk, relaxations)
+        for file in walk.files:
+            collector.collect_file(file)
+        _check_uses(resolution, walk.files)
+        resolve_declarations(resolution, collector)
+        check_bodies(resolution, _extended(resolution, library))
+        return _model(root, tuple(walk.files), resolution, library)
+
+    def _library(self, walk: ImportWalk) -> Library:
+        modules = "all" if "all" in walk.modules else "types" if walk.modules else "none"
+        if any(_is_extension(s) for file in walk.files for s in file.statements):
+            return build_library(self.standard, self.dialect, modules)
+        return shared_library(self.standard, self.dialect.name, modules)
+
+    def _new_layer(
+        self, library: Library, walk: ImportWalk, relaxations: Relaxations
+    ) -> tuple[Resolution, Collector]:
+        scope = Scope(parent=library.scope)
+        resolution = Resolution(scope, self.sink, relaxations, self.standard, infer)
+        unprefixed = walk.is_legacy or self.dialect.unprefixed_library
+        uses = LIBRARY_NAMESPACES if unprefixed else ()
+        return resolution, Collector(scope, self.sink, relaxations, null_uses=uses)
+
+
+def _is_extension(statement: ast.FileStatement) -> bool:
+    return isinstance(statement, ast.EnumExtension | ast.TypeExtension | ast.PrimitiveExtension)
+
+
+def _check_uses(r: Resolution, files: list[ast.File]) -> None:
+    for file in files:
+        for statement in file.statements:
+            if not isinstance(statement, ast.NamespaceStatement):
+                continue
+            for name in statement.uses:
+                if not r.scope.has_namespace(name):
+                    library = name in LIBRARY_NAMESPACES
+                    r.report(
+                        "OSC206",
+                        statement.span,
+                        f"no namespace `{name}`",
+                        help="import the library: `import osc.standard.all`" if library else None,
+                    )
+
+
+def _extended(r: Resolution, library: Library) -> list[TypeSymbol]:
+    """Return the library types that the program extends."""
+    texts = {source for statement in r.scope.contexts for source in (statement.span.source,)}
+    return [
+        symbol
+        for symbol in library.scope.declared
+        if isinstance(symbol, TypeSymbol)
+        and any(statement.span.source in texts for statement in symbol.statements)
+    ]
+
+
+def _model(
+    root: ast.File, files: tuple[ast.File, ...], r: Resolution, library: Library
+) -> SemanticModel:
+    below = library.resolution
+    scenarios = tuple(
+        s
+        for s in r.scope.declared
+        if isinstance(s, ScenarioSymbol) and s.span.source is root.span.source
+    )
+    actions = tuple(
+        s
+        for layer in (library.scope, r.scope)
+        for s in layer.declared
+        if isinstance(s, ActionSymbol)
+    )
+    return SemanticModel(
+        root=root,
+        files=files,
+        scenarios=scenarios,
+        actions=actions,
+        types=ChainMap(r.types, below.types),
+        references=ChainMap(r.references, below.references),
+        bindings=ChainMap(r.bindings, below.bindings),
+        units=ChainMap(r.units, below.units),
+        symbols=tuple(r.scope.declared),
+    )

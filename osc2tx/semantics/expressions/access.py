@@ -1,0 +1,128 @@
+"""Member access, conversion, type test and indexing."""
+
+from __future__ import annotations
+
+from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
+from osc2tx.semantics.dialects import PRELUDE_MEMBERS
+from osc2tx.semantics.expressions.names import value_type
+from osc2tx.semantics.lookup import find_member, member_names
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolve_types import resolve_type
+from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.symbols import Member, Symbol, TypeSymbol
+from osc2tx.semantics.types import BOOL, ERROR, EVENT, ListType, Type
+from osc2tx.syntax import ast
+
+
+def infer_member(r: Resolution, node: ast.MemberAccess, env: Environment) -> Type:
+    """Type `base.name`."""
+    base = r.type_of(node.base, env)
+    if base == EVENT:
+        return _infer_event_parameter(r, node)
+    symbol = resolve_member(r, node, base, env)
+    if symbol is None:
+        return ERROR
+    return value_type(r, symbol, node)
+
+
+def resolve_member(
+    r: Resolution, node: ast.MemberAccess, base: Type, env: Environment
+) -> Member | None:
+    """Return the member that `base.name` names; report it if there is none."""
+    if base == ERROR:
+        return None
+    owner = symbol_of(base)
+    if owner is None:
+        r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`")
+        return None
+    member = find_member(r, owner, node.name, env.context)
+    if member is None:
+        report_unknown_member(r, owner, node.name)
+        return None
+    r.references[node] = member
+    note_prelude_member(r, member, owner, node.name)
+    return member
+
+
+def note_prelude_member(r: Resolution, member: Symbol, owner: TypeSymbol, name: ast.Name) -> None:
+    """Warn about a member that the prelude of the dialect declares."""
+    if member.origin == "prelude" and owner.origin != "prelude":
+        r.relaxes(
+            "OSC607",
+            name.span,
+            f"`{member.name}` of `{owner.name}` belongs to dialect "
+            f"`{r.relaxations.dialect.name}`, not to the standard library",
+            key=member.name,
+        )
+
+
+def report_unknown_member(r: Resolution, owner: TypeSymbol, name: ast.Name) -> None:
+    """Report a member that a type does not have."""
+    hint = PRELUDE_MEMBERS.get(name.text)
+    if hint is not None and any(s.name == "osc_actor" for s in supertypes(owner)):
+        r.report(
+            "OSC208",
+            name.span,
+            f"`{owner.name}` has no member `{name}` in the standard library",
+            notes=[f"{hint.instead}; dialect `{hint.dialect}` has it"],
+            help=f"check with `--dialect {hint.dialect}`",
+        )
+        return
+    r.report(
+        "OSC208",
+        name.span,
+        f"`{owner.name}` has no member `{name}`",
+        help=did_you_mean(name.text, member_names(owner)),
+        labels=declared_here(owner),
+    )
+
+
+def _infer_event_parameter(r: Resolution, node: ast.MemberAccess) -> Type:
+    field = r.references.get(node.base)
+    event = r.event_fields.get(field) if field is not None else None
+    if event is None:
+        r.report("OSC316", node.base.span, "an event has no value; bind it with `as`")
+        return ERROR
+    for parameter in event.parameters:
+        if parameter.name == node.name.text:
+            r.references[node] = parameter
+            return parameter.type
+    r.report(
+        "OSC208",
+        node.name.span,
+        f"event `{event.name}` has no parameter `{node.name}`",
+        help=did_you_mean(node.name.text, [p.name for p in event.parameters]),
+    )
+    return ERROR
+
+
+def infer_cast(r: Resolution, node: ast.Cast, env: Environment) -> Type:
+    """Type `base.as(T)`."""
+    target = resolve_type(r, node.type, env.context)
+    source = r.type_of(node.base, env, target)
+    if ERROR not in (source, target) and not can_cast(source, target):
+        r.report("OSC315", node.span, f"a value of `{source}` cannot become `{target}`")
+    return target
+
+
+def infer_type_test(r: Resolution, node: ast.TypeTest, env: Environment) -> Type:
+    """Type `base.is(T)`."""
+    target = resolve_type(r, node.type, env.context)
+    source = r.type_of(node.base, env)
+    if ERROR not in (source, target) and not are_related(source, target):
+        r.report("OSC315", node.span, f"a value of `{source}` is never `{target}`")
+    return BOOL
+
+
+def infer_index(r: Resolution, node: ast.Index, env: Environment) -> Type:
+    """Type `base[index]`."""
+    base = r.type_of(node.base, env)
+    index = r.type_of(node.index, env)
+    if index != ERROR and index not in INTEGERS:
+        r.report("OSC301", node.index.span, f"an index must be an integer, not `{index}`")
+    if base == ERROR:
+        return ERROR
+    if not isinstance(base, ListType):
+        r.report("OSC304", node.base.span, f"`{base}` cannot be indexed; it is not a list")
+        return ERROR
+    return base.element

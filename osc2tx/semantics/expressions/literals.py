@@ -1,0 +1,66 @@
+"""Physical literals, lists and ranges."""
+
+from __future__ import annotations
+
+from osc2tx.semantics.conversions import common_type, is_numeric
+from osc2tx.semantics.resolution import Environment, Resolution, did_you_mean
+from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
+from osc2tx.syntax import ast
+
+
+def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
+    """Type a number with a unit; unit names form one table (§7.3.4)."""
+    unit = r.scope.unit_named(node.unit.text)
+    if unit is None:
+        known = [u.name for u in r.scope.all_units()]
+        r.report(
+            "OSC209",
+            node.unit.span,
+            f"no unit `{node.unit}`",
+            help=(
+                did_you_mean(node.unit.text, known)
+                if known
+                else "the standard library is not imported: `import osc.standard.all`"
+            ),
+        )
+        return ERROR
+    r.units[node] = unit
+    r.references[node.unit] = unit
+    return unit.type
+
+
+def infer_list(
+    r: Resolution, node: ast.ListLiteral, env: Environment, expected: Type | None
+) -> Type:
+    """Type `[a, b]`; lists inside are flattened (§7.4.2.7)."""
+    element = expected.element if isinstance(expected, ListType) else None
+    types = []
+    for item in node.elements:
+        type_ = r.type_of(item, env, element)
+        types.append(type_.element if isinstance(type_, ListType) else type_)
+    common = common_type(r.scope, types)
+    if common is None:
+        names = ", ".join(f"`{t}`" for t in dict.fromkeys(types))
+        r.report("OSC314", node.span, f"the elements have no common type: {names}")
+        return ERROR
+    return ERROR if common == ERROR else ListType(common)
+
+
+def infer_range(
+    r: Resolution, node: ast.RangeLiteral, env: Environment, expected: Type | None
+) -> Type:
+    """Type `[a .. b]`."""
+    bound = expected.element if isinstance(expected, RangeType) else expected
+    lower = r.type_of(node.lower, env, bound)
+    upper = r.type_of(node.upper, env, bound)
+    if ERROR in (lower, upper):
+        return ERROR
+    for type_, operand in ((lower, node.lower), (upper, node.upper)):
+        if not is_numeric(type_):
+            r.report("OSC310", operand.span, f"a bound of a range cannot be `{type_}`")
+            return ERROR
+    common = common_type(r.scope, (lower, upper))
+    if common is None:
+        r.report("OSC302", node.span, f"the bounds are `{lower}` and `{upper}`")
+        return ERROR
+    return RangeType(common)

@@ -1,0 +1,170 @@
+"""Bare names, `it` and enum members."""
+
+from __future__ import annotations
+
+from osc2tx.semantics.conversions import converts, symbol_of, type_of_owner
+from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolve_types import resolve_type_name
+from osc2tx.semantics.symbols import (
+    EnumMemberSymbol,
+    EnumSymbol,
+    EventSymbol,
+    FieldSymbol,
+    LabelSymbol,
+    MethodSymbol,
+    ParameterSymbol,
+    Symbol,
+)
+from osc2tx.semantics.types import ERROR, EVENT, EnumType, ListType, RangeType, Type
+from osc2tx.syntax import ast
+
+
+def infer_name(
+    r: Resolution, node: ast.NameExpression, env: Environment, expected: Type | None
+) -> Type:
+    """Type a bare name; an enum member needs an expected enum type."""
+    member = enum_member_of(node.name, expected)
+    symbol = lookup_value(r, node.name, env, quiet=member is not None)
+    if member is not None and (symbol is None or not _has_type(symbol, expected)):
+        r.references[node] = member
+        return EnumType(member.enum)
+    if symbol is None:
+        symbol = _lookup_in_invoked(r, node, env)
+    if symbol is None:
+        return _infer_unknown(r, node, env, expected)
+    r.references[node] = symbol
+    return value_type(r, symbol, node)
+
+
+def _has_type(symbol: Symbol, expected: Type | None) -> bool:
+    if not isinstance(symbol, FieldSymbol | ParameterSymbol | LabelSymbol) or expected is None:
+        return False
+    return converts(symbol.type, expected)
+
+
+def enum_member_of(name: ast.Name, expected: Type | None) -> EnumMemberSymbol | None:
+    """Return the member of that name of the expected enum type."""
+    if isinstance(expected, ListType | RangeType):
+        expected = expected.element
+    if isinstance(expected, EnumType):
+        return expected.symbol.members.get(name.text)
+    return None
+
+
+def value_type(r: Resolution, symbol: Symbol, node: ast.Expression) -> Type:
+    """Return the type of what a name or path stands for; report what is not a value."""
+    match symbol:
+        case FieldSymbol() | ParameterSymbol() | LabelSymbol():
+            return symbol.type
+        case EventSymbol():
+            return EVENT
+        case EnumMemberSymbol():
+            return EnumType(symbol.enum)
+        case MethodSymbol():
+            r.report(
+                "OSC316",
+                node.span,
+                f"`{symbol.name}` is a method, not a value",
+                help=f"call it: `{node.span.text}(…)`",
+                labels=declared_here(symbol),
+            )
+            return ERROR
+        case _:
+            r.report("OSC316", node.span, f"`{symbol.name}` does not stand for a value")
+            return ERROR
+
+
+def _lookup_in_invoked(r: Resolution, node: ast.NameExpression, env: Environment) -> Symbol | None:
+    """Look in the invoked behavior, which a plain name may only mean with a warning."""
+    if env.invoked is None:
+        return None
+    symbol = find_member(r, env.invoked, node.name, env.context)
+    if isinstance(symbol, FieldSymbol):
+        r.report(
+            "OSC413",
+            node.span,
+            f"`{node.name}` is taken as parameter of `{env.invoked.qualified_name}`",
+            help=f"write `it.{node.name}`",
+        )
+        return symbol
+    return None
+
+
+def _infer_unknown(
+    r: Resolution, node: ast.NameExpression, env: Environment, expected: Type | None
+) -> Type:
+    name = node.name
+    members = r.scope.enum_members_named(name.text)
+    if isinstance(expected, EnumType):
+        r.report(
+            "OSC208",
+            node.span,
+            f"enum `{expected.symbol.name}` has no member `{name}`",
+            help=did_you_mean(name.text, expected.symbol.members),
+            labels=declared_here(expected.symbol),
+        )
+        return ERROR
+    if members and expected == ERROR:
+        return ERROR
+    if members and expected is None:
+        return _infer_unexpected_member(r, node, members)
+    if members and symbol_of(expected or ERROR) is None:
+        r.references[node] = members[0]
+        return EnumType(members[0].enum)
+    r.report(
+        "OSC201",
+        node.span,
+        f"`{name}` is not defined",
+        help=did_you_mean(name.text, visible_names(r, env)),
+    )
+    return ERROR
+
+
+def _infer_unexpected_member(
+    r: Resolution, node: ast.NameExpression, members: list[EnumMemberSymbol]
+) -> Type:
+    if len(members) == 1:
+        r.references[node] = members[0]
+        return EnumType(members[0].enum)
+    choices = ", ".join(f"`{m.enum.name}!{m.name}`" for m in members[:4])
+    r.report(
+        "OSC313",
+        node.span,
+        f"`{node.name}` is a member of several enums",
+        help=f"write one of {choices}",
+    )
+    return ERROR
+
+
+def infer_it(r: Resolution, node: ast.ItExpression, env: Environment) -> Type:
+    """Type `it` (§7.4.1.3)."""
+    if env.it is not None:
+        return env.it
+    if env.owner is not None:
+        return type_of_owner(env.owner)
+    r.report("OSC201", node.span, "there is no `it` here")
+    return ERROR
+
+
+def infer_enum_literal(r: Resolution, node: ast.EnumLiteral, env: Environment) -> Type:
+    """Type `enum!member`."""
+    symbol = resolve_type_name(r, node.enum, env.context)
+    if symbol is None:
+        return ERROR
+    if not isinstance(symbol, EnumSymbol):
+        r.report("OSC301", node.enum.span, f"`{node.enum}` is not an enum")
+        return ERROR
+    member = symbol.members.get(node.member.text)
+    if member is None:
+        r.report(
+            "OSC208",
+            node.member.span,
+            f"enum `{symbol.name}` has no member `{node.member}`",
+            help=did_you_mean(node.member.text, symbol.members),
+            labels=declared_here(symbol),
+        )
+        return EnumType(symbol)
+    r.references[node] = member
+    r.references[node.member] = member
+    return EnumType(symbol)

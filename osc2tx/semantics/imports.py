@@ -1,0 +1,105 @@
+"""Imports: which files make up a program, and in which order (§7.7.5)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
+
+from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.semantics.dialects import LIBRARY_FILES, Relaxations
+from osc2tx.syntax import ast
+
+LoadFile = Callable[[ast.Import, SourceFile], ast.File | None]
+
+LEGACY = ("osc", "standard")
+MODULES = {
+    LEGACY: "all",
+    (*LEGACY, "all"): "all",
+    (*LEGACY, "types"): "types",
+    (*LEGACY, "domain"): "all",
+}
+
+
+@dataclass(slots=True, eq=False)
+class ImportWalk:
+    """Follows imports depth first; every file counts once, at its first place.
+
+    Attributes:
+        load: Finds and parses a file that is imported by name; `None` if there is no such file.
+        sink: Where reports go.
+        relaxations: The dialect in force.
+        files: What was found, imported files before those that import them.
+        modules: Parts of the library that are needed, `"types"` or `"all"`.
+        is_legacy: Whether library names need no prefix in the null namespace.
+    """
+
+    load: LoadFile
+    sink: DiagnosticSink
+    relaxations: Relaxations
+    files: list[ast.File] = field(default_factory=list)
+    modules: set[str] = field(default_factory=set)
+    is_legacy: bool = False
+    _seen: set[object] = field(default_factory=set)
+
+    def visit(self, file: ast.File) -> None:
+        """Add a file after those it imports."""
+        self._seen.add(_identity(file))
+        for statement in file.imports:
+            if statement.uri is None:
+                self._import_module(statement)
+            else:
+                self._import_file(statement, statement.uri, file.span.source)
+        self.files.append(file)
+
+    def _import_module(self, statement: ast.Import) -> None:
+        module = MODULES.get(statement.module)
+        if module is not None:
+            self.modules.add(module)
+            self.is_legacy |= statement.module == LEGACY
+            return
+        name = ".".join(statement.module)
+        if statement.module[:1] != ("osc",):
+            imported = self.load(statement, statement.span.source)
+            if imported is not None:
+                self._visit_once(imported)
+                return
+        self._report(statement, f"no module `{name}`", "the standard library is `osc.standard.all`")
+
+    def _import_file(self, statement: ast.Import, uri: str, source: SourceFile) -> None:
+        imported = self.load(statement, source)
+        if imported is not None:
+            self._visit_once(imported)
+            return
+        name = PurePosixPath(uri).name
+        if name in self.relaxations.dialect.library_files and "/" not in uri:
+            self.modules.add("types" if name == "types.osc" else "all")
+            if self.relaxations.is_new("OSC606", source.name, uri):
+                self.sink.report(
+                    "OSC606",
+                    statement.span,
+                    f'`"{uri}"` is taken for the standard library; there is no such file',
+                    help="write `import osc.standard.all`",
+                )
+            return
+        is_library = name in LIBRARY_FILES
+        self._report(
+            statement,
+            f'no file `"{uri}"`',
+            "for the standard library write `import osc.standard.all`" if is_library else None,
+        )
+
+    def _visit_once(self, file: ast.File) -> None:
+        if _identity(file) not in self._seen:
+            self.visit(file)
+
+    def _report(self, statement: ast.Import, message: str, help: str | None) -> None:
+        """Report a failed import; library names are known from then on, to avoid a flood."""
+        self.sink.report("OSC205", statement.span, message, help=help)
+        self.modules.add("all")
+        self.is_legacy = True
+
+
+def _identity(file: ast.File) -> object:
+    source = file.span.source
+    return source.path.resolve() if source.path is not None else source.name

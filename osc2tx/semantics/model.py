@@ -1,0 +1,77 @@
+"""The semantic model: what the resolution pass found out about a program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    FieldSymbol,
+    MethodSymbol,
+    ModifierSymbol,
+    ParameterSymbol,
+    ScenarioSymbol,
+    Symbol,
+    UnitSymbol,
+)
+from osc2tx.semantics.types import ERROR, Type
+from osc2tx.syntax import ast
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Binding:
+    """What a call, invocation, modifier application or emit means.
+
+    Attributes:
+        callee: What is called; an event's arguments are bound too.
+        receiver: The expression before the dot; `None` where the actor is implicit.
+        arguments: Parameter and value, in source order. Left-out parameters are absent.
+    """
+
+    callee: Symbol
+    receiver: ast.Expression | None
+    arguments: tuple[tuple[FieldSymbol | ParameterSymbol, ast.Expression], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SemanticModel:
+    """A checked program: symbols, and side tables over its syntax trees.
+
+    Attributes:
+        root: The file that was asked for.
+        files: All files, imported ones first.
+        scenarios: The scenarios of the root file, in source order.
+        actions: All actions that are known, the library's included.
+        types: Type of every expression of the user's files.
+        references: What a `NameExpression`, `MemberAccess`, `EnumLiteral` or `Name` stands for.
+        bindings: What an `Invocation`, `ModifierApplication`, `Call`, `CallDirective` or
+            `EmitDirective` means.
+        units: The unit of a `PhysicalLiteral`.
+        symbols: What the user's files declare, in source order, imported files first.
+    """
+
+    root: ast.File
+    files: tuple[ast.File, ...]
+    scenarios: tuple[ScenarioSymbol, ...]
+    actions: tuple[ActionSymbol, ...] = ()
+    types: Mapping[ast.Node, Type] = field(default_factory=dict)
+    references: Mapping[ast.Node, Symbol] = field(default_factory=dict)
+    bindings: Mapping[ast.Node, Binding] = field(default_factory=dict)
+    units: Mapping[ast.PhysicalLiteral, UnitSymbol] = field(default_factory=dict)
+    symbols: tuple[Symbol, ...] = ()
+
+    def type_of(self, expression: ast.Expression) -> Type:
+        """Return the type of an expression; the error type if it has none."""
+        return self.types.get(expression, ERROR)
+
+    def symbol_of(self, node: ast.Node) -> Symbol | None:
+        """Return what a name stands for."""
+        return self.references.get(node)
+
+    def binding_of(self, node: ast.Node) -> Binding:
+        """Return what a call means; only asked for programs without errors."""
+        return self.bindings[node]
+
+
+Callee = ScenarioSymbol | ActionSymbol | ModifierSymbol | MethodSymbol

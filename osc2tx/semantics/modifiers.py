@@ -1,0 +1,143 @@
+"""Modifier applications (§7.3.12)."""
+
+from __future__ import annotations
+
+from osc2tx.semantics.binding import bind_behavior, type_arguments
+from osc2tx.semantics.builtins import OVERRIDE
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolve_types import choose
+from osc2tx.semantics.scope import CallableBehavior, is_subtype
+from osc2tx.semantics.symbols import ActionSymbol, ActorSymbol, ModifierSymbol
+from osc2tx.semantics.types import ERROR, ActorType
+from osc2tx.syntax import ast
+
+
+def check_modifier(
+    r: Resolution,
+    node: ast.ModifierApplication,
+    env: Environment,
+    invoked: CallableBehavior | None,
+    actor: ActorSymbol | None,
+) -> None:
+    """Check a modifier application in a `with` block or a body.
+
+    Args:
+        r: The state of the pass.
+        node: The application.
+        env: Where it stands.
+        invoked: The behavior that is modified; `None` where that is unknown or a composition.
+        actor: The actor that may be left out.
+    """
+    if node.actor is not None:
+        type_ = r.type_of(node.actor, env)
+        if isinstance(type_, ActorType):
+            actor = type_.symbol
+        elif type_ != ERROR:
+            r.report("OSC301", node.actor.span, f"`{type_}` is not an actor; it has no modifiers")
+            actor = None
+        else:
+            actor = None
+    modifier = _find_modifier(r, node, env, invoked, actor)
+    if modifier is None:
+        type_arguments(r, node.arguments, env)
+        return
+    r.references[node.modifier] = modifier
+    bind_behavior(r, node, modifier, env)
+
+
+def _find_modifier(
+    r: Resolution,
+    node: ast.ModifierApplication,
+    env: Environment,
+    invoked: CallableBehavior | None,
+    actor: ActorSymbol | None,
+) -> ModifierSymbol | None:
+    name = node.modifier
+    candidates = r.scope.modifiers_named(name.text)
+    if not candidates:
+        if name.text == OVERRIDE.name:
+            return OVERRIDE
+        _report_unknown(r, name)
+        return None
+    quiet = env.it == ERROR
+    fitting = candidates if quiet else [m for m in candidates if _fits(m, invoked, actor)]
+    if not fitting:
+        _report_misfit(r, name, candidates[0], invoked, actor)
+        return None
+    visible = r.scope.select(fitting, name, env.context)
+    if not visible:
+        return choose(r, fitting, name, env.context)
+    return min(visible, key=lambda m: _distance(m, actor))
+
+
+def _fits(
+    modifier: ModifierSymbol, invoked: CallableBehavior | None, actor: ActorSymbol | None
+) -> bool:
+    of_actor = modifier.actor is None or (actor is not None and is_subtype(actor, modifier.actor))
+    if modifier.target is None:
+        return of_actor and (modifier.node.behavior is None or invoked is None)
+    return of_actor and invoked is not None and is_subtype(invoked, modifier.target)
+
+
+def _distance(modifier: ModifierSymbol, actor: ActorSymbol | None) -> int:
+    """How far up the actor's ancestry a modifier is declared; the nearest wins."""
+    if modifier.actor is None or actor is None:
+        return 1000
+    depth = 0
+    current: ActorSymbol | None = actor
+    while current is not None and current is not modifier.actor:
+        depth += 1
+        current = current.base
+    return depth
+
+
+def _report_unknown(r: Resolution, name: ast.Name) -> None:
+    known = {n for layer in r.scope.layers() for n in layer.modifiers}
+    behaviors = r.scope.behaviors_named(name.text)
+    if behaviors:
+        kind = "an action" if isinstance(behaviors[0], ActionSymbol) else "a scenario"
+        r.report(
+            "OSC212",
+            name.span,
+            f"`{name}` is {kind}, not a modifier",
+            help="invoke it inside `do`",
+            labels=declared_here(behaviors[0]),
+        )
+        return
+    r.report("OSC212", name.span, f"no modifier `{name}`", help=did_you_mean(name.text, known))
+
+
+def _report_misfit(
+    r: Resolution,
+    name: ast.Name,
+    modifier: ModifierSymbol,
+    invoked: CallableBehavior | None,
+    actor: ActorSymbol | None,
+) -> None:
+    if modifier.target is not None:
+        wanted = f"it modifies `{modifier.target.qualified_name}`"
+        if invoked is None or not is_subtype(invoked, modifier.target):
+            here = f"`{invoked.qualified_name}`" if invoked else "this place"
+            r.report(
+                "OSC406",
+                name.span,
+                f"modifier `{name}` does not apply to {here}",
+                notes=[wanted],
+                labels=declared_here(modifier),
+            )
+            return
+    wanted = modifier.actor.name if modifier.actor else "?"
+    if actor is None:
+        r.report(
+            "OSC407",
+            name.span,
+            f"modifier `{modifier.qualified_name}` needs an actor",
+            help=f"write `<{wanted}>.{name}(…)`",
+        )
+        return
+    r.report(
+        "OSC406",
+        name.span,
+        f"modifier `{name}` belongs to `{wanted}`, not to `{actor.name}`",
+        labels=declared_here(modifier),
+    )

@@ -1,0 +1,145 @@
+"""The state that the functions of the resolution pass share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from typing import Protocol
+
+from osc2tx.diagnostics import DiagnosticSink, Label, Span
+from osc2tx.semantics.dialects import Relaxations
+from osc2tx.semantics.model import Binding
+from osc2tx.semantics.scope import Context, Scope
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    ActorSymbol,
+    BehaviorSymbol,
+    EventSymbol,
+    FieldSymbol,
+    ParameterSymbol,
+    ScenarioSymbol,
+    Symbol,
+    TypeSymbol,
+    UnitSymbol,
+)
+from osc2tx.semantics.types import Type
+from osc2tx.syntax import ast
+
+
+@dataclass(frozen=True, slots=True)
+class Environment:
+    """What an expression sees around it.
+
+    Attributes:
+        context: Namespace and use list of the text.
+        owner: The type in whose body the expression stands.
+        it: What `it` is, if it is not the instance of the owner.
+        actor: The type of `actor`.
+        invoked: The behavior whose `with` block this is.
+        locals: Method parameters and event fields.
+    """
+
+    context: Context
+    owner: TypeSymbol | None = None
+    it: Type | None = None
+    actor: ActorSymbol | None = None
+    invoked: BehaviorSymbol | None = None
+    locals: Mapping[str, ParameterSymbol] = field(default_factory=dict)
+
+    def with_it(self, type_: Type) -> Environment:
+        """Return the same place with another `it`."""
+        return replace(self, it=type_)
+
+    def with_locals(self, symbols: Iterable[ParameterSymbol]) -> Environment:
+        """Return the same place with further local names."""
+        return replace(self, locals={**self.locals, **{s.name: s for s in symbols}})
+
+
+class InferFunction(Protocol):
+    """How any part of the pass asks for the type of an expression."""
+
+    def __call__(
+        self,
+        r: Resolution,
+        expression: ast.Expression,
+        env: Environment,
+        expected: Type | None = None,
+    ) -> Type:
+        """Return the type, and report what is wrong."""
+
+
+@dataclass(slots=True, eq=False)
+class Resolution:
+    """Scope and side tables of one resolution pass.
+
+    Attributes:
+        scope: All definitions.
+        sink: Where reports go.
+        relaxations: The dialect, and what it has let pass.
+        standard: `"2.1"` or `"2.2"`.
+        infer: The expression typer.
+        event_fields: The event behind each name that `as` bound.
+        actor_fields: The implicit field `actor` per actor type.
+        invoked: What the name in an invocation was found to be; `None` if it was reported.
+    """
+
+    scope: Scope
+    sink: DiagnosticSink
+    relaxations: Relaxations
+    standard: str
+    infer: InferFunction
+    types: dict[ast.Node, Type] = field(default_factory=dict)
+    references: dict[ast.Node, Symbol] = field(default_factory=dict)
+    bindings: dict[ast.Node, Binding] = field(default_factory=dict)
+    units: dict[ast.PhysicalLiteral, UnitSymbol] = field(default_factory=dict)
+    event_fields: dict[Symbol, EventSymbol] = field(default_factory=dict)
+    actor_fields: dict[ActorSymbol, FieldSymbol] = field(default_factory=dict)
+    invoked: dict[ast.Name, ScenarioSymbol | ActionSymbol | None] = field(default_factory=dict)
+
+    def type_of(
+        self, expression: ast.Expression, env: Environment, expected: Type | None = None
+    ) -> Type:
+        """Return the type of an expression."""
+        return self.infer(self, expression, env, expected)
+
+    def report(
+        self,
+        code: str,
+        span: Span,
+        message: str,
+        *,
+        help: str | None = None,
+        notes: Sequence[str] = (),
+        labels: Sequence[Label] = (),
+    ) -> None:
+        """Report a mistake."""
+        self.sink.report(code, span, message, help=help, notes=notes, labels=labels)
+
+    def relaxes(
+        self, code: str, span: Span, message: str, *, key: str = "", help: str | None = None
+    ) -> bool:
+        """Whether the dialect lets something pass; then it is warned about, once per file."""
+        if code not in self.relaxations.dialect.relaxed:
+            return False
+        if self.relaxations.is_new(code, span.source.name, key):
+            self.sink.report(code, span, message, help=help)
+        return True
+
+    def needs_standard(self, span: Span, what: str) -> None:
+        """Report a construct of 2.2 in a program of 2.1."""
+        if self.standard < "2.2":
+            self.report(
+                "OSC213", span, f"{what} needs OpenSCENARIO DSL 2.2", help="check with `--std 2.2`"
+            )
+
+
+def did_you_mean(text: str, names: Iterable[str]) -> str | None:
+    """Return a help line with the closest name, if one is close."""
+    close = get_close_matches(text, sorted(set(names)), n=1)
+    return f"did you mean `{close[0]}`?" if close else None
+
+
+def declared_here(symbol: Symbol, what: str = "declared here") -> tuple[Label, ...]:
+    """Return a label at a declaration, unless it is built in."""
+    return () if symbol.origin == "builtin" else (Label(symbol.span, what),)

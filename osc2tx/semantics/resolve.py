@@ -1,0 +1,320 @@
+"""First half of the resolution pass: bases, actors, extensions, enum values, signatures.
+
+Afterwards every symbol of the layer is complete except for the types of labels; nothing below
+the level of declarations has been looked at. `check` does the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from osc2tx.semantics.builtins import LIFE_CYCLE
+from osc2tx.semantics.collect import Collector, dimension_of, report_duplicate
+from osc2tx.semantics.enums import resolve_enum_values
+from osc2tx.semantics.exports import resolve_exports
+from osc2tx.semantics.inheritance import check_inheritance
+from osc2tx.semantics.lookup import find_member
+from osc2tx.semantics.resolution import Resolution
+from osc2tx.semantics.resolve_types import (
+    resolve_actor_name,
+    resolve_behavior_name,
+    resolve_type,
+    resolve_type_name,
+)
+from osc2tx.semantics.scope import Context, base_of, supertypes
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    ActorSymbol,
+    EnumSymbol,
+    EventSymbol,
+    FieldSymbol,
+    LabelSymbol,
+    Member,
+    MethodSymbol,
+    ModifierSymbol,
+    ParameterSymbol,
+    PhysicalTypeSymbol,
+    PrimitiveSymbol,
+    ScenarioSymbol,
+    StructSymbol,
+    Symbol,
+    TypeSymbol,
+    UnitSymbol,
+)
+from osc2tx.semantics.types import VOID, PhysicalType
+from osc2tx.syntax import ast
+
+__all__ = ["resolve_declarations"]
+
+
+def resolve_declarations(r: Resolution, collector: Collector) -> None:
+    """Complete the symbols of the layer that the collector filled."""
+    resolve_exports(r)
+    for check in (_resolve_actor, _resolve_base, _resolve_unit):
+        _for_each_symbol(r, check)
+    _check_behaviors_unique(r)
+    _for_each_symbol(r, check_inheritance)
+    for extension in r.scope.extensions:
+        apply_extension(r, collector, extension)
+    resolve_enum_values(r)
+    for symbol in r.scope.declared:
+        if isinstance(symbol, TypeSymbol):
+            resolve_members(r, symbol)
+        elif isinstance(symbol, FieldSymbol):
+            _resolve_field(r, symbol)
+    for primitive in r.scope.primitives.values():
+        resolve_members(r, primitive)
+
+
+def _for_each_symbol(r: Resolution, check: Callable[[Resolution, Symbol, Context], None]) -> None:
+    for symbol in r.scope.declared:
+        check(r, symbol, r.scope.contexts.get(r.scope.nodes[symbol], Context()))
+
+
+def _resolve_actor(r: Resolution, symbol: Symbol, context: Context) -> None:
+    if isinstance(symbol, ScenarioSymbol | ActionSymbol | ModifierSymbol):
+        actor = symbol.node.name.actor
+        if actor is not None:
+            symbol.actor = resolve_actor_name(r, actor, context)
+
+
+def _resolve_base(r: Resolution, symbol: Symbol, context: Context) -> None:
+    match symbol, r.scope.nodes[symbol]:
+        case StructSymbol(), ast.StructDeclaration(base=ast.Name() as name):
+            struct = resolve_type_name(r, name, context)
+            if isinstance(struct, StructSymbol):
+                symbol.base = struct
+            elif struct is not None:
+                _report_kind(r, name, "struct")
+        case ActorSymbol(), ast.ActorDeclaration(base=ast.Name() as name):
+            actor = resolve_type_name(r, name, context)
+            if isinstance(actor, ActorSymbol):
+                symbol.base = actor
+            elif actor is not None:
+                _report_kind(r, name, "actor")
+        case ScenarioSymbol(node=ast.ScenarioDeclaration(base=ast.BehaviorName() as base)), _:
+            scenario = resolve_behavior_name(r, base, context)
+            if isinstance(scenario, ScenarioSymbol):
+                symbol.base = scenario
+            elif scenario is not None:
+                _report_kind(r, base, "scenario")
+        case ActionSymbol(node=ast.ActionDeclaration(base=ast.BehaviorName() as base)), _:
+            action = resolve_behavior_name(r, base, context)
+            if isinstance(action, ActionSymbol):
+                symbol.base = action
+            elif action is not None:
+                _report_kind(r, base, "action")
+        case ModifierSymbol(node=ast.ModifierDeclaration(behavior=ast.BehaviorName() as name)), _:
+            symbol.target = resolve_behavior_name(r, name, context)
+        case _:
+            return
+
+
+def _report_kind(r: Resolution, name: ast.Name | ast.BehaviorName, kind: str) -> None:
+    article = "an" if kind[0] == "a" else "a"
+    r.report(
+        "OSC306", name.span, f"`{name}` is not {article} {kind}, so no {kind} inherits from it"
+    )
+
+
+def _resolve_unit(r: Resolution, symbol: Symbol, context: Context) -> None:
+    node = r.scope.nodes[symbol]
+    if not isinstance(symbol, UnitSymbol) or not isinstance(node, ast.UnitDeclaration):
+        return
+    physical = resolve_type_name(r, node.physical_type, context)
+    if physical is None:
+        return
+    if not isinstance(physical, PhysicalTypeSymbol):
+        r.report("OSC305", node.physical_type.span, f"`{physical.name}` is not a physical type")
+        return
+    symbol.type = PhysicalType(physical.name, physical.dimension)
+    dimension = dimension_of(node.exponents)
+    if dimension != physical.dimension:
+        r.report(
+            "OSC305",
+            node.name.span,
+            f"unit `{symbol.name}` has dimension `{dimension}`, "
+            f"its type `{physical.name}` has `{physical.dimension}`",
+        )
+
+
+def _check_behaviors_unique(r: Resolution) -> None:
+    seen: dict[tuple[str, str, ActorSymbol | None], Symbol] = {}
+    for group in r.scope.behaviors.values():
+        for symbol in group:
+            key = (symbol.namespace, symbol.name, symbol.actor)
+            if symbol.actor is not None and key in seen:
+                report_duplicate(r.sink, symbol, seen[key])
+            seen.setdefault(key, symbol)
+    for name, modifiers in r.scope.modifiers.items():
+        for index, modifier in enumerate(modifiers):
+            for other in modifiers[:index]:
+                same = (other.actor, other.target) == (modifier.actor, modifier.target)
+                if same and other.namespace == modifier.namespace and name:
+                    report_duplicate(r.sink, modifier, other)
+
+
+def apply_extension(
+    r: Resolution,
+    collector: Collector,
+    node: ast.EnumExtension | ast.TypeExtension | ast.PrimitiveExtension,
+) -> None:
+    """Add what an extension declares to the type that it names (§7.3.9)."""
+    context = r.scope.contexts[node]
+    match node:
+        case ast.EnumExtension():
+            enum = resolve_type_name(r, node.name, context)
+            if isinstance(enum, EnumSymbol):
+                collector.collect_enum_members(enum, node.members, context)
+            elif enum is not None:
+                r.report("OSC321", node.name.span, f"`{node.name}` is not an enum")
+        case ast.PrimitiveExtension():
+            r.needs_standard(node.span, f"`extend {node.primitive}`")
+            primitive = r.scope.primitives.setdefault(
+                node.primitive,
+                PrimitiveSymbol(name=node.primitive, namespace="null", span=node.span),
+            )
+            collector.collect_body(primitive, node.members, context)
+        case ast.TypeExtension():
+            target = _extended_type(r, node, context)
+            if target is not None:
+                _check_shadowing(r, target, node)
+                collector.collect_body(target, node.members, context)
+
+
+def _extended_type(r: Resolution, node: ast.TypeExtension, context: Context) -> TypeSymbol | None:
+    if node.name.actor is None and not r.scope.types_named(node.name.name.text):
+        modifiers = r.scope.modifiers_named(node.name.name.text)
+        if modifiers:
+            r.report(
+                "OSC321", node.name.span, f"`{node.name}` is a modifier; it cannot be extended"
+            )
+            return None
+    if node.name.actor is not None:
+        return resolve_behavior_name(r, node.name, context)
+    symbol = resolve_type_name(r, node.name.name, context)
+    if symbol is None or isinstance(symbol, TypeSymbol):
+        return symbol
+    r.report("OSC321", node.name.span, f"`{node.name}` has no members that could be extended")
+    return None
+
+
+def _check_shadowing(r: Resolution, target: TypeSymbol, node: ast.TypeExtension) -> None:
+    if isinstance(target, StructSymbol | ActorSymbol):
+        for member in node.members:
+            if isinstance(member, ast.DoDirective | ast.OnDirective):
+                r.report("OSC321", member.span, f"`{target.name}` is not a behavior")
+
+
+def resolve_members(r: Resolution, owner: TypeSymbol) -> None:
+    """Resolve the types in the signatures of a type's own members."""
+    _drop_redeclared_life_cycle(owner)
+    for member in owner.members.values():
+        _resolve_member(r, member)
+    for member in owner.members.values():
+        _check_redefinition(r, owner, member)
+
+
+def _drop_redeclared_life_cycle(owner: TypeSymbol) -> None:
+    """Take `event start` and the like for what is there already (§7.3.13.7)."""
+    if isinstance(owner, ScenarioSymbol | ActionSymbol):
+        for name in LIFE_CYCLE:
+            member = owner.members.get(name)
+            if isinstance(member, EventSymbol) and member.node and not member.node.parameters:
+                del owner.members[name]
+
+
+def _resolve_member(r: Resolution, member: Member) -> None:
+    match member:
+        case FieldSymbol():
+            _resolve_field(r, member)
+        case EventSymbol(node=ast.EventDeclaration() as event):
+            context = r.scope.context_of(event)
+            _resolve_parameters(r, member.parameters, event.parameters, context)
+        case MethodSymbol(node=ast.MethodDeclaration() as method):
+            context = r.scope.context_of(method)
+            _resolve_parameters(r, member.parameters, method.parameters, context)
+            member.result = resolve_type(r, method.result, context) if method.result else VOID
+        case _:
+            return
+
+
+def _resolve_field(r: Resolution, symbol: FieldSymbol) -> None:
+    if symbol.node is None:
+        return
+    first = symbol.node.names[0].span == symbol.span
+    if first or symbol.node.type not in r.types:
+        r.types[symbol.node.type] = resolve_type(
+            r, symbol.node.type, r.scope.context_of(symbol.node)
+        )
+    symbol.type = r.types[symbol.node.type]
+
+
+def _resolve_parameters(
+    r: Resolution,
+    parameters: tuple[ParameterSymbol, ...],
+    specifications: tuple[ast.ParameterSpecification, ...],
+    context: Context,
+) -> None:
+    for parameter, specification in zip(parameters, specifications, strict=True):
+        parameter.type = resolve_type(r, specification.type, context)
+
+
+def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> None:
+    """Check a member against the inherited one of the same name (§7.3.7, §7.3.8)."""
+    overrides = isinstance(member, MethodSymbol) and member.node is not None and member.node.is_only
+    earlier = inherited_member(owner, member)
+    if earlier is None and overrides:
+        earlier = _overridden_elsewhere(r, owner, member)
+    if earlier is None:
+        return
+    if isinstance(member, EventSymbol) and isinstance(earlier, EventSymbol):
+        return
+    if isinstance(member, MethodSymbol) and isinstance(earlier, MethodSymbol):
+        if not overrides:
+            r.report(
+                "OSC319",
+                member.span,
+                f"`{member.name}` overrides an inherited method without `only`",
+                help="write `is only …`",
+            )
+        elif _signature(member) != _signature(earlier):
+            r.report(
+                "OSC319",
+                member.span,
+                f"`{member.name}` has another signature than what it overrides",
+            )
+        return
+    if member.origin != "prelude" and not isinstance(member, LabelSymbol):
+        report_duplicate(r.sink, member, earlier)
+
+
+def inherited_member(owner: TypeSymbol, member: Member) -> Member | None:
+    """Return what a member of the same name and namespace is in a supertype."""
+    for ancestor in supertypes(owner):
+        if ancestor is owner:
+            continue
+        earlier = ancestor.members.get(member.name)
+        if earlier is not None and earlier.namespace == member.namespace:
+            return earlier
+    return None
+
+
+def _overridden_elsewhere(r: Resolution, owner: TypeSymbol, member: Member) -> Member | None:
+    """Return the method of a used namespace that is overridden; its name is the same name."""
+    base = base_of(owner)
+    if base is None or not isinstance(member, MethodSymbol) or member.node is None:
+        return None
+    context = r.scope.context_of(member.node)
+    earlier = find_member(r, base, member.node.name, context, quiet=True)
+    visible = isinstance(earlier, MethodSymbol) and r.scope.select(
+        [earlier], member.node.name, context
+    )
+    if earlier is None or not visible:
+        return None
+    member.namespace = earlier.namespace
+    return earlier
+
+
+def _signature(method: MethodSymbol) -> tuple[object, ...]:
+    return (method.result, *((p.name, p.type) for p in method.parameters))

@@ -1,0 +1,255 @@
+"""Type names become types, bases and actors become symbols (§7.2.2.2, §7.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeVar, assert_never
+
+from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS
+from osc2tx.semantics.resolution import Resolution, declared_here, did_you_mean
+from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    ActorSymbol,
+    EnumSymbol,
+    PhysicalTypeSymbol,
+    ScenarioSymbol,
+    StructSymbol,
+    Symbol,
+)
+from osc2tx.semantics.types import (
+    ERROR,
+    PRIMITIVES,
+    ActorType,
+    BehaviorType,
+    EnumType,
+    ListType,
+    PhysicalType,
+    PrimitiveType,
+    RangeType,
+    StructType,
+    Type,
+)
+from osc2tx.syntax import ast
+
+S = TypeVar("S", bound=Symbol)
+
+
+def type_of_symbol(symbol: NamedSymbol) -> Type:
+    """Return the type that a declaration defines."""
+    match symbol:
+        case PhysicalTypeSymbol():
+            return PhysicalType(symbol.name, symbol.dimension)
+        case EnumSymbol():
+            return EnumType(symbol)
+        case StructSymbol():
+            return StructType(symbol)
+        case ActorSymbol():
+            return ActorType(symbol)
+        case ScenarioSymbol() | ActionSymbol():
+            return BehaviorType(symbol)
+        case _:
+            assert_never(symbol)
+
+
+def resolve_type(r: Resolution, node: ast.TypeName, context: Context) -> Type:
+    """Return the type that a type name stands for."""
+    match node:
+        case ast.NamedType():
+            return _resolve_named(r, node, context)
+        case ast.ListType():
+            return _resolve_list(r, node, context)
+        case ast.RangeType():
+            return _resolve_range(r, node, context)
+        case _:
+            assert_never(node)
+
+
+def _resolve_named(r: Resolution, node: ast.NamedType, context: Context) -> Type:
+    name = node.name
+    if name.actor is not None:
+        behavior = resolve_behavior_name(r, name, context)
+        return BehaviorType(behavior) if behavior else ERROR
+    if name.name.namespace is None and name.name.text in PRIMITIVES:
+        return PRIMITIVES[name.name.text]
+    symbol = resolve_type_name(r, name.name, context)
+    return type_of_symbol(symbol) if symbol else ERROR
+
+
+def _resolve_list(r: Resolution, node: ast.ListType, context: Context) -> Type:
+    element = resolve_type(r, node.element, context)
+    return ERROR if element == ERROR else ListType(element)
+
+
+def _resolve_range(r: Resolution, node: ast.RangeType, context: Context) -> Type:
+    if node.span.text.startswith("range"):  # else what is left of a syntax error
+        r.needs_standard(node.span, "the type `range of`")
+    element = resolve_type(r, node.element, context)
+    match element:
+        case PhysicalType():
+            return RangeType(element)
+        case PrimitiveType(name="int" | "uint" | "float"):
+            return RangeType(element)
+        case _:
+            if element != ERROR:
+                r.report("OSC310", node.element.span, f"`{element}` is not a numeric type")
+            return ERROR
+
+
+def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedSymbol | None:
+    """Return the type of a name; report it if there is none."""
+    candidates = r.scope.types_named(name.text)
+    symbol = choose(r, candidates, name, context)
+    if symbol is not None:
+        r.references[name] = symbol
+        return symbol
+    if candidates:
+        return None
+    if associated := r.scope.behaviors_named(name.text):
+        r.report(
+            "OSC202",
+            name.span,
+            f"no type `{name}`",
+            help=f"name the behavior with its actor: `{associated[0].qualified_name}`",
+        )
+    elif r.scope.modifiers_named(name.text):
+        r.report("OSC311", name.span, f"`{name}` is a modifier, not a type")
+    else:
+        known = [text for layer in r.scope.layers() for text in layer.types]
+        r.report(
+            "OSC202",
+            name.span,
+            f"no type `{name}`",
+            help=did_you_mean(name.text, [*known, *PRIMITIVES]) or _missing_library(r),
+        )
+    return None
+
+
+def _missing_library(r: Resolution) -> str | None:
+    if r.scope.parent is not None and r.scope.parent.types:
+        return None
+    return "the standard library is not imported: `import osc.standard.all`"
+
+
+def choose(r: Resolution, candidates: Sequence[S], name: ast.Name, context: Context) -> S | None:
+    """Return the candidate that a name means here; report why if there are some but none fits."""
+    selected = r.scope.select(candidates, name, context)
+    if len(selected) == 1:
+        return selected[0]
+    if selected:
+        homes = ", ".join(f"`{s.namespace}::{s.name}`" for s in selected)
+        r.report(
+            "OSC204",
+            name.span,
+            f"`{name}` is ambiguous",
+            help=f"write one of {homes}",
+            labels=[label for s in selected for label in declared_here(s)],
+        )
+    elif candidates:
+        found = candidates[0]
+        r.report(
+            "OSC215",
+            name.span,
+            f"`{name}` is not visible here: it lives in namespace `{found.namespace}`",
+            help=f"write `{found.namespace}::{found.name}`, or `use {found.namespace}` in the "
+            "`namespace` statement",
+        )
+    return None
+
+
+def resolve_actor_name(r: Resolution, name: ast.Name, context: Context) -> ActorSymbol | None:
+    """Return the actor type before the dot of a behavior name."""
+    symbol = resolve_type_name(r, name, context)
+    if symbol is None or isinstance(symbol, ActorSymbol):
+        return symbol
+    r.report(
+        "OSC301",
+        name.span,
+        f"`{name}` is not an actor type",
+        labels=declared_here(symbol),
+    )
+    return None
+
+
+def resolve_behavior_name(
+    r: Resolution, name: ast.BehaviorName, context: Context
+) -> CallableBehavior | None:
+    """Return the scenario or action that `[actor.]name` stands for."""
+    if name.actor is None:
+        symbol = resolve_type_name(r, name.name, context)
+        if symbol is None or isinstance(symbol, ScenarioSymbol | ActionSymbol):
+            return symbol
+        r.report("OSC211", name.span, f"`{name}` is not a scenario or action")
+        return None
+    actor = resolve_actor_name(r, name.actor, context)
+    if actor is None:
+        return None
+    behavior = find_behavior(r, actor, name.name, context)
+    if behavior is None:
+        report_unknown_behavior(r, actor, name.name)
+    else:
+        r.references[name.name] = behavior
+    return behavior
+
+
+def find_behavior(
+    r: Resolution, actor: ActorSymbol, name: ast.Name, context: Context
+) -> CallableBehavior | None:
+    """Return the behavior of that name of an actor type, the nearest in its ancestry."""
+    fitting = [
+        b
+        for b in r.scope.behaviors_named(name.text)
+        if b.actor is not None and is_subtype(actor, b.actor)
+    ]
+    visible = r.scope.select(fitting, name, context)
+    best: CallableBehavior | None = None
+    for behavior in visible or fitting:
+        if best is None or _is_nearer(behavior, best):
+            best = behavior
+    return best
+
+
+def _is_nearer(behavior: CallableBehavior, other: CallableBehavior) -> bool:
+    return (
+        behavior.actor is not None
+        and other.actor is not None
+        and behavior.actor is not other.actor
+        and is_subtype(behavior.actor, other.actor)
+    )
+
+
+def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -> None:
+    """Report that an actor type has no behavior of that name, with what comes near."""
+    elsewhere = [b for b in r.scope.behaviors_named(name.text) if b.actor is not None]
+    hint = PRELUDE_BEHAVIORS.get(name.text)
+    if elsewhere:
+        owner = elsewhere[0].actor
+        kind = "action" if isinstance(elsewhere[0], ActionSymbol) else "scenario"
+        r.report(
+            "OSC211",
+            name.span,
+            f"`{actor.name}` has no {kind} `{name}`; it belongs to `{owner.name if owner else ''}`",
+            labels=declared_here(elsewhere[0]),
+        )
+    elif hint is not None:
+        r.report(
+            "OSC211",
+            name.span,
+            f"`{actor.name}` has no action `{name}` in the standard library",
+            notes=[f"{hint.instead}; dialect `{hint.dialect}` has it"],
+            help=f"check with `--dialect {hint.dialect}`",
+        )
+    else:
+        known = {
+            b.name
+            for layer in r.scope.layers()
+            for group in layer.behaviors.values()
+            for b in group
+            if b.actor is not None and is_subtype(actor, b.actor)
+        }
+        r.report(
+            "OSC211",
+            name.span,
+            f"`{actor.name}` has no behavior `{name}`",
+            help=did_you_mean(name.text, known),
+        )

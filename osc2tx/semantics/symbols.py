@@ -1,0 +1,201 @@
+"""Symbols: the named things of a program.
+
+The definition pass makes them; the resolution pass fills `type`, `base` and the like. After
+that nobody writes to a symbol any more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from osc2tx.diagnostics import Span
+from osc2tx.semantics.types import DIMENSIONLESS, ERROR, Dimension, Type
+from osc2tx.syntax import ast
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Symbol:
+    """A named thing.
+
+    Attributes:
+        name: Simple name.
+        namespace: Namespace it was defined in; `"null"` for the null namespace.
+        span: Where its name is declared.
+        origin: `"user"`, `"library"` or `"prelude"` (of a dialect).
+    """
+
+    name: str
+    namespace: str
+    span: Span
+    origin: str = "user"
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class UnitSymbol(Symbol):
+    """A unit: `si = value * factor + offset`."""
+
+    type: Type = ERROR
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class PhysicalTypeSymbol(Symbol):
+    """A physical type."""
+
+    dimension: Dimension = DIMENSIONLESS
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class EnumMemberSymbol(Symbol):
+    """A member of an enum with its value."""
+
+    enum: EnumSymbol
+    value: int
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class EnumSymbol(Symbol):
+    """An enum; members in order, extensions included."""
+
+    members: dict[str, EnumMemberSymbol] = field(default_factory=dict)
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class ParameterSymbol(Symbol):
+    """A formal parameter of a method or event."""
+
+    type: Type = ERROR
+    default: ast.Expression | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class FieldSymbol(Symbol):
+    """A field: of a structured type, of a modifier (then it is a parameter), or global.
+
+    Attributes:
+        owner: The type that declares it; `None` for a global parameter.
+        is_variable: Declared with `var`.
+        default: Its default value or sample.
+        node: The declaration; `None` for built-in fields such as `duration` and `actor`.
+        constraints: The `keep`s of its `with` block.
+    """
+
+    owner: MemberOwner | None
+    type: Type = ERROR
+    is_variable: bool = False
+    default: ast.Expression | ast.SampleExpression | None = None
+    node: ast.ParameterDeclaration | ast.VariableDeclaration | None = None
+    constraints: tuple[ast.KeepConstraint, ...] = ()
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class EventSymbol(Symbol):
+    """An event; `is_implicit` if a dialect let it be used without declaration."""
+
+    owner: MemberOwner | None
+    parameters: tuple[ParameterSymbol, ...] = ()
+    node: ast.EventDeclaration | None = None
+    is_implicit: bool = False
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class MethodSymbol(Symbol):
+    """A method of a structured or primitive type, or a built-in operator of lists and ranges."""
+
+    owner: MemberOwner | None
+    parameters: tuple[ParameterSymbol, ...] = ()
+    result: Type = ERROR
+    node: ast.MethodDeclaration | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class LabelSymbol(Symbol):
+    """A label in a `do` tree; its type is that of the labelled member."""
+
+    owner: MemberOwner
+    node: ast.BehaviorMember
+    type: Type = ERROR
+
+
+Member: TypeAlias = FieldSymbol | EventSymbol | MethodSymbol | LabelSymbol
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class TypeSymbol(Symbol):
+    """What structs, actors, behaviors and modifiers have in common.
+
+    Attributes:
+        members: Own members by name, those of extensions included.
+        statements: Own member statements in source order, those of extensions at the end.
+    """
+
+    members: dict[str, Member] = field(default_factory=dict)
+    statements: list[ast.Statement] = field(default_factory=list)
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class StructSymbol(TypeSymbol):
+    """A struct."""
+
+    base: StructSymbol | None = None
+    condition: ast.InheritanceCondition | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class ActorSymbol(TypeSymbol):
+    """An actor type."""
+
+    base: ActorSymbol | None = None
+    condition: ast.InheritanceCondition | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class BehaviorSymbol(TypeSymbol):
+    """A scenario, action or modifier, with the actor type it is associated with."""
+
+    actor: ActorSymbol | None = None
+
+    @property
+    def qualified_name(self) -> str:
+        """`vehicle.drive`, or the simple name without an actor."""
+        return f"{self.actor.name}.{self.name}" if self.actor else self.name
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class ScenarioSymbol(BehaviorSymbol):
+    """A scenario."""
+
+    node: ast.ScenarioDeclaration
+    base: ScenarioSymbol | None = None
+    condition: ast.InheritanceCondition | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class ActionSymbol(BehaviorSymbol):
+    """An action."""
+
+    node: ast.ActionDeclaration
+    base: ActionSymbol | None = None
+    condition: ast.InheritanceCondition | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class ModifierSymbol(BehaviorSymbol):
+    """A modifier; its fields are its parameters.
+
+    Attributes:
+        target: The behavior it may be applied to (`of …`); `None` for any.
+    """
+
+    node: ast.ModifierDeclaration
+    target: ScenarioSymbol | ActionSymbol | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class PrimitiveSymbol(TypeSymbol):
+    """A primitive type with the methods that extensions gave it (2.2)."""
+
+
+MemberOwner: TypeAlias = TypeSymbol

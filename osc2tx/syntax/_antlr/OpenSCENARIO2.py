@@ -1,0 +1,4738 @@
+# encoding: utf-8
+from antlr4 import *
+from io import StringIO
+import sys
+if sys.version_info[1] > 5:
+	from typing import TextIO
+else:
+	from typing.io import TextIO
+
+def serializedATN():
+    return [
+        4,1,84,695,2,0,7,0,2,1,7,1,2,2,7,2,2,3,7,3,2,4,7,4,2,5,7,5,2,6,7,
+        6,2,7,7,7,2,8,7,8,2,9,7,9,2,10,7,10,2,11,7,11,2,12,7,12,2,13,7,13,
+        2,14,7,14,2,15,7,15,2,16,7,16,2,17,7,17,2,18,7,18,2,19,7,19,2,20,
+        7,20,2,21,7,21,2,22,7,22,2,23,7,23,2,24,7,24,2,25,7,25,2,26,7,26,
+        2,27,7,27,2,28,7,28,2,29,7,29,2,30,7,30,2,31,7,31,2,32,7,32,2,33,
+        7,33,2,34,7,34,2,35,7,35,2,36,7,36,2,37,7,37,2,38,7,38,2,39,7,39,
+        2,40,7,40,2,41,7,41,2,42,7,42,2,43,7,43,2,44,7,44,2,45,7,45,2,46,
+        7,46,2,47,7,47,2,48,7,48,2,49,7,49,1,0,3,0,102,8,0,1,0,5,0,105,8,
+        0,10,0,12,0,108,9,0,1,0,1,0,1,1,1,1,5,1,114,8,1,10,1,12,1,117,9,
+        1,1,1,1,1,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,
+        2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,1,2,3,2,149,
+        8,2,1,3,3,3,152,8,3,1,3,1,3,3,3,156,8,3,1,4,1,4,3,4,160,8,4,1,4,
+        1,4,3,4,164,8,4,1,4,3,4,167,8,4,1,5,1,5,1,5,3,5,172,8,5,1,5,1,5,
+        3,5,176,8,5,1,6,1,6,1,6,5,6,181,8,6,10,6,12,6,184,9,6,1,7,1,7,1,
+        7,1,7,1,7,1,7,5,7,192,8,7,10,7,12,7,195,9,7,3,7,197,8,7,1,7,1,7,
+        3,7,201,8,7,1,8,1,8,1,8,1,8,5,8,207,8,8,10,8,12,8,210,9,8,1,8,1,
+        8,3,8,214,8,8,1,9,1,9,1,9,1,9,5,9,220,8,9,10,9,12,9,223,9,9,1,9,
+        1,9,3,9,227,8,9,1,10,1,10,1,11,1,11,1,11,1,12,1,12,5,12,236,8,12,
+        10,12,12,12,239,9,12,1,12,1,12,1,13,1,13,1,13,3,13,246,8,13,1,14,
+        1,14,1,14,1,14,1,14,1,14,3,14,254,8,14,1,15,1,15,1,15,1,15,1,15,
+        1,15,1,15,1,15,3,15,264,8,15,1,16,1,16,1,16,3,16,269,8,16,1,16,1,
+        16,1,17,1,17,1,17,1,17,1,17,1,17,3,17,279,8,17,1,18,1,18,1,18,1,
+        18,5,18,285,8,18,10,18,12,18,288,9,18,1,18,1,18,1,19,1,19,1,19,3,
+        19,295,8,19,1,20,1,20,1,20,3,20,300,8,20,1,20,1,20,1,21,1,21,1,21,
+        3,21,307,8,21,1,21,1,21,1,22,1,22,1,22,3,22,314,8,22,1,22,1,22,1,
+        23,1,23,1,23,3,23,321,8,23,1,23,1,23,1,24,1,24,1,24,1,24,3,24,329,
+        8,24,1,24,1,24,1,25,1,25,1,25,1,25,1,25,1,25,3,25,339,8,25,1,26,
+        1,26,1,26,3,26,344,8,26,1,26,3,26,347,8,26,1,26,1,26,3,26,351,8,
+        26,1,27,1,27,1,27,1,27,3,27,357,8,27,1,27,3,27,360,8,27,1,27,1,27,
+        3,27,364,8,27,1,27,1,27,3,27,368,8,27,1,28,1,28,1,28,5,28,373,8,
+        28,10,28,12,28,376,9,28,1,29,1,29,1,29,1,29,1,29,3,29,383,8,29,1,
+        30,3,30,386,8,30,1,30,1,30,1,30,3,30,391,8,30,1,30,1,30,3,30,395,
+        8,30,1,31,1,31,1,31,1,31,5,31,401,8,31,10,31,12,31,404,9,31,1,31,
+        1,31,1,31,1,31,1,31,3,31,411,8,31,3,31,413,8,31,1,31,1,31,1,32,1,
+        32,1,32,1,32,1,32,1,32,1,32,3,32,424,8,32,1,32,1,32,1,33,1,33,1,
+        33,1,33,3,33,432,8,33,1,33,1,33,1,33,3,33,437,8,33,1,33,1,33,3,33,
+        441,8,33,1,33,1,33,1,33,1,33,1,33,1,33,1,33,3,33,450,8,33,1,33,1,
+        33,3,33,454,8,33,1,33,1,33,3,33,458,8,33,1,34,1,34,1,34,3,34,463,
+        8,34,1,34,1,34,1,34,1,34,3,34,469,8,34,1,35,1,35,1,35,1,35,1,35,
+        1,35,3,35,477,8,35,1,36,1,36,1,36,3,36,482,8,36,1,36,1,36,1,36,3,
+        36,487,8,36,1,37,1,37,1,37,5,37,492,8,37,10,37,12,37,495,9,37,1,
+        37,1,37,1,37,1,37,1,37,1,37,3,37,503,8,37,1,37,3,37,506,8,37,1,38,
+        1,38,4,38,510,8,38,11,38,12,38,511,1,38,1,38,3,38,516,8,38,1,38,
+        1,38,3,38,520,8,38,1,38,1,38,1,39,1,39,1,39,3,39,527,8,39,1,39,3,
+        39,530,8,39,3,39,532,8,39,1,40,1,40,1,40,1,40,1,41,1,41,1,41,1,41,
+        3,41,542,8,41,1,41,3,41,545,8,41,1,41,1,41,1,41,1,41,1,41,3,41,552,
+        8,41,1,42,1,42,1,42,3,42,557,8,42,1,42,3,42,560,8,42,1,42,3,42,563,
+        8,42,1,42,1,42,3,42,567,8,42,1,42,3,42,570,8,42,1,43,1,43,1,43,1,
+        43,3,43,576,8,43,1,44,1,44,1,44,1,44,3,44,582,8,44,1,45,1,45,1,45,
+        1,45,3,45,588,8,45,1,46,1,46,1,46,1,46,3,46,594,8,46,1,47,5,47,597,
+        8,47,10,47,12,47,600,9,47,1,47,1,47,1,47,1,47,1,47,1,47,3,47,608,
+        8,47,1,47,1,47,1,47,1,47,1,47,1,47,1,47,3,47,617,8,47,1,47,1,47,
+        1,47,1,47,1,47,1,47,1,47,1,47,3,47,627,8,47,1,47,1,47,1,47,5,47,
+        632,8,47,10,47,12,47,635,9,47,1,47,1,47,1,47,1,47,1,47,1,47,3,47,
+        643,8,47,5,47,645,8,47,10,47,12,47,648,9,47,1,47,1,47,1,47,1,47,
+        1,47,3,47,655,8,47,1,48,1,48,1,48,1,48,1,48,1,48,1,48,1,48,1,48,
+        1,48,5,48,667,8,48,10,48,12,48,670,9,48,3,48,672,8,48,3,48,674,8,
+        48,1,48,3,48,677,8,48,1,49,1,49,1,49,3,49,682,8,49,1,49,1,49,1,49,
+        1,49,3,49,688,8,49,5,49,690,8,49,10,49,12,49,693,9,49,1,49,0,0,50,
+        0,2,4,6,8,10,12,14,16,18,20,22,24,26,28,30,32,34,36,38,40,42,44,
+        46,48,50,52,54,56,58,60,62,64,66,68,70,72,74,76,78,80,82,84,86,88,
+        90,92,94,96,98,0,8,3,0,4,4,9,9,82,82,1,0,41,42,1,0,34,35,1,0,32,
+        33,1,0,45,47,2,0,57,57,80,81,2,0,26,26,53,53,3,0,55,56,58,58,73,
+        84,786,0,101,1,0,0,0,2,111,1,0,0,0,4,148,1,0,0,0,6,151,1,0,0,0,8,
+        157,1,0,0,0,10,168,1,0,0,0,12,177,1,0,0,0,14,185,1,0,0,0,16,202,
+        1,0,0,0,18,215,1,0,0,0,20,228,1,0,0,0,22,230,1,0,0,0,24,237,1,0,
+        0,0,26,242,1,0,0,0,28,247,1,0,0,0,30,255,1,0,0,0,32,265,1,0,0,0,
+        34,272,1,0,0,0,36,280,1,0,0,0,38,291,1,0,0,0,40,296,1,0,0,0,42,303,
+        1,0,0,0,44,310,1,0,0,0,46,317,1,0,0,0,48,324,1,0,0,0,50,332,1,0,
+        0,0,52,340,1,0,0,0,54,352,1,0,0,0,56,369,1,0,0,0,58,377,1,0,0,0,
+        60,385,1,0,0,0,62,396,1,0,0,0,64,416,1,0,0,0,66,427,1,0,0,0,68,459,
+        1,0,0,0,70,470,1,0,0,0,72,478,1,0,0,0,74,488,1,0,0,0,76,515,1,0,
+        0,0,78,531,1,0,0,0,80,533,1,0,0,0,82,537,1,0,0,0,84,553,1,0,0,0,
+        86,571,1,0,0,0,88,577,1,0,0,0,90,583,1,0,0,0,92,589,1,0,0,0,94,598,
+        1,0,0,0,96,676,1,0,0,0,98,678,1,0,0,0,100,102,3,2,1,0,101,100,1,
+        0,0,0,101,102,1,0,0,0,102,106,1,0,0,0,103,105,3,4,2,0,104,103,1,
+        0,0,0,105,108,1,0,0,0,106,104,1,0,0,0,106,107,1,0,0,0,107,109,1,
+        0,0,0,108,106,1,0,0,0,109,110,5,0,0,1,110,1,1,0,0,0,111,115,5,2,
+        0,0,112,114,3,4,2,0,113,112,1,0,0,0,114,117,1,0,0,0,115,113,1,0,
+        0,0,115,116,1,0,0,0,116,118,1,0,0,0,117,115,1,0,0,0,118,119,5,3,
+        0,0,119,3,1,0,0,0,120,149,3,74,37,0,121,149,3,84,42,0,122,149,3,
+        86,43,0,123,149,3,68,34,0,124,149,3,62,31,0,125,149,3,54,27,0,126,
+        149,3,66,33,0,127,149,3,88,44,0,128,149,3,90,45,0,129,149,3,92,46,
+        0,130,149,3,80,40,0,131,149,3,82,41,0,132,149,3,40,20,0,133,149,
+        3,42,21,0,134,149,3,44,22,0,135,149,3,46,23,0,136,149,3,48,24,0,
+        137,149,3,34,17,0,138,149,3,30,15,0,139,149,3,28,14,0,140,149,3,
+        52,26,0,141,149,3,22,11,0,142,149,3,70,35,0,143,149,3,72,36,0,144,
+        149,3,10,5,0,145,149,3,14,7,0,146,149,3,16,8,0,147,149,3,18,9,0,
+        148,120,1,0,0,0,148,121,1,0,0,0,148,122,1,0,0,0,148,123,1,0,0,0,
+        148,124,1,0,0,0,148,125,1,0,0,0,148,126,1,0,0,0,148,127,1,0,0,0,
+        148,128,1,0,0,0,148,129,1,0,0,0,148,130,1,0,0,0,148,131,1,0,0,0,
+        148,132,1,0,0,0,148,133,1,0,0,0,148,134,1,0,0,0,148,135,1,0,0,0,
+        148,136,1,0,0,0,148,137,1,0,0,0,148,138,1,0,0,0,148,139,1,0,0,0,
+        148,140,1,0,0,0,148,141,1,0,0,0,148,142,1,0,0,0,148,143,1,0,0,0,
+        148,144,1,0,0,0,148,145,1,0,0,0,148,146,1,0,0,0,148,147,1,0,0,0,
+        149,5,1,0,0,0,150,152,5,59,0,0,151,150,1,0,0,0,151,152,1,0,0,0,152,
+        153,1,0,0,0,153,155,5,1,0,0,154,156,3,2,1,0,155,154,1,0,0,0,155,
+        156,1,0,0,0,156,7,1,0,0,0,157,159,5,52,0,0,158,160,5,59,0,0,159,
+        158,1,0,0,0,159,160,1,0,0,0,160,166,1,0,0,0,161,163,5,1,0,0,162,
+        164,3,2,1,0,163,162,1,0,0,0,163,164,1,0,0,0,164,167,1,0,0,0,165,
+        167,3,4,2,0,166,161,1,0,0,0,166,165,1,0,0,0,167,9,1,0,0,0,168,171,
+        5,10,0,0,169,172,5,8,0,0,170,172,3,12,6,0,171,169,1,0,0,0,171,170,
+        1,0,0,0,172,173,1,0,0,0,173,175,5,1,0,0,174,176,3,2,1,0,175,174,
+        1,0,0,0,175,176,1,0,0,0,176,11,1,0,0,0,177,182,5,4,0,0,178,179,5,
+        61,0,0,179,181,5,4,0,0,180,178,1,0,0,0,181,184,1,0,0,0,182,180,1,
+        0,0,0,182,183,1,0,0,0,183,13,1,0,0,0,184,182,1,0,0,0,185,186,5,11,
+        0,0,186,196,5,4,0,0,187,188,5,12,0,0,188,193,3,12,6,0,189,190,5,
+        60,0,0,190,192,3,12,6,0,191,189,1,0,0,0,192,195,1,0,0,0,193,191,
+        1,0,0,0,193,194,1,0,0,0,194,197,1,0,0,0,195,193,1,0,0,0,196,187,
+        1,0,0,0,196,197,1,0,0,0,197,198,1,0,0,0,198,200,5,1,0,0,199,201,
+        3,2,1,0,200,199,1,0,0,0,200,201,1,0,0,0,201,15,1,0,0,0,202,203,5,
+        12,0,0,203,208,3,12,6,0,204,205,5,60,0,0,205,207,3,12,6,0,206,204,
+        1,0,0,0,207,210,1,0,0,0,208,206,1,0,0,0,208,209,1,0,0,0,209,211,
+        1,0,0,0,210,208,1,0,0,0,211,213,5,1,0,0,212,214,3,2,1,0,213,212,
+        1,0,0,0,213,214,1,0,0,0,214,17,1,0,0,0,215,216,5,13,0,0,216,221,
+        3,20,10,0,217,218,5,60,0,0,218,220,3,20,10,0,219,217,1,0,0,0,220,
+        223,1,0,0,0,221,219,1,0,0,0,221,222,1,0,0,0,222,224,1,0,0,0,223,
+        221,1,0,0,0,224,226,5,1,0,0,225,227,3,2,1,0,226,225,1,0,0,0,226,
+        227,1,0,0,0,227,19,1,0,0,0,228,229,7,0,0,0,229,21,1,0,0,0,230,231,
+        5,23,0,0,231,232,3,74,37,0,232,23,1,0,0,0,233,234,7,1,0,0,234,236,
+        5,25,0,0,235,233,1,0,0,0,236,239,1,0,0,0,237,235,1,0,0,0,237,238,
+        1,0,0,0,238,240,1,0,0,0,239,237,1,0,0,0,240,241,3,26,13,0,241,25,
+        1,0,0,0,242,245,5,4,0,0,243,244,5,61,0,0,244,246,5,4,0,0,245,243,
+        1,0,0,0,245,246,1,0,0,0,246,27,1,0,0,0,247,248,5,14,0,0,248,249,
+        5,4,0,0,249,250,5,26,0,0,250,251,3,32,16,0,251,253,5,1,0,0,252,254,
+        3,2,1,0,253,252,1,0,0,0,253,254,1,0,0,0,254,29,1,0,0,0,255,256,5,
+        15,0,0,256,257,5,4,0,0,257,258,5,25,0,0,258,259,5,4,0,0,259,260,
+        5,26,0,0,260,261,3,32,16,0,261,263,5,1,0,0,262,264,3,2,1,0,263,262,
+        1,0,0,0,263,264,1,0,0,0,264,31,1,0,0,0,265,266,5,4,0,0,266,268,5,
+        69,0,0,267,269,3,98,49,0,268,267,1,0,0,0,268,269,1,0,0,0,269,270,
+        1,0,0,0,270,271,5,70,0,0,271,33,1,0,0,0,272,273,5,16,0,0,273,274,
+        5,4,0,0,274,275,5,59,0,0,275,276,3,36,18,0,276,278,5,1,0,0,277,279,
+        3,2,1,0,278,277,1,0,0,0,278,279,1,0,0,0,279,35,1,0,0,0,280,281,5,
+        71,0,0,281,286,3,38,19,0,282,283,5,60,0,0,283,285,3,38,19,0,284,
+        282,1,0,0,0,285,288,1,0,0,0,286,284,1,0,0,0,286,287,1,0,0,0,287,
+        289,1,0,0,0,288,286,1,0,0,0,289,290,5,72,0,0,290,37,1,0,0,0,291,
+        294,5,4,0,0,292,293,5,63,0,0,293,295,3,94,47,0,294,292,1,0,0,0,294,
+        295,1,0,0,0,295,39,1,0,0,0,296,297,5,17,0,0,297,299,3,26,13,0,298,
+        300,3,50,25,0,299,298,1,0,0,0,299,300,1,0,0,0,300,301,1,0,0,0,301,
+        302,3,6,3,0,302,41,1,0,0,0,303,304,5,18,0,0,304,306,3,26,13,0,305,
+        307,3,50,25,0,306,305,1,0,0,0,306,307,1,0,0,0,307,308,1,0,0,0,308,
+        309,3,6,3,0,309,43,1,0,0,0,310,311,5,19,0,0,311,313,3,26,13,0,312,
+        314,3,50,25,0,313,312,1,0,0,0,313,314,1,0,0,0,314,315,1,0,0,0,315,
+        316,3,6,3,0,316,45,1,0,0,0,317,318,5,20,0,0,318,320,3,26,13,0,319,
+        321,3,50,25,0,320,319,1,0,0,0,320,321,1,0,0,0,321,322,1,0,0,0,322,
+        323,3,6,3,0,323,47,1,0,0,0,324,325,5,21,0,0,325,328,3,26,13,0,326,
+        327,5,25,0,0,327,329,3,26,13,0,328,326,1,0,0,0,328,329,1,0,0,0,329,
+        330,1,0,0,0,330,331,3,6,3,0,331,49,1,0,0,0,332,333,5,24,0,0,333,
+        338,3,26,13,0,334,335,5,69,0,0,335,336,3,94,47,0,336,337,5,70,0,
+        0,337,339,1,0,0,0,338,334,1,0,0,0,338,339,1,0,0,0,339,51,1,0,0,0,
+        340,341,5,22,0,0,341,343,3,26,13,0,342,344,5,59,0,0,343,342,1,0,
+        0,0,343,344,1,0,0,0,344,346,1,0,0,0,345,347,3,36,18,0,346,345,1,
+        0,0,0,346,347,1,0,0,0,347,348,1,0,0,0,348,350,5,1,0,0,349,351,3,
+        2,1,0,350,349,1,0,0,0,350,351,1,0,0,0,351,53,1,0,0,0,352,353,5,27,
+        0,0,353,359,5,4,0,0,354,356,5,69,0,0,355,357,3,56,28,0,356,355,1,
+        0,0,0,356,357,1,0,0,0,357,358,1,0,0,0,358,360,5,70,0,0,359,354,1,
+        0,0,0,359,360,1,0,0,0,360,363,1,0,0,0,361,362,5,26,0,0,362,364,3,
+        60,30,0,363,361,1,0,0,0,363,364,1,0,0,0,364,365,1,0,0,0,365,367,
+        5,1,0,0,366,368,3,2,1,0,367,366,1,0,0,0,367,368,1,0,0,0,368,55,1,
+        0,0,0,369,374,3,58,29,0,370,371,5,60,0,0,371,373,3,58,29,0,372,370,
+        1,0,0,0,373,376,1,0,0,0,374,372,1,0,0,0,374,375,1,0,0,0,375,57,1,
+        0,0,0,376,374,1,0,0,0,377,378,5,4,0,0,378,379,5,59,0,0,379,382,3,
+        24,12,0,380,381,5,63,0,0,381,383,3,94,47,0,382,380,1,0,0,0,382,383,
+        1,0,0,0,383,59,1,0,0,0,384,386,5,64,0,0,385,384,1,0,0,0,385,386,
+        1,0,0,0,386,387,1,0,0,0,387,390,3,94,47,0,388,389,5,53,0,0,389,391,
+        5,4,0,0,390,388,1,0,0,0,390,391,1,0,0,0,391,394,1,0,0,0,392,393,
+        5,54,0,0,393,395,3,94,47,0,394,392,1,0,0,0,394,395,1,0,0,0,395,61,
+        1,0,0,0,396,397,5,28,0,0,397,402,5,4,0,0,398,399,5,60,0,0,399,401,
+        5,4,0,0,400,398,1,0,0,0,401,404,1,0,0,0,402,400,1,0,0,0,402,403,
+        1,0,0,0,403,405,1,0,0,0,404,402,1,0,0,0,405,406,5,59,0,0,406,412,
+        3,24,12,0,407,410,5,63,0,0,408,411,3,64,32,0,409,411,3,94,47,0,410,
+        408,1,0,0,0,410,409,1,0,0,0,411,413,1,0,0,0,412,407,1,0,0,0,412,
+        413,1,0,0,0,413,414,1,0,0,0,414,415,3,78,39,0,415,63,1,0,0,0,416,
+        417,5,40,0,0,417,418,5,69,0,0,418,419,3,94,47,0,419,420,5,60,0,0,
+        420,423,3,60,30,0,421,422,5,60,0,0,422,424,3,94,47,0,423,421,1,0,
+        0,0,423,424,1,0,0,0,424,425,1,0,0,0,425,426,5,70,0,0,426,65,1,0,
+        0,0,427,428,5,29,0,0,428,429,5,4,0,0,429,431,5,69,0,0,430,432,3,
+        56,28,0,431,430,1,0,0,0,431,432,1,0,0,0,432,433,1,0,0,0,433,436,
+        5,70,0,0,434,435,5,65,0,0,435,437,3,24,12,0,436,434,1,0,0,0,436,
+        437,1,0,0,0,437,438,1,0,0,0,438,440,5,26,0,0,439,441,5,36,0,0,440,
+        439,1,0,0,0,440,441,1,0,0,0,441,453,1,0,0,0,442,443,5,37,0,0,443,
+        454,3,94,47,0,444,454,5,38,0,0,445,446,5,39,0,0,446,447,3,12,6,0,
+        447,449,5,69,0,0,448,450,3,98,49,0,449,448,1,0,0,0,449,450,1,0,0,
+        0,450,451,1,0,0,0,451,452,5,70,0,0,452,454,1,0,0,0,453,442,1,0,0,
+        0,453,444,1,0,0,0,453,445,1,0,0,0,454,455,1,0,0,0,455,457,5,1,0,
+        0,456,458,3,2,1,0,457,456,1,0,0,0,457,458,1,0,0,0,458,67,1,0,0,0,
+        459,460,5,30,0,0,460,462,5,69,0,0,461,463,7,2,0,0,462,461,1,0,0,
+        0,462,463,1,0,0,0,463,464,1,0,0,0,464,465,3,94,47,0,465,466,5,70,
+        0,0,466,468,5,1,0,0,467,469,3,2,1,0,468,467,1,0,0,0,468,469,1,0,
+        0,0,469,69,1,0,0,0,470,471,5,31,0,0,471,472,5,69,0,0,472,473,3,94,
+        47,0,473,474,5,70,0,0,474,476,5,1,0,0,475,477,3,2,1,0,476,475,1,
+        0,0,0,476,477,1,0,0,0,477,71,1,0,0,0,478,479,7,3,0,0,479,481,5,69,
+        0,0,480,482,3,98,49,0,481,480,1,0,0,0,481,482,1,0,0,0,482,483,1,
+        0,0,0,483,484,5,70,0,0,484,486,5,1,0,0,485,487,3,2,1,0,486,485,1,
+        0,0,0,486,487,1,0,0,0,487,73,1,0,0,0,488,493,3,94,47,0,489,490,5,
+        60,0,0,490,492,3,94,47,0,491,489,1,0,0,0,492,495,1,0,0,0,493,491,
+        1,0,0,0,493,494,1,0,0,0,494,505,1,0,0,0,495,493,1,0,0,0,496,502,
+        5,59,0,0,497,503,3,84,42,0,498,503,3,86,43,0,499,503,3,88,44,0,500,
+        503,3,90,45,0,501,503,3,76,38,0,502,497,1,0,0,0,502,498,1,0,0,0,
+        502,499,1,0,0,0,502,500,1,0,0,0,502,501,1,0,0,0,503,506,1,0,0,0,
+        504,506,3,78,39,0,505,496,1,0,0,0,505,504,1,0,0,0,506,75,1,0,0,0,
+        507,508,7,1,0,0,508,510,5,25,0,0,509,507,1,0,0,0,510,511,1,0,0,0,
+        511,509,1,0,0,0,511,512,1,0,0,0,512,513,1,0,0,0,513,516,3,26,13,
+        0,514,516,3,94,47,0,515,509,1,0,0,0,515,514,1,0,0,0,516,519,1,0,
+        0,0,517,518,5,63,0,0,518,520,3,94,47,0,519,517,1,0,0,0,519,520,1,
+        0,0,0,520,521,1,0,0,0,521,522,3,78,39,0,522,77,1,0,0,0,523,532,3,
+        8,4,0,524,526,5,1,0,0,525,527,3,2,1,0,526,525,1,0,0,0,526,527,1,
+        0,0,0,527,529,1,0,0,0,528,530,3,8,4,0,529,528,1,0,0,0,529,530,1,
+        0,0,0,530,532,1,0,0,0,531,523,1,0,0,0,531,524,1,0,0,0,532,79,1,0,
+        0,0,533,534,5,44,0,0,534,535,3,60,30,0,535,536,3,6,3,0,536,81,1,
+        0,0,0,537,551,5,43,0,0,538,539,5,59,0,0,539,541,5,1,0,0,540,542,
+        3,2,1,0,541,540,1,0,0,0,541,542,1,0,0,0,542,544,1,0,0,0,543,545,
+        3,8,4,0,544,543,1,0,0,0,544,545,1,0,0,0,545,552,1,0,0,0,546,552,
+        3,84,42,0,547,552,3,86,43,0,548,552,3,88,44,0,549,552,3,90,45,0,
+        550,552,3,74,37,0,551,538,1,0,0,0,551,546,1,0,0,0,551,547,1,0,0,
+        0,551,548,1,0,0,0,551,549,1,0,0,0,551,550,1,0,0,0,552,83,1,0,0,0,
+        553,559,7,4,0,0,554,556,5,69,0,0,555,557,3,98,49,0,556,555,1,0,0,
+        0,556,557,1,0,0,0,557,558,1,0,0,0,558,560,5,70,0,0,559,554,1,0,0,
+        0,559,560,1,0,0,0,560,562,1,0,0,0,561,563,5,59,0,0,562,561,1,0,0,
+        0,562,563,1,0,0,0,563,564,1,0,0,0,564,566,5,1,0,0,565,567,3,2,1,
+        0,566,565,1,0,0,0,566,567,1,0,0,0,567,569,1,0,0,0,568,570,3,8,4,
+        0,569,568,1,0,0,0,569,570,1,0,0,0,570,85,1,0,0,0,571,572,5,48,0,
+        0,572,573,3,60,30,0,573,575,5,1,0,0,574,576,3,2,1,0,575,574,1,0,
+        0,0,575,576,1,0,0,0,576,87,1,0,0,0,577,578,5,49,0,0,578,579,3,94,
+        47,0,579,581,5,1,0,0,580,582,3,2,1,0,581,580,1,0,0,0,581,582,1,0,
+        0,0,582,89,1,0,0,0,583,584,5,50,0,0,584,585,3,94,47,0,585,587,5,
+        1,0,0,586,588,3,2,1,0,587,586,1,0,0,0,587,588,1,0,0,0,588,91,1,0,
+        0,0,589,590,5,51,0,0,590,591,3,60,30,0,591,593,5,1,0,0,592,594,3,
+        2,1,0,593,592,1,0,0,0,593,594,1,0,0,0,594,93,1,0,0,0,595,597,7,5,
+        0,0,596,595,1,0,0,0,597,600,1,0,0,0,598,596,1,0,0,0,598,599,1,0,
+        0,0,599,607,1,0,0,0,600,598,1,0,0,0,601,608,5,4,0,0,602,608,5,5,
+        0,0,603,608,5,6,0,0,604,608,5,7,0,0,605,608,5,8,0,0,606,608,3,96,
+        48,0,607,601,1,0,0,0,607,602,1,0,0,0,607,603,1,0,0,0,607,604,1,0,
+        0,0,607,605,1,0,0,0,607,606,1,0,0,0,608,646,1,0,0,0,609,616,5,61,
+        0,0,610,617,5,4,0,0,611,612,7,6,0,0,612,613,5,69,0,0,613,614,3,24,
+        12,0,614,615,5,70,0,0,615,617,1,0,0,0,616,610,1,0,0,0,616,611,1,
+        0,0,0,617,645,1,0,0,0,618,619,5,67,0,0,619,645,5,4,0,0,620,621,5,
+        71,0,0,621,622,3,94,47,0,622,623,5,72,0,0,623,645,1,0,0,0,624,626,
+        5,69,0,0,625,627,3,98,49,0,626,625,1,0,0,0,626,627,1,0,0,0,627,628,
+        1,0,0,0,628,645,5,70,0,0,629,633,7,7,0,0,630,632,7,5,0,0,631,630,
+        1,0,0,0,632,635,1,0,0,0,633,631,1,0,0,0,633,634,1,0,0,0,634,642,
+        1,0,0,0,635,633,1,0,0,0,636,643,5,4,0,0,637,643,5,5,0,0,638,643,
+        5,6,0,0,639,643,5,7,0,0,640,643,5,8,0,0,641,643,3,96,48,0,642,636,
+        1,0,0,0,642,637,1,0,0,0,642,638,1,0,0,0,642,639,1,0,0,0,642,640,
+        1,0,0,0,642,641,1,0,0,0,643,645,1,0,0,0,644,609,1,0,0,0,644,618,
+        1,0,0,0,644,620,1,0,0,0,644,624,1,0,0,0,644,629,1,0,0,0,645,648,
+        1,0,0,0,646,644,1,0,0,0,646,647,1,0,0,0,647,654,1,0,0,0,648,646,
+        1,0,0,0,649,650,5,66,0,0,650,651,3,94,47,0,651,652,5,59,0,0,652,
+        653,3,94,47,0,653,655,1,0,0,0,654,649,1,0,0,0,654,655,1,0,0,0,655,
+        95,1,0,0,0,656,657,5,69,0,0,657,658,3,94,47,0,658,659,5,70,0,0,659,
+        677,1,0,0,0,660,673,5,71,0,0,661,671,3,94,47,0,662,663,5,62,0,0,
+        663,672,3,94,47,0,664,665,5,60,0,0,665,667,3,94,47,0,666,664,1,0,
+        0,0,667,670,1,0,0,0,668,666,1,0,0,0,668,669,1,0,0,0,669,672,1,0,
+        0,0,670,668,1,0,0,0,671,662,1,0,0,0,671,668,1,0,0,0,672,674,1,0,
+        0,0,673,661,1,0,0,0,673,674,1,0,0,0,674,675,1,0,0,0,675,677,5,72,
+        0,0,676,656,1,0,0,0,676,660,1,0,0,0,677,97,1,0,0,0,678,681,3,94,
+        47,0,679,680,5,59,0,0,680,682,3,94,47,0,681,679,1,0,0,0,681,682,
+        1,0,0,0,682,691,1,0,0,0,683,684,5,60,0,0,684,687,3,94,47,0,685,686,
+        5,59,0,0,686,688,3,94,47,0,687,685,1,0,0,0,687,688,1,0,0,0,688,690,
+        1,0,0,0,689,683,1,0,0,0,690,693,1,0,0,0,691,689,1,0,0,0,691,692,
+        1,0,0,0,692,99,1,0,0,0,693,691,1,0,0,0,97,101,106,115,148,151,155,
+        159,163,166,171,175,182,193,196,200,208,213,221,226,237,245,253,
+        263,268,278,286,294,299,306,313,320,328,338,343,346,350,356,359,
+        363,367,374,382,385,390,394,402,410,412,423,431,436,440,449,453,
+        457,462,468,476,481,486,493,502,505,511,515,519,526,529,531,541,
+        544,551,556,559,562,566,569,575,581,587,593,598,607,616,626,633,
+        642,644,646,654,668,671,673,676,681,687,691
+    ]
+
+class OpenSCENARIO2 ( Parser ):
+
+    grammarFileName = "OpenSCENARIO2.g4"
+
+    atn = ATNDeserializer().deserialize(serializedATN())
+
+    decisionsToDFA = [ DFA(ds, i) for i, ds in enumerate(atn.decisionToState) ]
+
+    sharedContextCache = PredictionContextCache()
+
+    literalNames = [ "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>", 
+                     "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>", 
+                     "<INVALID>", "<INVALID>", "'import'", "'namespace'", 
+                     "'use'", "'export'", "'type'", "'unit'", "'enum'", 
+                     "'struct'", "'actor'", "'scenario'", "'action'", "'modifier'", 
+                     "'extend'", "'global'", "'inherits'", "'of'", "'is'", 
+                     "'event'", "'var'", "'def'", "'keep'", "'remove_default'", 
+                     "'cover'", "'record'", "'default'", "'hard'", "'only'", 
+                     "'expression'", "'undefined'", "'external'", "'sample'", 
+                     "'list'", "'range'", "'do'", "'on'", "'serial'", "'parallel'", 
+                     "'one_of'", "'wait'", "'emit'", "'call'", "'until'", 
+                     "'with'", "'as'", "'if'", "'and'", "'or'", "'not'", 
+                     "'in'", "':'", "','", "'.'", "'..'", "'='", "'@'", 
+                     "'->'", "'?'", "'!'", "'::'", "'('", "')'", "'['", 
+                     "']'", "'=>'", "'=='", "'!='", "'<'", "'<='", "'>'", 
+                     "'>='", "'+'", "'-'", "'*'", "'/'", "'%'" ]
+
+    symbolicNames = [ "<INVALID>", "NEWLINE", "INDENT", "DEDENT", "ID", 
+                      "INTEGER", "FLOAT", "PHYSICAL", "STRING", "NAMESPACE_STAR", 
+                      "IMPORT", "NAMESPACE", "USE", "EXPORT", "TYPE", "UNIT", 
+                      "ENUM", "STRUCT", "ACTOR", "SCENARIO", "ACTION", "MODIFIER", 
+                      "EXTEND", "GLOBAL", "INHERITS", "OF", "IS", "EVENT", 
+                      "VAR", "DEF", "KEEP", "REMOVE_DEFAULT", "COVER", "RECORD", 
+                      "DEFAULT", "HARD", "ONLY", "EXPRESSION", "UNDEFINED", 
+                      "EXTERNAL", "SAMPLE", "LIST", "RANGE", "DO", "ON", 
+                      "SERIAL", "PARALLEL", "ONE_OF", "WAIT", "EMIT", "CALL", 
+                      "UNTIL", "WITH", "AS", "IF", "AND", "OR", "NOT", "IN", 
+                      "COLON", "COMMA", "DOT", "RANGE_DOTS", "ASSIGN", "AT", 
+                      "ARROW", "QUESTION", "BANG", "DOUBLE_COLON", "LPAREN", 
+                      "RPAREN", "LBRACKET", "RBRACKET", "IMPLIES", "EQUAL", 
+                      "NOT_EQUAL", "LESS", "LESS_EQUAL", "GREATER", "GREATER_EQUAL", 
+                      "PLUS", "MINUS", "STAR", "SLASH", "PERCENT" ]
+
+    RULE_sourceFile = 0
+    RULE_block = 1
+    RULE_statement = 2
+    RULE_body = 3
+    RULE_withBlock = 4
+    RULE_importStatement = 5
+    RULE_dottedName = 6
+    RULE_namespaceStatement = 7
+    RULE_useStatement = 8
+    RULE_exportStatement = 9
+    RULE_exportItem = 10
+    RULE_globalParameter = 11
+    RULE_typeName = 12
+    RULE_behaviorName = 13
+    RULE_physicalTypeDeclaration = 14
+    RULE_unitDeclaration = 15
+    RULE_siUnit = 16
+    RULE_enumDeclaration = 17
+    RULE_enumMembers = 18
+    RULE_enumMember = 19
+    RULE_structDeclaration = 20
+    RULE_actorDeclaration = 21
+    RULE_scenarioDeclaration = 22
+    RULE_actionDeclaration = 23
+    RULE_modifierDeclaration = 24
+    RULE_inheritance = 25
+    RULE_extension = 26
+    RULE_eventDeclaration = 27
+    RULE_parameters = 28
+    RULE_parameter = 29
+    RULE_eventSpecification = 30
+    RULE_variableDeclaration = 31
+    RULE_sampleExpression = 32
+    RULE_methodDeclaration = 33
+    RULE_keepConstraint = 34
+    RULE_removeDefault = 35
+    RULE_coverageDeclaration = 36
+    RULE_nameStatement = 37
+    RULE_typedRest = 38
+    RULE_ending = 39
+    RULE_onDirective = 40
+    RULE_doDirective = 41
+    RULE_composition = 42
+    RULE_waitDirective = 43
+    RULE_emitDirective = 44
+    RULE_callDirective = 45
+    RULE_untilDirective = 46
+    RULE_expression = 47
+    RULE_group = 48
+    RULE_arguments = 49
+
+    ruleNames =  [ "sourceFile", "block", "statement", "body", "withBlock", 
+                   "importStatement", "dottedName", "namespaceStatement", 
+                   "useStatement", "exportStatement", "exportItem", "globalParameter", 
+                   "typeName", "behaviorName", "physicalTypeDeclaration", 
+                   "unitDeclaration", "siUnit", "enumDeclaration", "enumMembers", 
+                   "enumMember", "structDeclaration", "actorDeclaration", 
+                   "scenarioDeclaration", "actionDeclaration", "modifierDeclaration", 
+                   "inheritance", "extension", "eventDeclaration", "parameters", 
+                   "parameter", "eventSpecification", "variableDeclaration", 
+                   "sampleExpression", "methodDeclaration", "keepConstraint", 
+                   "removeDefault", "coverageDeclaration", "nameStatement", 
+                   "typedRest", "ending", "onDirective", "doDirective", 
+                   "composition", "waitDirective", "emitDirective", "callDirective", 
+                   "untilDirective", "expression", "group", "arguments" ]
+
+    EOF = Token.EOF
+    NEWLINE=1
+    INDENT=2
+    DEDENT=3
+    ID=4
+    INTEGER=5
+    FLOAT=6
+    PHYSICAL=7
+    STRING=8
+    NAMESPACE_STAR=9
+    IMPORT=10
+    NAMESPACE=11
+    USE=12
+    EXPORT=13
+    TYPE=14
+    UNIT=15
+    ENUM=16
+    STRUCT=17
+    ACTOR=18
+    SCENARIO=19
+    ACTION=20
+    MODIFIER=21
+    EXTEND=22
+    GLOBAL=23
+    INHERITS=24
+    OF=25
+    IS=26
+    EVENT=27
+    VAR=28
+    DEF=29
+    KEEP=30
+    REMOVE_DEFAULT=31
+    COVER=32
+    RECORD=33
+    DEFAULT=34
+    HARD=35
+    ONLY=36
+    EXPRESSION=37
+    UNDEFINED=38
+    EXTERNAL=39
+    SAMPLE=40
+    LIST=41
+    RANGE=42
+    DO=43
+    ON=44
+    SERIAL=45
+    PARALLEL=46
+    ONE_OF=47
+    WAIT=48
+    EMIT=49
+    CALL=50
+    UNTIL=51
+    WITH=52
+    AS=53
+    IF=54
+    AND=55
+    OR=56
+    NOT=57
+    IN=58
+    COLON=59
+    COMMA=60
+    DOT=61
+    RANGE_DOTS=62
+    ASSIGN=63
+    AT=64
+    ARROW=65
+    QUESTION=66
+    BANG=67
+    DOUBLE_COLON=68
+    LPAREN=69
+    RPAREN=70
+    LBRACKET=71
+    RBRACKET=72
+    IMPLIES=73
+    EQUAL=74
+    NOT_EQUAL=75
+    LESS=76
+    LESS_EQUAL=77
+    GREATER=78
+    GREATER_EQUAL=79
+    PLUS=80
+    MINUS=81
+    STAR=82
+    SLASH=83
+    PERCENT=84
+
+    def __init__(self, input:TokenStream, output:TextIO = sys.stdout):
+        super().__init__(input, output)
+        self.checkVersion("4.13.2")
+        self._interp = ParserATNSimulator(self, self.atn, self.decisionsToDFA, self.sharedContextCache)
+        self._predicates = None
+
+
+
+
+    class SourceFileContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def EOF(self):
+            return self.getToken(OpenSCENARIO2.EOF, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def statement(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.StatementContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.StatementContext,i)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_sourceFile
+
+
+
+
+    def sourceFile(self):
+
+        localctx = OpenSCENARIO2.SourceFileContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 0, self.RULE_sourceFile)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 101
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 100
+                self.block()
+
+
+            self.state = 106
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while (((_la) & ~0x3f) == 0 and ((1 << _la) & 148610008672632304) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                self.state = 103
+                self.statement()
+                self.state = 108
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 109
+            self.match(OpenSCENARIO2.EOF)
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class BlockContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def INDENT(self):
+            return self.getToken(OpenSCENARIO2.INDENT, 0)
+
+        def DEDENT(self):
+            return self.getToken(OpenSCENARIO2.DEDENT, 0)
+
+        def statement(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.StatementContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.StatementContext,i)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_block
+
+
+
+
+    def block(self):
+
+        localctx = OpenSCENARIO2.BlockContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 2, self.RULE_block)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 111
+            self.match(OpenSCENARIO2.INDENT)
+            self.state = 115
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while (((_la) & ~0x3f) == 0 and ((1 << _la) & 148610008672632304) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                self.state = 112
+                self.statement()
+                self.state = 117
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 118
+            self.match(OpenSCENARIO2.DEDENT)
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class StatementContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def nameStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.NameStatementContext,0)
+
+
+        def composition(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CompositionContext,0)
+
+
+        def waitDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.WaitDirectiveContext,0)
+
+
+        def keepConstraint(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.KeepConstraintContext,0)
+
+
+        def variableDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.VariableDeclarationContext,0)
+
+
+        def eventDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EventDeclarationContext,0)
+
+
+        def methodDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.MethodDeclarationContext,0)
+
+
+        def emitDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EmitDirectiveContext,0)
+
+
+        def callDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CallDirectiveContext,0)
+
+
+        def untilDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.UntilDirectiveContext,0)
+
+
+        def onDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.OnDirectiveContext,0)
+
+
+        def doDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.DoDirectiveContext,0)
+
+
+        def structDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.StructDeclarationContext,0)
+
+
+        def actorDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ActorDeclarationContext,0)
+
+
+        def scenarioDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ScenarioDeclarationContext,0)
+
+
+        def actionDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ActionDeclarationContext,0)
+
+
+        def modifierDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ModifierDeclarationContext,0)
+
+
+        def enumDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EnumDeclarationContext,0)
+
+
+        def unitDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.UnitDeclarationContext,0)
+
+
+        def physicalTypeDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.PhysicalTypeDeclarationContext,0)
+
+
+        def extension(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExtensionContext,0)
+
+
+        def globalParameter(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.GlobalParameterContext,0)
+
+
+        def removeDefault(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.RemoveDefaultContext,0)
+
+
+        def coverageDeclaration(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CoverageDeclarationContext,0)
+
+
+        def importStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ImportStatementContext,0)
+
+
+        def namespaceStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.NamespaceStatementContext,0)
+
+
+        def useStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.UseStatementContext,0)
+
+
+        def exportStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExportStatementContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_statement
+
+
+
+
+    def statement(self):
+
+        localctx = OpenSCENARIO2.StatementContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 4, self.RULE_statement)
+        try:
+            self.state = 148
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
+                self.enterOuterAlt(localctx, 1)
+                self.state = 120
+                self.nameStatement()
+                pass
+            elif token in [45, 46, 47]:
+                self.enterOuterAlt(localctx, 2)
+                self.state = 121
+                self.composition()
+                pass
+            elif token in [48]:
+                self.enterOuterAlt(localctx, 3)
+                self.state = 122
+                self.waitDirective()
+                pass
+            elif token in [30]:
+                self.enterOuterAlt(localctx, 4)
+                self.state = 123
+                self.keepConstraint()
+                pass
+            elif token in [28]:
+                self.enterOuterAlt(localctx, 5)
+                self.state = 124
+                self.variableDeclaration()
+                pass
+            elif token in [27]:
+                self.enterOuterAlt(localctx, 6)
+                self.state = 125
+                self.eventDeclaration()
+                pass
+            elif token in [29]:
+                self.enterOuterAlt(localctx, 7)
+                self.state = 126
+                self.methodDeclaration()
+                pass
+            elif token in [49]:
+                self.enterOuterAlt(localctx, 8)
+                self.state = 127
+                self.emitDirective()
+                pass
+            elif token in [50]:
+                self.enterOuterAlt(localctx, 9)
+                self.state = 128
+                self.callDirective()
+                pass
+            elif token in [51]:
+                self.enterOuterAlt(localctx, 10)
+                self.state = 129
+                self.untilDirective()
+                pass
+            elif token in [44]:
+                self.enterOuterAlt(localctx, 11)
+                self.state = 130
+                self.onDirective()
+                pass
+            elif token in [43]:
+                self.enterOuterAlt(localctx, 12)
+                self.state = 131
+                self.doDirective()
+                pass
+            elif token in [17]:
+                self.enterOuterAlt(localctx, 13)
+                self.state = 132
+                self.structDeclaration()
+                pass
+            elif token in [18]:
+                self.enterOuterAlt(localctx, 14)
+                self.state = 133
+                self.actorDeclaration()
+                pass
+            elif token in [19]:
+                self.enterOuterAlt(localctx, 15)
+                self.state = 134
+                self.scenarioDeclaration()
+                pass
+            elif token in [20]:
+                self.enterOuterAlt(localctx, 16)
+                self.state = 135
+                self.actionDeclaration()
+                pass
+            elif token in [21]:
+                self.enterOuterAlt(localctx, 17)
+                self.state = 136
+                self.modifierDeclaration()
+                pass
+            elif token in [16]:
+                self.enterOuterAlt(localctx, 18)
+                self.state = 137
+                self.enumDeclaration()
+                pass
+            elif token in [15]:
+                self.enterOuterAlt(localctx, 19)
+                self.state = 138
+                self.unitDeclaration()
+                pass
+            elif token in [14]:
+                self.enterOuterAlt(localctx, 20)
+                self.state = 139
+                self.physicalTypeDeclaration()
+                pass
+            elif token in [22]:
+                self.enterOuterAlt(localctx, 21)
+                self.state = 140
+                self.extension()
+                pass
+            elif token in [23]:
+                self.enterOuterAlt(localctx, 22)
+                self.state = 141
+                self.globalParameter()
+                pass
+            elif token in [31]:
+                self.enterOuterAlt(localctx, 23)
+                self.state = 142
+                self.removeDefault()
+                pass
+            elif token in [32, 33]:
+                self.enterOuterAlt(localctx, 24)
+                self.state = 143
+                self.coverageDeclaration()
+                pass
+            elif token in [10]:
+                self.enterOuterAlt(localctx, 25)
+                self.state = 144
+                self.importStatement()
+                pass
+            elif token in [11]:
+                self.enterOuterAlt(localctx, 26)
+                self.state = 145
+                self.namespaceStatement()
+                pass
+            elif token in [12]:
+                self.enterOuterAlt(localctx, 27)
+                self.state = 146
+                self.useStatement()
+                pass
+            elif token in [13]:
+                self.enterOuterAlt(localctx, 28)
+                self.state = 147
+                self.exportStatement()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class BodyContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_body
+
+
+
+
+    def body(self):
+
+        localctx = OpenSCENARIO2.BodyContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 6, self.RULE_body)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 151
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==59:
+                self.state = 150
+                self.match(OpenSCENARIO2.COLON)
+
+
+            self.state = 153
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 155
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 154
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class WithBlockContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def WITH(self):
+            return self.getToken(OpenSCENARIO2.WITH, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def statement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.StatementContext,0)
+
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_withBlock
+
+
+
+
+    def withBlock(self):
+
+        localctx = OpenSCENARIO2.WithBlockContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 8, self.RULE_withBlock)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 157
+            self.match(OpenSCENARIO2.WITH)
+            self.state = 159
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==59:
+                self.state = 158
+                self.match(OpenSCENARIO2.COLON)
+
+
+            self.state = 166
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [1]:
+                self.state = 161
+                self.match(OpenSCENARIO2.NEWLINE)
+                self.state = 163
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==2:
+                    self.state = 162
+                    self.block()
+
+
+                pass
+            elif token in [4, 5, 6, 7, 8, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 27, 28, 29, 30, 31, 32, 33, 43, 44, 45, 46, 47, 48, 49, 50, 51, 57, 69, 71, 80, 81]:
+                self.state = 165
+                self.statement()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ImportStatementContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def IMPORT(self):
+            return self.getToken(OpenSCENARIO2.IMPORT, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def STRING(self):
+            return self.getToken(OpenSCENARIO2.STRING, 0)
+
+        def dottedName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,0)
+
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_importStatement
+
+
+
+
+    def importStatement(self):
+
+        localctx = OpenSCENARIO2.ImportStatementContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 10, self.RULE_importStatement)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 168
+            self.match(OpenSCENARIO2.IMPORT)
+            self.state = 171
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [8]:
+                self.state = 169
+                self.match(OpenSCENARIO2.STRING)
+                pass
+            elif token in [4]:
+                self.state = 170
+                self.dottedName()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+            self.state = 173
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 175
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 174
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class DottedNameContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.ID)
+            else:
+                return self.getToken(OpenSCENARIO2.ID, i)
+
+        def DOT(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.DOT)
+            else:
+                return self.getToken(OpenSCENARIO2.DOT, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_dottedName
+
+
+
+
+    def dottedName(self):
+
+        localctx = OpenSCENARIO2.DottedNameContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 12, self.RULE_dottedName)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 177
+            self.match(OpenSCENARIO2.ID)
+            self.state = 182
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==61:
+                self.state = 178
+                self.match(OpenSCENARIO2.DOT)
+                self.state = 179
+                self.match(OpenSCENARIO2.ID)
+                self.state = 184
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class NamespaceStatementContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def NAMESPACE(self):
+            return self.getToken(OpenSCENARIO2.NAMESPACE, 0)
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def USE(self):
+            return self.getToken(OpenSCENARIO2.USE, 0)
+
+        def dottedName(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.DottedNameContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,i)
+
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_namespaceStatement
+
+
+
+
+    def namespaceStatement(self):
+
+        localctx = OpenSCENARIO2.NamespaceStatementContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 14, self.RULE_namespaceStatement)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 185
+            self.match(OpenSCENARIO2.NAMESPACE)
+            self.state = 186
+            self.match(OpenSCENARIO2.ID)
+            self.state = 196
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==12:
+                self.state = 187
+                self.match(OpenSCENARIO2.USE)
+                self.state = 188
+                self.dottedName()
+                self.state = 193
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                while _la==60:
+                    self.state = 189
+                    self.match(OpenSCENARIO2.COMMA)
+                    self.state = 190
+                    self.dottedName()
+                    self.state = 195
+                    self._errHandler.sync(self)
+                    _la = self._input.LA(1)
+
+
+
+            self.state = 198
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 200
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 199
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class UseStatementContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def USE(self):
+            return self.getToken(OpenSCENARIO2.USE, 0)
+
+        def dottedName(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.DottedNameContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,i)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_useStatement
+
+
+
+
+    def useStatement(self):
+
+        localctx = OpenSCENARIO2.UseStatementContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 16, self.RULE_useStatement)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 202
+            self.match(OpenSCENARIO2.USE)
+            self.state = 203
+            self.dottedName()
+            self.state = 208
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 204
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 205
+                self.dottedName()
+                self.state = 210
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 211
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 213
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 212
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ExportStatementContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def EXPORT(self):
+            return self.getToken(OpenSCENARIO2.EXPORT, 0)
+
+        def exportItem(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExportItemContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExportItemContext,i)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_exportStatement
+
+
+
+
+    def exportStatement(self):
+
+        localctx = OpenSCENARIO2.ExportStatementContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 18, self.RULE_exportStatement)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 215
+            self.match(OpenSCENARIO2.EXPORT)
+            self.state = 216
+            self.exportItem()
+            self.state = 221
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 217
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 218
+                self.exportItem()
+                self.state = 223
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 224
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 226
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 225
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ExportItemContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def STAR(self):
+            return self.getToken(OpenSCENARIO2.STAR, 0)
+
+        def NAMESPACE_STAR(self):
+            return self.getToken(OpenSCENARIO2.NAMESPACE_STAR, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_exportItem
+
+
+
+
+    def exportItem(self):
+
+        localctx = OpenSCENARIO2.ExportItemContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 20, self.RULE_exportItem)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 228
+            _la = self._input.LA(1)
+            if not(_la==4 or _la==9 or _la==82):
+                self._errHandler.recoverInline(self)
+            else:
+                self._errHandler.reportMatch(self)
+                self.consume()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class GlobalParameterContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def GLOBAL(self):
+            return self.getToken(OpenSCENARIO2.GLOBAL, 0)
+
+        def nameStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.NameStatementContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_globalParameter
+
+
+
+
+    def globalParameter(self):
+
+        localctx = OpenSCENARIO2.GlobalParameterContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 22, self.RULE_globalParameter)
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 230
+            self.match(OpenSCENARIO2.GLOBAL)
+            self.state = 231
+            self.nameStatement()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class TypeNameContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def OF(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.OF)
+            else:
+                return self.getToken(OpenSCENARIO2.OF, i)
+
+        def LIST(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LIST)
+            else:
+                return self.getToken(OpenSCENARIO2.LIST, i)
+
+        def RANGE(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.RANGE)
+            else:
+                return self.getToken(OpenSCENARIO2.RANGE, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_typeName
+
+
+
+
+    def typeName(self):
+
+        localctx = OpenSCENARIO2.TypeNameContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 24, self.RULE_typeName)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 237
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==41 or _la==42:
+                self.state = 233
+                _la = self._input.LA(1)
+                if not(_la==41 or _la==42):
+                    self._errHandler.recoverInline(self)
+                else:
+                    self._errHandler.reportMatch(self)
+                    self.consume()
+                self.state = 234
+                self.match(OpenSCENARIO2.OF)
+                self.state = 239
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 240
+            self.behaviorName()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class BehaviorNameContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.ID)
+            else:
+                return self.getToken(OpenSCENARIO2.ID, i)
+
+        def DOT(self):
+            return self.getToken(OpenSCENARIO2.DOT, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_behaviorName
+
+
+
+
+    def behaviorName(self):
+
+        localctx = OpenSCENARIO2.BehaviorNameContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 26, self.RULE_behaviorName)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 242
+            self.match(OpenSCENARIO2.ID)
+            self.state = 245
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==61:
+                self.state = 243
+                self.match(OpenSCENARIO2.DOT)
+                self.state = 244
+                self.match(OpenSCENARIO2.ID)
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class PhysicalTypeDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def TYPE(self):
+            return self.getToken(OpenSCENARIO2.TYPE, 0)
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def IS(self):
+            return self.getToken(OpenSCENARIO2.IS, 0)
+
+        def siUnit(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.SiUnitContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_physicalTypeDeclaration
+
+
+
+
+    def physicalTypeDeclaration(self):
+
+        localctx = OpenSCENARIO2.PhysicalTypeDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 28, self.RULE_physicalTypeDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 247
+            self.match(OpenSCENARIO2.TYPE)
+            self.state = 248
+            self.match(OpenSCENARIO2.ID)
+            self.state = 249
+            self.match(OpenSCENARIO2.IS)
+            self.state = 250
+            self.siUnit()
+            self.state = 251
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 253
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 252
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class UnitDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def UNIT(self):
+            return self.getToken(OpenSCENARIO2.UNIT, 0)
+
+        def ID(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.ID)
+            else:
+                return self.getToken(OpenSCENARIO2.ID, i)
+
+        def OF(self):
+            return self.getToken(OpenSCENARIO2.OF, 0)
+
+        def IS(self):
+            return self.getToken(OpenSCENARIO2.IS, 0)
+
+        def siUnit(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.SiUnitContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_unitDeclaration
+
+
+
+
+    def unitDeclaration(self):
+
+        localctx = OpenSCENARIO2.UnitDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 30, self.RULE_unitDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 255
+            self.match(OpenSCENARIO2.UNIT)
+            self.state = 256
+            self.match(OpenSCENARIO2.ID)
+            self.state = 257
+            self.match(OpenSCENARIO2.OF)
+            self.state = 258
+            self.match(OpenSCENARIO2.ID)
+            self.state = 259
+            self.match(OpenSCENARIO2.IS)
+            self.state = 260
+            self.siUnit()
+            self.state = 261
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 263
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 262
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class SiUnitContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def arguments(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_siUnit
+
+
+
+
+    def siUnit(self):
+
+        localctx = OpenSCENARIO2.SiUnitContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 32, self.RULE_siUnit)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 265
+            self.match(OpenSCENARIO2.ID)
+            self.state = 266
+            self.match(OpenSCENARIO2.LPAREN)
+            self.state = 268
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                self.state = 267
+                self.arguments()
+
+
+            self.state = 270
+            self.match(OpenSCENARIO2.RPAREN)
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EnumDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ENUM(self):
+            return self.getToken(OpenSCENARIO2.ENUM, 0)
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def enumMembers(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EnumMembersContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_enumDeclaration
+
+
+
+
+    def enumDeclaration(self):
+
+        localctx = OpenSCENARIO2.EnumDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 34, self.RULE_enumDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 272
+            self.match(OpenSCENARIO2.ENUM)
+            self.state = 273
+            self.match(OpenSCENARIO2.ID)
+            self.state = 274
+            self.match(OpenSCENARIO2.COLON)
+            self.state = 275
+            self.enumMembers()
+            self.state = 276
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 278
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 277
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EnumMembersContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def LBRACKET(self):
+            return self.getToken(OpenSCENARIO2.LBRACKET, 0)
+
+        def enumMember(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.EnumMemberContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.EnumMemberContext,i)
+
+
+        def RBRACKET(self):
+            return self.getToken(OpenSCENARIO2.RBRACKET, 0)
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_enumMembers
+
+
+
+
+    def enumMembers(self):
+
+        localctx = OpenSCENARIO2.EnumMembersContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 36, self.RULE_enumMembers)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 280
+            self.match(OpenSCENARIO2.LBRACKET)
+            self.state = 281
+            self.enumMember()
+            self.state = 286
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 282
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 283
+                self.enumMember()
+                self.state = 288
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 289
+            self.match(OpenSCENARIO2.RBRACKET)
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EnumMemberContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def ASSIGN(self):
+            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_enumMember
+
+
+
+
+    def enumMember(self):
+
+        localctx = OpenSCENARIO2.EnumMemberContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 38, self.RULE_enumMember)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 291
+            self.match(OpenSCENARIO2.ID)
+            self.state = 294
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==63:
+                self.state = 292
+                self.match(OpenSCENARIO2.ASSIGN)
+                self.state = 293
+                self.expression()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class StructDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def STRUCT(self):
+            return self.getToken(OpenSCENARIO2.STRUCT, 0)
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def body(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
+
+
+        def inheritance(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_structDeclaration
+
+
+
+
+    def structDeclaration(self):
+
+        localctx = OpenSCENARIO2.StructDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 40, self.RULE_structDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 296
+            self.match(OpenSCENARIO2.STRUCT)
+            self.state = 297
+            self.behaviorName()
+            self.state = 299
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==24:
+                self.state = 298
+                self.inheritance()
+
+
+            self.state = 301
+            self.body()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ActorDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ACTOR(self):
+            return self.getToken(OpenSCENARIO2.ACTOR, 0)
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def body(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
+
+
+        def inheritance(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_actorDeclaration
+
+
+
+
+    def actorDeclaration(self):
+
+        localctx = OpenSCENARIO2.ActorDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 42, self.RULE_actorDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 303
+            self.match(OpenSCENARIO2.ACTOR)
+            self.state = 304
+            self.behaviorName()
+            self.state = 306
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==24:
+                self.state = 305
+                self.inheritance()
+
+
+            self.state = 308
+            self.body()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ScenarioDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def SCENARIO(self):
+            return self.getToken(OpenSCENARIO2.SCENARIO, 0)
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def body(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
+
+
+        def inheritance(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_scenarioDeclaration
+
+
+
+
+    def scenarioDeclaration(self):
+
+        localctx = OpenSCENARIO2.ScenarioDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 44, self.RULE_scenarioDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 310
+            self.match(OpenSCENARIO2.SCENARIO)
+            self.state = 311
+            self.behaviorName()
+            self.state = 313
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==24:
+                self.state = 312
+                self.inheritance()
+
+
+            self.state = 315
+            self.body()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ActionDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ACTION(self):
+            return self.getToken(OpenSCENARIO2.ACTION, 0)
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def body(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
+
+
+        def inheritance(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_actionDeclaration
+
+
+
+
+    def actionDeclaration(self):
+
+        localctx = OpenSCENARIO2.ActionDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 46, self.RULE_actionDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 317
+            self.match(OpenSCENARIO2.ACTION)
+            self.state = 318
+            self.behaviorName()
+            self.state = 320
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==24:
+                self.state = 319
+                self.inheritance()
+
+
+            self.state = 322
+            self.body()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ModifierDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def MODIFIER(self):
+            return self.getToken(OpenSCENARIO2.MODIFIER, 0)
+
+        def behaviorName(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.BehaviorNameContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,i)
+
+
+        def body(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
+
+
+        def OF(self):
+            return self.getToken(OpenSCENARIO2.OF, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_modifierDeclaration
+
+
+
+
+    def modifierDeclaration(self):
+
+        localctx = OpenSCENARIO2.ModifierDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 48, self.RULE_modifierDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 324
+            self.match(OpenSCENARIO2.MODIFIER)
+            self.state = 325
+            self.behaviorName()
+            self.state = 328
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==25:
+                self.state = 326
+                self.match(OpenSCENARIO2.OF)
+                self.state = 327
+                self.behaviorName()
+
+
+            self.state = 330
+            self.body()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class InheritanceContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def INHERITS(self):
+            return self.getToken(OpenSCENARIO2.INHERITS, 0)
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_inheritance
+
+
+
+
+    def inheritance(self):
+
+        localctx = OpenSCENARIO2.InheritanceContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 50, self.RULE_inheritance)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 332
+            self.match(OpenSCENARIO2.INHERITS)
+            self.state = 333
+            self.behaviorName()
+            self.state = 338
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==69:
+                self.state = 334
+                self.match(OpenSCENARIO2.LPAREN)
+                self.state = 335
+                self.expression()
+                self.state = 336
+                self.match(OpenSCENARIO2.RPAREN)
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ExtensionContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def EXTEND(self):
+            return self.getToken(OpenSCENARIO2.EXTEND, 0)
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def enumMembers(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EnumMembersContext,0)
+
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_extension
+
+
+
+
+    def extension(self):
+
+        localctx = OpenSCENARIO2.ExtensionContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 52, self.RULE_extension)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 340
+            self.match(OpenSCENARIO2.EXTEND)
+            self.state = 341
+            self.behaviorName()
+            self.state = 343
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==59:
+                self.state = 342
+                self.match(OpenSCENARIO2.COLON)
+
+
+            self.state = 346
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==71:
+                self.state = 345
+                self.enumMembers()
+
+
+            self.state = 348
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 350
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 349
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EventDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def EVENT(self):
+            return self.getToken(OpenSCENARIO2.EVENT, 0)
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def IS(self):
+            return self.getToken(OpenSCENARIO2.IS, 0)
+
+        def eventSpecification(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
+
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def parameters(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ParametersContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_eventDeclaration
+
+
+
+
+    def eventDeclaration(self):
+
+        localctx = OpenSCENARIO2.EventDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 54, self.RULE_eventDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 352
+            self.match(OpenSCENARIO2.EVENT)
+            self.state = 353
+            self.match(OpenSCENARIO2.ID)
+            self.state = 359
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==69:
+                self.state = 354
+                self.match(OpenSCENARIO2.LPAREN)
+                self.state = 356
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==4:
+                    self.state = 355
+                    self.parameters()
+
+
+                self.state = 358
+                self.match(OpenSCENARIO2.RPAREN)
+
+
+            self.state = 363
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==26:
+                self.state = 361
+                self.match(OpenSCENARIO2.IS)
+                self.state = 362
+                self.eventSpecification()
+
+
+            self.state = 365
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 367
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 366
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ParametersContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def parameter(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ParameterContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ParameterContext,i)
+
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_parameters
+
+
+
+
+    def parameters(self):
+
+        localctx = OpenSCENARIO2.ParametersContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 56, self.RULE_parameters)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 369
+            self.parameter()
+            self.state = 374
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 370
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 371
+                self.parameter()
+                self.state = 376
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ParameterContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def typeName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,0)
+
+
+        def ASSIGN(self):
+            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_parameter
+
+
+
+
+    def parameter(self):
+
+        localctx = OpenSCENARIO2.ParameterContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 58, self.RULE_parameter)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 377
+            self.match(OpenSCENARIO2.ID)
+            self.state = 378
+            self.match(OpenSCENARIO2.COLON)
+            self.state = 379
+            self.typeName()
+            self.state = 382
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==63:
+                self.state = 380
+                self.match(OpenSCENARIO2.ASSIGN)
+                self.state = 381
+                self.expression()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EventSpecificationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def AT(self):
+            return self.getToken(OpenSCENARIO2.AT, 0)
+
+        def AS(self):
+            return self.getToken(OpenSCENARIO2.AS, 0)
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def IF(self):
+            return self.getToken(OpenSCENARIO2.IF, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_eventSpecification
+
+
+
+
+    def eventSpecification(self):
+
+        localctx = OpenSCENARIO2.EventSpecificationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 60, self.RULE_eventSpecification)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 385
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==64:
+                self.state = 384
+                self.match(OpenSCENARIO2.AT)
+
+
+            self.state = 387
+            self.expression()
+            self.state = 390
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==53:
+                self.state = 388
+                self.match(OpenSCENARIO2.AS)
+                self.state = 389
+                self.match(OpenSCENARIO2.ID)
+
+
+            self.state = 394
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==54:
+                self.state = 392
+                self.match(OpenSCENARIO2.IF)
+                self.state = 393
+                self.expression()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class VariableDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def VAR(self):
+            return self.getToken(OpenSCENARIO2.VAR, 0)
+
+        def ID(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.ID)
+            else:
+                return self.getToken(OpenSCENARIO2.ID, i)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def typeName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,0)
+
+
+        def ending(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EndingContext,0)
+
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def ASSIGN(self):
+            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
+
+        def sampleExpression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.SampleExpressionContext,0)
+
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_variableDeclaration
+
+
+
+
+    def variableDeclaration(self):
+
+        localctx = OpenSCENARIO2.VariableDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 62, self.RULE_variableDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 396
+            self.match(OpenSCENARIO2.VAR)
+            self.state = 397
+            self.match(OpenSCENARIO2.ID)
+            self.state = 402
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 398
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 399
+                self.match(OpenSCENARIO2.ID)
+                self.state = 404
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 405
+            self.match(OpenSCENARIO2.COLON)
+            self.state = 406
+            self.typeName()
+            self.state = 412
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==63:
+                self.state = 407
+                self.match(OpenSCENARIO2.ASSIGN)
+                self.state = 410
+                self._errHandler.sync(self)
+                token = self._input.LA(1)
+                if token in [40]:
+                    self.state = 408
+                    self.sampleExpression()
+                    pass
+                elif token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
+                    self.state = 409
+                    self.expression()
+                    pass
+                else:
+                    raise NoViableAltException(self)
+
+
+
+            self.state = 414
+            self.ending()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class SampleExpressionContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def SAMPLE(self):
+            return self.getToken(OpenSCENARIO2.SAMPLE, 0)
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def eventSpecification(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
+
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_sampleExpression
+
+
+
+
+    def sampleExpression(self):
+
+        localctx = OpenSCENARIO2.SampleExpressionContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 64, self.RULE_sampleExpression)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 416
+            self.match(OpenSCENARIO2.SAMPLE)
+            self.state = 417
+            self.match(OpenSCENARIO2.LPAREN)
+            self.state = 418
+            self.expression()
+            self.state = 419
+            self.match(OpenSCENARIO2.COMMA)
+            self.state = 420
+            self.eventSpecification()
+            self.state = 423
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==60:
+                self.state = 421
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 422
+                self.expression()
+
+
+            self.state = 425
+            self.match(OpenSCENARIO2.RPAREN)
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class MethodDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def DEF(self):
+            return self.getToken(OpenSCENARIO2.DEF, 0)
+
+        def ID(self):
+            return self.getToken(OpenSCENARIO2.ID, 0)
+
+        def LPAREN(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LPAREN)
+            else:
+                return self.getToken(OpenSCENARIO2.LPAREN, i)
+
+        def RPAREN(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.RPAREN)
+            else:
+                return self.getToken(OpenSCENARIO2.RPAREN, i)
+
+        def IS(self):
+            return self.getToken(OpenSCENARIO2.IS, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def EXPRESSION(self):
+            return self.getToken(OpenSCENARIO2.EXPRESSION, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def UNDEFINED(self):
+            return self.getToken(OpenSCENARIO2.UNDEFINED, 0)
+
+        def EXTERNAL(self):
+            return self.getToken(OpenSCENARIO2.EXTERNAL, 0)
+
+        def dottedName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,0)
+
+
+        def parameters(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ParametersContext,0)
+
+
+        def ARROW(self):
+            return self.getToken(OpenSCENARIO2.ARROW, 0)
+
+        def typeName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,0)
+
+
+        def ONLY(self):
+            return self.getToken(OpenSCENARIO2.ONLY, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def arguments(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_methodDeclaration
+
+
+
+
+    def methodDeclaration(self):
+
+        localctx = OpenSCENARIO2.MethodDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 66, self.RULE_methodDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 427
+            self.match(OpenSCENARIO2.DEF)
+            self.state = 428
+            self.match(OpenSCENARIO2.ID)
+            self.state = 429
+            self.match(OpenSCENARIO2.LPAREN)
+            self.state = 431
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==4:
+                self.state = 430
+                self.parameters()
+
+
+            self.state = 433
+            self.match(OpenSCENARIO2.RPAREN)
+            self.state = 436
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==65:
+                self.state = 434
+                self.match(OpenSCENARIO2.ARROW)
+                self.state = 435
+                self.typeName()
+
+
+            self.state = 438
+            self.match(OpenSCENARIO2.IS)
+            self.state = 440
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==36:
+                self.state = 439
+                self.match(OpenSCENARIO2.ONLY)
+
+
+            self.state = 453
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [37]:
+                self.state = 442
+                self.match(OpenSCENARIO2.EXPRESSION)
+                self.state = 443
+                self.expression()
+                pass
+            elif token in [38]:
+                self.state = 444
+                self.match(OpenSCENARIO2.UNDEFINED)
+                pass
+            elif token in [39]:
+                self.state = 445
+                self.match(OpenSCENARIO2.EXTERNAL)
+                self.state = 446
+                self.dottedName()
+                self.state = 447
+                self.match(OpenSCENARIO2.LPAREN)
+                self.state = 449
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                    self.state = 448
+                    self.arguments()
+
+
+                self.state = 451
+                self.match(OpenSCENARIO2.RPAREN)
+                pass
+            else:
+                raise NoViableAltException(self)
+
+            self.state = 455
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 457
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 456
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class KeepConstraintContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def KEEP(self):
+            return self.getToken(OpenSCENARIO2.KEEP, 0)
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def DEFAULT(self):
+            return self.getToken(OpenSCENARIO2.DEFAULT, 0)
+
+        def HARD(self):
+            return self.getToken(OpenSCENARIO2.HARD, 0)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_keepConstraint
+
+
+
+
+    def keepConstraint(self):
+
+        localctx = OpenSCENARIO2.KeepConstraintContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 68, self.RULE_keepConstraint)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 459
+            self.match(OpenSCENARIO2.KEEP)
+            self.state = 460
+            self.match(OpenSCENARIO2.LPAREN)
+            self.state = 462
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==34 or _la==35:
+                self.state = 461
+                _la = self._input.LA(1)
+                if not(_la==34 or _la==35):
+                    self._errHandler.recoverInline(self)
+                else:
+                    self._errHandler.reportMatch(self)
+                    self.consume()
+
+
+            self.state = 464
+            self.expression()
+            self.state = 465
+            self.match(OpenSCENARIO2.RPAREN)
+            self.state = 466
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 468
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 467
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class RemoveDefaultContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def REMOVE_DEFAULT(self):
+            return self.getToken(OpenSCENARIO2.REMOVE_DEFAULT, 0)
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_removeDefault
+
+
+
+
+    def removeDefault(self):
+
+        localctx = OpenSCENARIO2.RemoveDefaultContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 70, self.RULE_removeDefault)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 470
+            self.match(OpenSCENARIO2.REMOVE_DEFAULT)
+            self.state = 471
+            self.match(OpenSCENARIO2.LPAREN)
+            self.state = 472
+            self.expression()
+            self.state = 473
+            self.match(OpenSCENARIO2.RPAREN)
+            self.state = 474
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 476
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 475
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class CoverageDeclarationContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def COVER(self):
+            return self.getToken(OpenSCENARIO2.COVER, 0)
+
+        def RECORD(self):
+            return self.getToken(OpenSCENARIO2.RECORD, 0)
+
+        def arguments(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
+
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_coverageDeclaration
+
+
+
+
+    def coverageDeclaration(self):
+
+        localctx = OpenSCENARIO2.CoverageDeclarationContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 72, self.RULE_coverageDeclaration)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 478
+            _la = self._input.LA(1)
+            if not(_la==32 or _la==33):
+                self._errHandler.recoverInline(self)
+            else:
+                self._errHandler.reportMatch(self)
+                self.consume()
+            self.state = 479
+            self.match(OpenSCENARIO2.LPAREN)
+            self.state = 481
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                self.state = 480
+                self.arguments()
+
+
+            self.state = 483
+            self.match(OpenSCENARIO2.RPAREN)
+            self.state = 484
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 486
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 485
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class NameStatementContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def ending(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EndingContext,0)
+
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def composition(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CompositionContext,0)
+
+
+        def waitDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.WaitDirectiveContext,0)
+
+
+        def emitDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EmitDirectiveContext,0)
+
+
+        def callDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CallDirectiveContext,0)
+
+
+        def typedRest(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.TypedRestContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_nameStatement
+
+
+
+
+    def nameStatement(self):
+
+        localctx = OpenSCENARIO2.NameStatementContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 74, self.RULE_nameStatement)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 488
+            self.expression()
+            self.state = 493
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 489
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 490
+                self.expression()
+                self.state = 495
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 505
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [59]:
+                self.state = 496
+                self.match(OpenSCENARIO2.COLON)
+                self.state = 502
+                self._errHandler.sync(self)
+                token = self._input.LA(1)
+                if token in [45, 46, 47]:
+                    self.state = 497
+                    self.composition()
+                    pass
+                elif token in [48]:
+                    self.state = 498
+                    self.waitDirective()
+                    pass
+                elif token in [49]:
+                    self.state = 499
+                    self.emitDirective()
+                    pass
+                elif token in [50]:
+                    self.state = 500
+                    self.callDirective()
+                    pass
+                elif token in [4, 5, 6, 7, 8, 41, 42, 57, 69, 71, 80, 81]:
+                    self.state = 501
+                    self.typedRest()
+                    pass
+                else:
+                    raise NoViableAltException(self)
+
+                pass
+            elif token in [1, 52]:
+                self.state = 504
+                self.ending()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class TypedRestContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ending(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EndingContext,0)
+
+
+        def behaviorName(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
+
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def ASSIGN(self):
+            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
+
+        def OF(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.OF)
+            else:
+                return self.getToken(OpenSCENARIO2.OF, i)
+
+        def LIST(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LIST)
+            else:
+                return self.getToken(OpenSCENARIO2.LIST, i)
+
+        def RANGE(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.RANGE)
+            else:
+                return self.getToken(OpenSCENARIO2.RANGE, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_typedRest
+
+
+
+
+    def typedRest(self):
+
+        localctx = OpenSCENARIO2.TypedRestContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 76, self.RULE_typedRest)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 515
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [41, 42]:
+                self.state = 509 
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                while True:
+                    self.state = 507
+                    _la = self._input.LA(1)
+                    if not(_la==41 or _la==42):
+                        self._errHandler.recoverInline(self)
+                    else:
+                        self._errHandler.reportMatch(self)
+                        self.consume()
+                    self.state = 508
+                    self.match(OpenSCENARIO2.OF)
+                    self.state = 511 
+                    self._errHandler.sync(self)
+                    _la = self._input.LA(1)
+                    if not (_la==41 or _la==42):
+                        break
+
+                self.state = 513
+                self.behaviorName()
+                pass
+            elif token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
+                self.state = 514
+                self.expression()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+            self.state = 519
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==63:
+                self.state = 517
+                self.match(OpenSCENARIO2.ASSIGN)
+                self.state = 518
+                self.expression()
+
+
+            self.state = 521
+            self.ending()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EndingContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def withBlock(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.WithBlockContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_ending
+
+
+
+
+    def ending(self):
+
+        localctx = OpenSCENARIO2.EndingContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 78, self.RULE_ending)
+        self._la = 0 # Token type
+        try:
+            self.state = 531
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [52]:
+                self.enterOuterAlt(localctx, 1)
+                self.state = 523
+                self.withBlock()
+                pass
+            elif token in [1]:
+                self.enterOuterAlt(localctx, 2)
+                self.state = 524
+                self.match(OpenSCENARIO2.NEWLINE)
+                self.state = 526
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==2:
+                    self.state = 525
+                    self.block()
+
+
+                self.state = 529
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==52:
+                    self.state = 528
+                    self.withBlock()
+
+
+                pass
+            else:
+                raise NoViableAltException(self)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class OnDirectiveContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ON(self):
+            return self.getToken(OpenSCENARIO2.ON, 0)
+
+        def eventSpecification(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
+
+
+        def body(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_onDirective
+
+
+
+
+    def onDirective(self):
+
+        localctx = OpenSCENARIO2.OnDirectiveContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 80, self.RULE_onDirective)
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 533
+            self.match(OpenSCENARIO2.ON)
+            self.state = 534
+            self.eventSpecification()
+            self.state = 535
+            self.body()
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class DoDirectiveContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def DO(self):
+            return self.getToken(OpenSCENARIO2.DO, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def composition(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CompositionContext,0)
+
+
+        def waitDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.WaitDirectiveContext,0)
+
+
+        def emitDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EmitDirectiveContext,0)
+
+
+        def callDirective(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.CallDirectiveContext,0)
+
+
+        def nameStatement(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.NameStatementContext,0)
+
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def withBlock(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.WithBlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_doDirective
+
+
+
+
+    def doDirective(self):
+
+        localctx = OpenSCENARIO2.DoDirectiveContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 82, self.RULE_doDirective)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 537
+            self.match(OpenSCENARIO2.DO)
+            self.state = 551
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [59]:
+                self.state = 538
+                self.match(OpenSCENARIO2.COLON)
+                self.state = 539
+                self.match(OpenSCENARIO2.NEWLINE)
+                self.state = 541
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==2:
+                    self.state = 540
+                    self.block()
+
+
+                self.state = 544
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==52:
+                    self.state = 543
+                    self.withBlock()
+
+
+                pass
+            elif token in [45, 46, 47]:
+                self.state = 546
+                self.composition()
+                pass
+            elif token in [48]:
+                self.state = 547
+                self.waitDirective()
+                pass
+            elif token in [49]:
+                self.state = 548
+                self.emitDirective()
+                pass
+            elif token in [50]:
+                self.state = 549
+                self.callDirective()
+                pass
+            elif token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
+                self.state = 550
+                self.nameStatement()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class CompositionContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def SERIAL(self):
+            return self.getToken(OpenSCENARIO2.SERIAL, 0)
+
+        def PARALLEL(self):
+            return self.getToken(OpenSCENARIO2.PARALLEL, 0)
+
+        def ONE_OF(self):
+            return self.getToken(OpenSCENARIO2.ONE_OF, 0)
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def withBlock(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.WithBlockContext,0)
+
+
+        def arguments(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_composition
+
+
+
+
+    def composition(self):
+
+        localctx = OpenSCENARIO2.CompositionContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 84, self.RULE_composition)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 553
+            _la = self._input.LA(1)
+            if not((((_la) & ~0x3f) == 0 and ((1 << _la) & 246290604621824) != 0)):
+                self._errHandler.recoverInline(self)
+            else:
+                self._errHandler.reportMatch(self)
+                self.consume()
+            self.state = 559
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==69:
+                self.state = 554
+                self.match(OpenSCENARIO2.LPAREN)
+                self.state = 556
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                    self.state = 555
+                    self.arguments()
+
+
+                self.state = 558
+                self.match(OpenSCENARIO2.RPAREN)
+
+
+            self.state = 562
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==59:
+                self.state = 561
+                self.match(OpenSCENARIO2.COLON)
+
+
+            self.state = 564
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 566
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 565
+                self.block()
+
+
+            self.state = 569
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==52:
+                self.state = 568
+                self.withBlock()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class WaitDirectiveContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def WAIT(self):
+            return self.getToken(OpenSCENARIO2.WAIT, 0)
+
+        def eventSpecification(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_waitDirective
+
+
+
+
+    def waitDirective(self):
+
+        localctx = OpenSCENARIO2.WaitDirectiveContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 86, self.RULE_waitDirective)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 571
+            self.match(OpenSCENARIO2.WAIT)
+            self.state = 572
+            self.eventSpecification()
+            self.state = 573
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 575
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 574
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class EmitDirectiveContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def EMIT(self):
+            return self.getToken(OpenSCENARIO2.EMIT, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_emitDirective
+
+
+
+
+    def emitDirective(self):
+
+        localctx = OpenSCENARIO2.EmitDirectiveContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 88, self.RULE_emitDirective)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 577
+            self.match(OpenSCENARIO2.EMIT)
+            self.state = 578
+            self.expression()
+            self.state = 579
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 581
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 580
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class CallDirectiveContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def CALL(self):
+            return self.getToken(OpenSCENARIO2.CALL, 0)
+
+        def expression(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_callDirective
+
+
+
+
+    def callDirective(self):
+
+        localctx = OpenSCENARIO2.CallDirectiveContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 90, self.RULE_callDirective)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 583
+            self.match(OpenSCENARIO2.CALL)
+            self.state = 584
+            self.expression()
+            self.state = 585
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 587
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 586
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class UntilDirectiveContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def UNTIL(self):
+            return self.getToken(OpenSCENARIO2.UNTIL, 0)
+
+        def eventSpecification(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
+
+
+        def NEWLINE(self):
+            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
+
+        def block(self):
+            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_untilDirective
+
+
+
+
+    def untilDirective(self):
+
+        localctx = OpenSCENARIO2.UntilDirectiveContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 92, self.RULE_untilDirective)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 589
+            self.match(OpenSCENARIO2.UNTIL)
+            self.state = 590
+            self.eventSpecification()
+            self.state = 591
+            self.match(OpenSCENARIO2.NEWLINE)
+            self.state = 593
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==2:
+                self.state = 592
+                self.block()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ExpressionContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def ID(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.ID)
+            else:
+                return self.getToken(OpenSCENARIO2.ID, i)
+
+        def INTEGER(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.INTEGER)
+            else:
+                return self.getToken(OpenSCENARIO2.INTEGER, i)
+
+        def FLOAT(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.FLOAT)
+            else:
+                return self.getToken(OpenSCENARIO2.FLOAT, i)
+
+        def PHYSICAL(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.PHYSICAL)
+            else:
+                return self.getToken(OpenSCENARIO2.PHYSICAL, i)
+
+        def STRING(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.STRING)
+            else:
+                return self.getToken(OpenSCENARIO2.STRING, i)
+
+        def group(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.GroupContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.GroupContext,i)
+
+
+        def DOT(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.DOT)
+            else:
+                return self.getToken(OpenSCENARIO2.DOT, i)
+
+        def BANG(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.BANG)
+            else:
+                return self.getToken(OpenSCENARIO2.BANG, i)
+
+        def LBRACKET(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LBRACKET)
+            else:
+                return self.getToken(OpenSCENARIO2.LBRACKET, i)
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def RBRACKET(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.RBRACKET)
+            else:
+                return self.getToken(OpenSCENARIO2.RBRACKET, i)
+
+        def LPAREN(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LPAREN)
+            else:
+                return self.getToken(OpenSCENARIO2.LPAREN, i)
+
+        def RPAREN(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.RPAREN)
+            else:
+                return self.getToken(OpenSCENARIO2.RPAREN, i)
+
+        def QUESTION(self):
+            return self.getToken(OpenSCENARIO2.QUESTION, 0)
+
+        def COLON(self):
+            return self.getToken(OpenSCENARIO2.COLON, 0)
+
+        def MINUS(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.MINUS)
+            else:
+                return self.getToken(OpenSCENARIO2.MINUS, i)
+
+        def PLUS(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.PLUS)
+            else:
+                return self.getToken(OpenSCENARIO2.PLUS, i)
+
+        def NOT(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.NOT)
+            else:
+                return self.getToken(OpenSCENARIO2.NOT, i)
+
+        def IMPLIES(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.IMPLIES)
+            else:
+                return self.getToken(OpenSCENARIO2.IMPLIES, i)
+
+        def OR(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.OR)
+            else:
+                return self.getToken(OpenSCENARIO2.OR, i)
+
+        def AND(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.AND)
+            else:
+                return self.getToken(OpenSCENARIO2.AND, i)
+
+        def EQUAL(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.EQUAL)
+            else:
+                return self.getToken(OpenSCENARIO2.EQUAL, i)
+
+        def NOT_EQUAL(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.NOT_EQUAL)
+            else:
+                return self.getToken(OpenSCENARIO2.NOT_EQUAL, i)
+
+        def LESS(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LESS)
+            else:
+                return self.getToken(OpenSCENARIO2.LESS, i)
+
+        def LESS_EQUAL(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.LESS_EQUAL)
+            else:
+                return self.getToken(OpenSCENARIO2.LESS_EQUAL, i)
+
+        def GREATER(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.GREATER)
+            else:
+                return self.getToken(OpenSCENARIO2.GREATER, i)
+
+        def GREATER_EQUAL(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.GREATER_EQUAL)
+            else:
+                return self.getToken(OpenSCENARIO2.GREATER_EQUAL, i)
+
+        def IN(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.IN)
+            else:
+                return self.getToken(OpenSCENARIO2.IN, i)
+
+        def STAR(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.STAR)
+            else:
+                return self.getToken(OpenSCENARIO2.STAR, i)
+
+        def SLASH(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.SLASH)
+            else:
+                return self.getToken(OpenSCENARIO2.SLASH, i)
+
+        def PERCENT(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.PERCENT)
+            else:
+                return self.getToken(OpenSCENARIO2.PERCENT, i)
+
+        def typeName(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.TypeNameContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,i)
+
+
+        def AS(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.AS)
+            else:
+                return self.getToken(OpenSCENARIO2.AS, i)
+
+        def IS(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.IS)
+            else:
+                return self.getToken(OpenSCENARIO2.IS, i)
+
+        def arguments(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ArgumentsContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,i)
+
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_expression
+
+
+
+
+    def expression(self):
+
+        localctx = OpenSCENARIO2.ExpressionContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 94, self.RULE_expression)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 598
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while ((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0):
+                self.state = 595
+                _la = self._input.LA(1)
+                if not(((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0)):
+                    self._errHandler.recoverInline(self)
+                else:
+                    self._errHandler.reportMatch(self)
+                    self.consume()
+                self.state = 600
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 607
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [4]:
+                self.state = 601
+                self.match(OpenSCENARIO2.ID)
+                pass
+            elif token in [5]:
+                self.state = 602
+                self.match(OpenSCENARIO2.INTEGER)
+                pass
+            elif token in [6]:
+                self.state = 603
+                self.match(OpenSCENARIO2.FLOAT)
+                pass
+            elif token in [7]:
+                self.state = 604
+                self.match(OpenSCENARIO2.PHYSICAL)
+                pass
+            elif token in [8]:
+                self.state = 605
+                self.match(OpenSCENARIO2.STRING)
+                pass
+            elif token in [69, 71]:
+                self.state = 606
+                self.group()
+                pass
+            else:
+                raise NoViableAltException(self)
+
+            self.state = 646
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while ((((_la - 55)) & ~0x3f) == 0 and ((1 << (_la - 55)) & 1073565771) != 0):
+                self.state = 644
+                self._errHandler.sync(self)
+                token = self._input.LA(1)
+                if token in [61]:
+                    self.state = 609
+                    self.match(OpenSCENARIO2.DOT)
+                    self.state = 616
+                    self._errHandler.sync(self)
+                    token = self._input.LA(1)
+                    if token in [4]:
+                        self.state = 610
+                        self.match(OpenSCENARIO2.ID)
+                        pass
+                    elif token in [26, 53]:
+                        self.state = 611
+                        _la = self._input.LA(1)
+                        if not(_la==26 or _la==53):
+                            self._errHandler.recoverInline(self)
+                        else:
+                            self._errHandler.reportMatch(self)
+                            self.consume()
+                        self.state = 612
+                        self.match(OpenSCENARIO2.LPAREN)
+                        self.state = 613
+                        self.typeName()
+                        self.state = 614
+                        self.match(OpenSCENARIO2.RPAREN)
+                        pass
+                    else:
+                        raise NoViableAltException(self)
+
+                    pass
+                elif token in [67]:
+                    self.state = 618
+                    self.match(OpenSCENARIO2.BANG)
+                    self.state = 619
+                    self.match(OpenSCENARIO2.ID)
+                    pass
+                elif token in [71]:
+                    self.state = 620
+                    self.match(OpenSCENARIO2.LBRACKET)
+                    self.state = 621
+                    self.expression()
+                    self.state = 622
+                    self.match(OpenSCENARIO2.RBRACKET)
+                    pass
+                elif token in [69]:
+                    self.state = 624
+                    self.match(OpenSCENARIO2.LPAREN)
+                    self.state = 626
+                    self._errHandler.sync(self)
+                    _la = self._input.LA(1)
+                    if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                        self.state = 625
+                        self.arguments()
+
+
+                    self.state = 628
+                    self.match(OpenSCENARIO2.RPAREN)
+                    pass
+                elif token in [55, 56, 58, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84]:
+                    self.state = 629
+                    _la = self._input.LA(1)
+                    if not(((((_la - 55)) & ~0x3f) == 0 and ((1 << (_la - 55)) & 1073479691) != 0)):
+                        self._errHandler.recoverInline(self)
+                    else:
+                        self._errHandler.reportMatch(self)
+                        self.consume()
+                    self.state = 633
+                    self._errHandler.sync(self)
+                    _la = self._input.LA(1)
+                    while ((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0):
+                        self.state = 630
+                        _la = self._input.LA(1)
+                        if not(((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0)):
+                            self._errHandler.recoverInline(self)
+                        else:
+                            self._errHandler.reportMatch(self)
+                            self.consume()
+                        self.state = 635
+                        self._errHandler.sync(self)
+                        _la = self._input.LA(1)
+
+                    self.state = 642
+                    self._errHandler.sync(self)
+                    token = self._input.LA(1)
+                    if token in [4]:
+                        self.state = 636
+                        self.match(OpenSCENARIO2.ID)
+                        pass
+                    elif token in [5]:
+                        self.state = 637
+                        self.match(OpenSCENARIO2.INTEGER)
+                        pass
+                    elif token in [6]:
+                        self.state = 638
+                        self.match(OpenSCENARIO2.FLOAT)
+                        pass
+                    elif token in [7]:
+                        self.state = 639
+                        self.match(OpenSCENARIO2.PHYSICAL)
+                        pass
+                    elif token in [8]:
+                        self.state = 640
+                        self.match(OpenSCENARIO2.STRING)
+                        pass
+                    elif token in [69, 71]:
+                        self.state = 641
+                        self.group()
+                        pass
+                    else:
+                        raise NoViableAltException(self)
+
+                    pass
+                else:
+                    raise NoViableAltException(self)
+
+                self.state = 648
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+            self.state = 654
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==66:
+                self.state = 649
+                self.match(OpenSCENARIO2.QUESTION)
+                self.state = 650
+                self.expression()
+                self.state = 651
+                self.match(OpenSCENARIO2.COLON)
+                self.state = 652
+                self.expression()
+
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class GroupContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def LPAREN(self):
+            return self.getToken(OpenSCENARIO2.LPAREN, 0)
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def RPAREN(self):
+            return self.getToken(OpenSCENARIO2.RPAREN, 0)
+
+        def LBRACKET(self):
+            return self.getToken(OpenSCENARIO2.LBRACKET, 0)
+
+        def RBRACKET(self):
+            return self.getToken(OpenSCENARIO2.RBRACKET, 0)
+
+        def RANGE_DOTS(self):
+            return self.getToken(OpenSCENARIO2.RANGE_DOTS, 0)
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_group
+
+
+
+
+    def group(self):
+
+        localctx = OpenSCENARIO2.GroupContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 96, self.RULE_group)
+        self._la = 0 # Token type
+        try:
+            self.state = 676
+            self._errHandler.sync(self)
+            token = self._input.LA(1)
+            if token in [69]:
+                self.enterOuterAlt(localctx, 1)
+                self.state = 656
+                self.match(OpenSCENARIO2.LPAREN)
+                self.state = 657
+                self.expression()
+                self.state = 658
+                self.match(OpenSCENARIO2.RPAREN)
+                pass
+            elif token in [71]:
+                self.enterOuterAlt(localctx, 2)
+                self.state = 660
+                self.match(OpenSCENARIO2.LBRACKET)
+                self.state = 673
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
+                    self.state = 661
+                    self.expression()
+                    self.state = 671
+                    self._errHandler.sync(self)
+                    token = self._input.LA(1)
+                    if token in [62]:
+                        self.state = 662
+                        self.match(OpenSCENARIO2.RANGE_DOTS)
+                        self.state = 663
+                        self.expression()
+                        pass
+                    elif token in [60, 72]:
+                        self.state = 668
+                        self._errHandler.sync(self)
+                        _la = self._input.LA(1)
+                        while _la==60:
+                            self.state = 664
+                            self.match(OpenSCENARIO2.COMMA)
+                            self.state = 665
+                            self.expression()
+                            self.state = 670
+                            self._errHandler.sync(self)
+                            _la = self._input.LA(1)
+
+                        pass
+                    else:
+                        raise NoViableAltException(self)
+
+
+
+                self.state = 675
+                self.match(OpenSCENARIO2.RBRACKET)
+                pass
+            else:
+                raise NoViableAltException(self)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+    class ArgumentsContext(ParserRuleContext):
+        __slots__ = 'parser'
+
+        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
+            super().__init__(parent, invokingState)
+            self.parser = parser
+
+        def expression(self, i:int=None):
+            if i is None:
+                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
+            else:
+                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
+
+
+        def COLON(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COLON)
+            else:
+                return self.getToken(OpenSCENARIO2.COLON, i)
+
+        def COMMA(self, i:int=None):
+            if i is None:
+                return self.getTokens(OpenSCENARIO2.COMMA)
+            else:
+                return self.getToken(OpenSCENARIO2.COMMA, i)
+
+        def getRuleIndex(self):
+            return OpenSCENARIO2.RULE_arguments
+
+
+
+
+    def arguments(self):
+
+        localctx = OpenSCENARIO2.ArgumentsContext(self, self._ctx, self.state)
+        self.enterRule(localctx, 98, self.RULE_arguments)
+        self._la = 0 # Token type
+        try:
+            self.enterOuterAlt(localctx, 1)
+            self.state = 678
+            self.expression()
+            self.state = 681
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            if _la==59:
+                self.state = 679
+                self.match(OpenSCENARIO2.COLON)
+                self.state = 680
+                self.expression()
+
+
+            self.state = 691
+            self._errHandler.sync(self)
+            _la = self._input.LA(1)
+            while _la==60:
+                self.state = 683
+                self.match(OpenSCENARIO2.COMMA)
+                self.state = 684
+                self.expression()
+                self.state = 687
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+                if _la==59:
+                    self.state = 685
+                    self.match(OpenSCENARIO2.COLON)
+                    self.state = 686
+                    self.expression()
+
+
+                self.state = 693
+                self._errHandler.sync(self)
+                _la = self._input.LA(1)
+
+        except RecognitionException as re:
+            localctx.exception = re
+            self._errHandler.reportError(self, re)
+            self._errHandler.recover(self, re)
+        finally:
+            self.exitRule()
+        return localctx
+
+
+
+
+

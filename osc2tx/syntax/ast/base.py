@@ -1,0 +1,56 @@
+"""What all AST nodes have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from osc2tx.diagnostics import Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Node:
+    """A node of the syntax tree; compared by identity, so it can key side tables."""
+
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Statement(Node):
+    """A node that stands on lines of its own and can therefore carry comments.
+
+    Attributes:
+        comments: The comment lines directly above it, without `#` and surrounding blanks.
+        trailing_comment: The comment at the end of its first line.
+    """
+
+    comments: tuple[str, ...] = field(default=(), repr=False)
+    trailing_comment: str | None = field(default=None, repr=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Name(Node):
+    """A possibly qualified identifier (§7.2.1.5.1), `ns::text` or plain `text`.
+
+    Attributes:
+        text: The identifier without bars and prefix.
+        namespace: The prefix; `null` and the empty prefix of `::x` are both `"null"`.
+    """
+
+    text: str
+    namespace: str | None = None
+
+    def __str__(self) -> str:
+        """The name as one would write it."""
+        return self.text if self.namespace is None else f"{self.namespace}::{self.text}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BehaviorName(Node):
+    """The name of a behavior, with the type of the actor it belongs to: `vehicle.drive`."""
+
+    actor: Name | None
+    name: Name
+
+    def __str__(self) -> str:
+        """The name as one would write it."""
+        return str(self.name) if self.actor is None else f"{self.actor}.{self.name}"

@@ -1,0 +1,117 @@
+"""The messages of the token source; each marks what it has reported as damaged."""
+
+from __future__ import annotations
+
+import re
+
+from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.syntax import patterns
+from osc2tx.syntax.tokens import TokenTable
+
+_MAX_REPORTS = 100
+_REPLACEMENTS = {
+    "&&": "the operator is written `and`",
+    "&": "the operator is written `and`",
+    "||": "the operator is written `or`",
+    ";": "a statement ends with its line; leave the semicolon out",
+    "{": "blocks are made by `:` and indentation",
+    "}": "blocks are made by `:` and indentation",
+}
+
+
+class LexicalErrors:
+    """Reports lexical mistakes of one source, each once, not more than 100 of a kind."""
+
+    def __init__(self, table: TokenTable, sink: DiagnosticSink, *, block_comments: bool) -> None:
+        """Report into `sink`, unless `block_comments` are fine."""
+        self._table = table
+        self._text = table.source.text
+        self._sink = sink
+        self._block_comments = block_comments
+        self._reported: dict[str, int] = {}
+        self._without_end: set[str] = set()
+        self.last_offset = 0
+
+    def _report(
+        self, code: str, start: int, end: int, message: str, help_: str | None = None
+    ) -> None:
+        self.last_offset = start
+        count = self._reported[code] = self._reported.get(code, 0) + 1
+        if count <= _MAX_REPORTS:
+            self._sink.report(code, Span(self._table.source, start, end), message, help=help_)
+
+    def unknown_character(self, start: int) -> int:
+        """Report characters that start no token; return where to go on."""
+        match = patterns.UNKNOWN_RUN.match(self._text, start)
+        end = max(match.end() if match else start + 1, start + 1)
+        found = self._text[start:end]
+        shown = f"`{found}`" if found.isprintable() else f"U+{ord(found[0]):04X}"
+        help_ = _REPLACEMENTS.get(found)
+        if found == "\\":
+            help_ = "a backslash joins lines only as the last character of a line"
+        elif found == "\0":
+            help_ = "the file holds a NUL byte; is it a text file?"
+        self._report("OSC102", start, end, f"unexpected character {shown}", help_)
+        self._table.damaged.append(start)
+        return end
+
+    def unterminated_string(self, start: int) -> int:
+        """Report a string without end; it is taken to end with its line."""
+        quote = self._text[start]
+        rest = patterns.LINE_REST.match(self._text, start)
+        end = rest.end() if rest else len(self._text)
+        delimiter = quote * 3 if self._text.startswith(quote * 3, start) else quote
+        message = f"the string has no closing `{delimiter}`"
+        help_ = None if len(delimiter) == 3 else "a string of several lines needs three quotes"
+        self._report("OSC103", start, end, message, help_)
+        self._table.damaged.append(start)
+        return end
+
+    def foreign_comment(self, start: int) -> int:
+        """Report `/* */` or `//`; return the offset behind it."""
+        if self._text.startswith("//", start):
+            match = patterns.LINE_REST.match(self._text, start)
+            end = match.end() if match else len(self._text)
+            message = "a comment starts with `#`, not with `//`"
+            self._report("OSC111", start, start + 2, message)
+            return end
+        close = self._text.find("*/", start + 2)
+        if close < 0:
+            end = len(self._text)
+            self._report("OSC111", start, start + 2, "the block comment has no end `*/`")
+            return end
+        if not self._block_comments:
+            message = "block comments are not part of OpenSCENARIO DSL"
+            self._report("OSC111", start, start + 2, message, "begin each line with `#`")
+        return close + 2
+
+    def inconsistent_dedent(self, at: int, width: int, opened: list[int]) -> None:
+        """Report a line that is indented like no block around it."""
+        columns = [str(column + 1) for column in opened]
+        listed = " and ".join([", ".join(columns[:-1]), columns[-1]] if columns[1:] else columns)
+        line_start = self._table.line_start(at)
+        blanks = self._text[line_start:at]
+        mixed = re.search(r" .*\t|\t.* ", blanks) or "\t" in blanks
+        help_ = "tabs count up to the next multiple of 8; do not mix them with blanks"
+        self._report(
+            "OSC104",
+            line_start,
+            max(at, line_start + 1),
+            f"the line starts in column {width + 1}, but the open blocks start in {listed}",
+            help_ if mixed else None,
+        )
+
+    def nesting_too_deep(self, at: int, limit: int) -> None:
+        """Report blocks and brackets that nest beyond the limit."""
+        message = f"blocks and brackets nest more than {limit} levels deep"
+        help_ = "the whole declaration is left out; split it up"
+        self._report("OSC105", at, min(at + 1, len(self._text)), message, help_)
+
+    def unclosed_bracket(self, token: int) -> None:
+        """Report a bracket that is still open where its statement must have ended."""
+        table = self._table
+        start = table.starts[token]
+        bracket = table.text(token)
+        close = {"(": ")", "[": "]"}[bracket]
+        self._report("OSC106", start, start + 1, f"`{bracket}` is not closed", f"add a `{close}`")
+        self._table.damaged.append(start)

@@ -1,0 +1,64 @@
+"""The regular expressions of the token source (§7.2.1.5).
+
+Repeated content is matched by possessive, unrolled loops: no pattern keeps state per character,
+so a string of a megabyte costs no more than its length.
+"""
+
+from __future__ import annotations
+
+import re
+
+_NAME = r"(?:[^\W\d]\w*+|\|[^|\r\n]++\|)"
+_DECIMAL_FLOAT = r"[0-9]*+\.[0-9]++(?:[eE][+-]?[0-9]++)?|[0-9]++[eE][+-]?[0-9]++"
+_SHORT = r"{q}(?!{q}{q})[^{q}\\\r\n]*+(?:\\[^\r\n][^{q}\\\r\n]*+)*+{q}"
+_LONG = r"{q}{q}{q}[^{q}\\]*+(?:(?:\\.|{q}(?!{q}{q}))[^{q}\\]*+)*+{q}{q}{q}"
+_STRING = "|".join(form.format(q=quote) for form in (_LONG, _SHORT) for quote in "\"'")
+
+# The groups of `TOKEN`, in order.
+(
+    WORD,
+    NAME,
+    STAR,
+    PUNCTUATION,
+    NEWLINE,
+    HEXADECIMAL,
+    PHYSICAL,
+    FLOAT,
+    INTEGER,
+    STRING,
+    COMMENT,
+    FOREIGN_COMMENT,
+    JOIN,
+    QUOTE,
+    UNKNOWN,
+) = range(1, 16)
+
+TOKEN = re.compile(
+    rf"""
+    [ \t\f]*+
+    (?: ([^\W\d]\w*+)(?!::[\w|*])
+      | ({_NAME}?+::{_NAME} | \|[^|\r\n]++\|)
+      | ({_NAME}?+::\*)
+      | (->|=>|==|!=|<=|>=|\.\.|:(?=::\w)|::|[](),:=@?<>+%*![-] | \.(?![0-9]) | -(?!>) | /(?![*/]))
+      | (\r\n|\r|\n)
+      | (0x[0-9a-fA-F]++)
+      | ((?>{_DECIMAL_FLOAT}|[0-9]++)(?:::|{_NAME}::)?{_NAME})
+      | ({_DECIMAL_FLOAT})
+      | ([0-9]++)
+      | ({_STRING})
+      | (\#[^\r\n]*+)
+      | (/\*|//)
+      | (\\(?:\r\n|\r|\n))
+      | (["'])
+      | ([^ \t\f])
+    )""",
+    re.VERBOSE | re.DOTALL,
+)
+
+# What may stand before the first token of a line: blanks, then a comment or nothing up to the end.
+LINE_HEAD = re.compile(r"([ \t\f]*+)(?:(\#[^\r\n]*+)?(\r\n|\r|\n|\Z))?")
+LINE_REST = re.compile(r"[^\r\n]*+")
+BLANKS = re.compile(r"[ \t\f]*+")
+# Where scanning goes on after nesting that was too deep: a line that is not indented.
+UNINDENTED_LINE = re.compile(r"[\r\n](?=[^\s#)\]])")
+UNKNOWN_RUN = re.compile(r"[&|]+|[;{}]|[^\w\s\"'#]")

@@ -1,0 +1,325 @@
+"""From text to tokens: one pass with a regular expression, blocks by indentation (§7.2.1)."""
+
+from __future__ import annotations
+
+from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.syntax import patterns
+from osc2tx.syntax.identifiers import identifier_end
+from osc2tx.syntax.keywords import decide_keywords
+from osc2tx.syntax.lexical_errors import LexicalErrors
+from osc2tx.syntax.tokens import (
+    DEDENT,
+    EOF,
+    FLOAT,
+    ID,
+    INDENT,
+    INTEGER,
+    KEYWORDS,
+    NAMESPACE_STAR,
+    NEWLINE,
+    PHYSICAL,
+    PUNCTUATION,
+    STRING,
+    Comment,
+    TokenTable,
+)
+
+MAX_NESTING = 200
+
+_PLAIN_TYPES = {
+    patterns.NAME: ID,
+    patterns.STAR: NAMESPACE_STAR,
+    patterns.PHYSICAL: PHYSICAL,
+    patterns.HEXADECIMAL: INTEGER,
+    patterns.FLOAT: FLOAT,
+    patterns.INTEGER: INTEGER,
+    patterns.STRING: STRING,
+}
+_NESTING = frozenset("()[]?,")
+
+
+class _NestingTooDeep(Exception):
+    """Unwinds to the file-level statement that nests too deeply."""
+
+
+class TokenSource:
+    """Scans one source text into a `TokenTable`; never fails, whatever the text."""
+
+    def __init__(
+        self, source: SourceFile, sink: DiagnosticSink, *, block_comments: bool = False
+    ) -> None:
+        """Prepare; `block_comments` accepts the comments of other languages silently."""
+        self.table = TokenTable(source)
+        self._text = source.text
+        self._errors = LexicalErrors(self.table, sink, block_comments=block_comments)
+        self._candidates: list[tuple[int, int]] = []
+        self._indents = [0]
+        self._mistaken: dict[int, int] = {}  # columns of wrong dedents, and of the block meant
+        self._brackets: list[int] = []  # token indexes of those still open
+        self._questions = [0]  # open `?` per bracket level
+        self._line: int | None = None  # index of the first token of the current logical line
+        self._indent_of_line = 0
+        self._strict_layout = False  # an unclosed bracket was found: close at the next statement
+        self._statement_start = (0, 0)  # number of tokens and comments before the statement
+
+    def scan(self) -> TokenTable:
+        """Return the tokens of the whole text."""
+        pos = 1 if self._text.startswith("\ufeff") else 0
+        while pos < len(self._text):
+            try:
+                pos = self._scan_lines(pos)
+            except _NestingTooDeep:
+                pos = self._drop_statement()
+        self._end_line(len(self._text), len(self._text))
+        self._set_indentation(0, len(self._text))
+        self._append(EOF, len(self._text), len(self._text))
+        decide_keywords(self.table.types, self._candidates)
+        return self.table
+
+    # --- Lines ----------------------------------------------------------------------------------
+
+    def _scan_lines(self, pos: int) -> int:
+        """Scan from the start of a logical line; return early to have another part rescanned."""
+        size = len(self._text)
+        while pos < size:
+            if self._line is None:
+                pos = self._scan_line_head(pos)
+                if self._line is None:
+                    continue
+            pos = self._scan_tokens(pos)
+            if pos >= size and self._brackets:
+                pos = self._recover_from_open_bracket()
+        return pos
+
+    def _scan_line_head(self, pos: int) -> int:
+        """Skip lines without tokens; open or close blocks before the first token of a line."""
+        match = patterns.LINE_HEAD.match(self._text, pos)
+        assert match is not None
+        if match[3] is not None:
+            if match[2] is not None:
+                self._add_comment(match.start(2), match.end(2), alone=True)
+            return match.end() if match[3] else len(self._text)
+        end = match.end(1)
+        if self._text.startswith(("/*", "//"), end):
+            return self._skip_foreign_comment(end)
+        if self._text.startswith("\\", end) and self._text[end + 1 : end + 2] in ("\r", "\n"):
+            after = patterns.TOKEN.match(self._text, end)
+            assert after is not None
+            rest = patterns.BLANKS.match(self._text, after.end())
+            assert rest is not None
+            if self._text[rest.end() : rest.end() + 1] in ("", "\r", "\n"):
+                return after.end()
+        width = _width(match[1])
+        if width == 0 or not self.table.types:
+            self._statement_start = (len(self.table.types), len(self.table.comments))
+        self._set_indentation(width, end)
+        self._line = len(self.table.types)
+        self._indent_of_line = width
+        return end
+
+    def _set_indentation(self, width: int, at: int) -> None:
+        indents = self._indents
+        if width > indents[-1]:
+            indents.append(width)
+            self._check_nesting(at)
+            self.table.widths[len(self.table.types)] = width
+            self._append(INDENT, at, at)
+            return
+        if width not in indents:
+            width = self._nearest_block(width, at)
+        while width < indents[-1]:
+            indents.pop()
+            self._append(DEDENT, at, at)
+
+    def _nearest_block(self, width: int, at: int) -> int:
+        """Take a line between two open blocks as one of the inner block; report it once."""
+        nearest = self._mistaken.get(width)
+        if nearest is None or nearest not in self._indents:
+            self._errors.inconsistent_dedent(at, width, self._indents)
+            nearest = min(column for column in self._indents if column > width)
+            self._mistaken[width] = nearest
+        return nearest
+
+    def _end_line(self, start: int, end: int) -> None:
+        if self._line is not None:
+            if self._line < len(self.table.types):
+                self._append(NEWLINE, start, end)
+            self._line = None
+            self._brackets.clear()
+            self._questions = [0]
+
+    # --- Tokens ---------------------------------------------------------------------------------
+
+    def _scan_tokens(self, pos: int) -> int:
+        """Scan up to the end of the logical line; the hot loop."""
+        text, table, candidates = self._text, self.table, self._candidates
+        types, starts, ends = table.types, table.starts, table.ends
+        match_token = patterns.TOKEN.match
+        word_type, punctuation, line = KEYWORDS.get, PUNCTUATION, self._line
+        assert line is not None
+        while match := match_token(text, pos):
+            kind = match.lastindex
+            assert kind is not None
+            start, end = match.span(kind)
+            pos = end
+            if kind == patterns.WORD:
+                word = match[kind]
+                if not word.isascii() or (end < len(text) and text[end] > "\x7f"):
+                    pos = end = identifier_end(text, start)
+                    if end == start:
+                        pos = self._errors.unknown_character(start)
+                        continue
+                type_ = word_type(word, ID)
+                if type_ != ID:
+                    candidates.append((len(types), line))
+                types.append(type_)
+            elif kind == patterns.PUNCTUATION:
+                symbol = match[kind]
+                if symbol in _NESTING:
+                    self._nest(symbol, start)
+                types.append(punctuation[symbol])
+            elif kind in _PLAIN_TYPES:
+                types.append(_PLAIN_TYPES[kind])
+            elif kind == patterns.NEWLINE:
+                if not self._brackets or self._closes_brackets(end):
+                    self._end_line(start, end)
+                    return end
+                continue
+            else:
+                pos = self._scan_rare(kind, start, end)
+                continue
+            starts.append(start)
+            ends.append(end)
+        return len(text)
+
+    def _scan_rare(self, kind: int, start: int, end: int) -> int:
+        """Comments, joined lines and mistakes; return where to go on."""
+        if kind == patterns.COMMENT:
+            self._add_comment(start, end, alone=self._is_first_on_line(start))
+        elif kind == patterns.FOREIGN_COMMENT:
+            return self._skip_foreign_comment(start)
+        elif kind == patterns.QUOTE:
+            end = self._errors.unterminated_string(start)
+            self._append(STRING, start, end)
+            self._brackets.clear()
+            self._questions = [0]
+        elif kind == patterns.UNKNOWN:
+            return self._errors.unknown_character(start)
+        return end
+
+    def _append(self, type_: int, start: int, end: int) -> None:
+        self.table.types.append(type_)
+        self.table.starts.append(start)
+        self.table.ends.append(end)
+
+    # --- Comments -------------------------------------------------------------------------------
+
+    def _is_first_on_line(self, start: int) -> bool:
+        return not self._text[self.table.line_start(start) : start].strip()
+
+    def _add_comment(self, start: int, end: int, *, alone: bool) -> None:
+        column = _width(self._text[self.table.line_start(start) : start]) if alone else 0
+        body = self._text[start + 1 : end].rstrip()
+        body = body[1:] if body.startswith((" ", "\t")) else body
+        place = len(self.table.types)
+        self.table.comments.append(Comment(place, self._line, alone, column, body))
+
+    def _skip_foreign_comment(self, start: int) -> int:
+        end = self._errors.foreign_comment(start)
+        if self._line is None:
+            rest = patterns.LINE_HEAD.match(self._text, end)
+            if rest is not None and rest[3] is None:
+                before = self._text[self.table.line_start(start) : start]
+                self._set_indentation(_width(before), rest.end(1))
+                self._line = len(self.table.types)
+                return rest.end(1)
+        return end
+
+    # --- Nesting --------------------------------------------------------------------------------
+
+    def _nest(self, symbol: str, at: int) -> None:
+        questions, brackets = self._questions, self._brackets
+        if symbol == "?":
+            questions[-1] += 1
+            self._check_nesting(at)
+        elif symbol == ",":
+            questions[-1] = 0
+        elif symbol in "([":
+            brackets.append(len(self.table.types))
+            questions.append(0)
+            self._check_nesting(at)
+        elif brackets:
+            self._close_bracket("(" if symbol == ")" else "[")
+
+    def _close_bracket(self, opener: str) -> None:
+        """Close the innermost bracket; if only an outer one fits, close up to that one."""
+        brackets = self._brackets
+        kept = len(brackets) - 1
+        while kept >= 0 and self._text[self.table.starts[brackets[kept]]] != opener:
+            kept -= 1
+        kept = kept if kept >= 0 else len(brackets) - 1
+        del brackets[kept:], self._questions[kept + 1 :]
+
+    def _check_nesting(self, at: int) -> None:
+        depth = len(self._indents) - 1 + len(self._brackets)
+        if depth + sum(self._questions) > MAX_NESTING:
+            self._errors.nesting_too_deep(at, MAX_NESTING)
+            raise _NestingTooDeep
+
+    def _drop_statement(self) -> int:
+        """Forget the file-level statement that nests too deeply; return where the next begins."""
+        tokens, comments = self._statement_start
+        table = self.table
+        for column in (table.types, table.starts, table.ends):
+            del column[tokens:]
+        del table.comments[comments:]
+        while self._candidates and self._candidates[-1][0] >= tokens:
+            self._candidates.pop()
+        self._line, self._indents, self._brackets, self._questions = None, [0], [], [0]
+        found = patterns.UNINDENTED_LINE.search(self._text, self._errors.last_offset)
+        return found.end() if found else len(self._text)
+
+    def _closes_brackets(self, line_start: int) -> bool:
+        """Whether the next line ends a statement whose bracket nobody closes."""
+        if not self._strict_layout:
+            return False
+        head = patterns.LINE_HEAD.match(self._text, line_start)
+        if head is None or head[3] is not None or _width(head[1]) > self._indent_of_line:
+            return False
+        if self._text[head.end(1) : head.end(1) + 1] in (")", "]"):
+            return False
+        self._errors.unclosed_bracket(self._brackets[-1])
+        return True
+
+    def _recover_from_open_bracket(self) -> int:
+        """At the end of the text: report the bracket, or scan its line again more strictly."""
+        if self._strict_layout:
+            self._errors.unclosed_bracket(self._brackets[-1])
+            return len(self._text)
+        self._strict_layout = True
+        line = self._line
+        assert line is not None
+        pos = self.table.starts[line]
+        for column in (self.table.types, self.table.starts, self.table.ends):
+            del column[line:]
+        while self._candidates and self._candidates[-1][0] >= line:
+            self._candidates.pop()
+        while self.table.comments and self.table.comments[-1].line == line:
+            self.table.comments.pop()
+        self._brackets, self._questions = [], [0]
+        return pos
+
+
+def _width(blanks: str) -> int:
+    """Column after leading blanks: tabs go to multiples of 8, a form feed starts anew."""
+    if blanks.isspace() and blanks.count(" ") == len(blanks):
+        return len(blanks)
+    width = 0
+    for char in blanks:
+        if char == "\t":
+            width = (width // 8 + 1) * 8
+        elif char == "\f":
+            width = 0
+        else:
+            width += 1
+    return width

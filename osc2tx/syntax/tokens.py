@@ -1,0 +1,85 @@
+"""The tokens of one source text, as parallel lists, and the names of their types."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from osc2tx.diagnostics import SourceFile, Span
+from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+
+EOF = -1
+NEWLINE: int = Grammar.NEWLINE
+INDENT: int = Grammar.INDENT
+DEDENT: int = Grammar.DEDENT
+ID: int = Grammar.ID
+INTEGER: int = Grammar.INTEGER
+FLOAT: int = Grammar.FLOAT
+PHYSICAL: int = Grammar.PHYSICAL
+STRING: int = Grammar.STRING
+NAMESPACE_STAR: int = Grammar.NAMESPACE_STAR
+
+_LITERALS: dict[str, int] = {
+    literal.strip("'"): number
+    for number, literal in enumerate(Grammar.literalNames)
+    if literal != "<INVALID>"
+}
+KEYWORDS: dict[str, int] = {text: n for text, n in _LITERALS.items() if text.isidentifier()}
+PUNCTUATION: dict[str, int] = {text: n for text, n in _LITERALS.items() if text not in KEYWORDS}
+SPELLING: dict[int, str] = {number: text for text, number in _LITERALS.items()}
+KEYWORD_TYPES = frozenset(KEYWORDS.values())
+WORDS = KEYWORD_TYPES | {ID}
+LITERALS = frozenset({INTEGER, FLOAT, PHYSICAL, STRING})
+
+
+class Comment(NamedTuple):
+    """A comment and where it stands among the tokens.
+
+    Attributes:
+        before: Index of the first token after it.
+        line: Index of the first token of the logical line it stands in; `None` between lines.
+        alone: Whether nothing precedes it on its physical line.
+        column: Its column, from 0, when it stands alone.
+        text: What follows the `#`, without one leading and all trailing blanks.
+    """
+
+    before: int
+    line: int | None
+    alone: bool
+    column: int
+    text: str
+
+
+@dataclass(slots=True, eq=False)
+class TokenTable:
+    """All tokens of a source, the last of type `EOF`; comments and layout stand apart.
+
+    Attributes:
+        source: The text.
+        types: Type of each token.
+        starts: Offset of its first character.
+        ends: Offset behind its last character.
+        comments: The comments, in order.
+        widths: Column of the block that an INDENT token opens, by token index.
+        damaged: Offsets of lexical mistakes, which are reported already.
+    """
+
+    source: SourceFile
+    types: list[int] = field(default_factory=list)
+    starts: list[int] = field(default_factory=list)
+    ends: list[int] = field(default_factory=list)
+    comments: list[Comment] = field(default_factory=list)
+    widths: dict[int, int] = field(default_factory=dict)
+    damaged: list[int] = field(default_factory=list)
+
+    def text(self, index: int) -> str:
+        """Return the source text of a token."""
+        return self.source.text[self.starts[index] : self.ends[index]]
+
+    def span(self, first: int, last: int) -> Span:
+        """Return the span from the token `first` up to the token `last`."""
+        return Span(self.source, self.starts[first], self.ends[last])
+
+    def line_start(self, offset: int) -> int:
+        """Return the offset at which the physical line of `offset` begins."""
+        return offset - self.source.position(offset)[1] + 1

@@ -1,0 +1,161 @@
+"""The base of all actions: what an actor does for a while."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
+
+from osc2tx_runtime.behaviour.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
+from osc2tx_runtime.behaviour.limits import Duration, Limits
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.registry import Method
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.actors import Actor
+    from osc2tx_runtime.modifiers import Modifier
+    from osc2tx_runtime.world.commands import Command
+
+__all__ = ["Action", "ActionOptions"]
+
+
+class ActionOptions(TypedDict, total=False):
+    """Keywords that every action takes: `**options: Unpack[ActionOptions]`."""
+
+    duration: Duration | None
+    label: str | None
+
+
+class Action(Leaf):
+    """One action of one actor.
+
+    Subclasses write `on_start`, `on_update`, `on_stop`. They read the world's snapshot
+    (`self.context.world.state(...)`, fields of actors) and hand in commands with `self.command`
+    and changes of state with `self.effect`; both act from this instant to the next.
+
+    Attributes:
+        method: How the class is registered: name, slots, ending.
+        accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
+        actor: Who acts.
+        modifiers: As given.
+        duration: As given: seconds, or (least, most) seconds.
+        slots: What it claims while it runs; `__init__` of a subclass may narrow it.
+        action_name: `hero change_lane`: the name in the trace, whatever the sidecar map says.
+    """
+
+    method: ClassVar[Method]
+    accepts: ClassVar[tuple[type, ...]] = ()
+
+    def __init__(
+        self,
+        actor: Actor,
+        *modifiers: Modifier,
+        duration: Duration | None = None,
+        label: str | None = None,
+    ) -> None:
+        super().__init__("")
+        self.actor = actor
+        self.modifiers = modifiers
+        self.duration = duration
+        self.label = label
+        self._limits = None if duration is None else Limits(self, duration)
+        self._start_step = 0
+        method = getattr(type(self), "method", None)
+        if method is None:
+            method = Method("osc_actor", type(self).__name__, (), "goal", type(self))
+        self.registered: Method = method
+        self.slots: tuple[str, ...] = method.slots
+        self.become(method)
+
+    def become(self, method: Method) -> None:
+        """Take name, slots and ending of the method the action was made for."""
+        if self.slots is self.registered.slots:  # not narrowed by a subclass
+            self.slots = method.slots
+        self.registered = method
+        self.name = self.action_name = f"{self.actor.id} {method.name}"
+        self.open_ended = method.ends == "open" and self._limits is None
+        self.instant = method.ends == "instant" and self._limits is None
+
+    # --- what subclasses write ---
+
+    def describe(self) -> str:
+        """Return what the action does in a few words, where no sidecar map says it."""
+        return self.action_name
+
+    def on_start(self) -> None:
+        """Start: sample what the action needs, hand in commands. The slots are claimed."""
+
+    def on_update(self) -> Status:
+        """Return RUNNING, SUCCESS or `self.fail(reason)`; called each pass, at the start too."""
+        return RUNNING
+
+    def on_stop(self) -> None:
+        """Clean up; called however the action is left, before its slots are released."""
+
+    # --- what subclasses call ---
+
+    def command(self, slot: str, command: Command) -> None:
+        """Command the actor in a claimed slot until the next call or the end of the action."""
+        self.context.command(self.actor.id, slot, self, command)
+
+    def effect(self, what: str, value: object, apply: Callable[[], None]) -> None:
+        """Ask for a change of state of the actor at this instant.
+
+        Args:
+            what: What changes: `speed`, `lights`.
+            value: The new value; parallel actions may only want equal ones.
+            apply: Carries it out once the instant is settled.
+        """
+        self.context.effect((what, self.actor.id), self, value, apply)
+
+    @property
+    def elapsed_steps(self) -> int:
+        """Steps since the start of the action."""
+        return self.context.step - self._start_step
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds since the start of the action."""
+        return self.elapsed_steps * self.context.dt
+
+    # --- how it runs ---
+
+    def setup(self, **kwargs: Any) -> None:
+        """Check the modifiers, then take the context."""
+        super().setup(**kwargs)
+        wrong = [m for m in self.modifiers if not isinstance(m, self.accepts)]
+        if wrong:
+            names = ", ".join(dict.fromkeys(f"{type(modifier).__name__}" for modifier in wrong))
+            raise UnsupportedError(
+                f"{self.action_name} does not take the modifier {names}", self.source or None
+            )
+
+    def initialise(self) -> None:
+        """Claim the slots and start."""
+        self._start_step = self.context.step
+        if self._limits is not None:
+            self._limits.begin()
+        self.context.trace.action("start", self)
+        for slot in self.slots:
+            self.context.claim(self.actor.id, slot, self)
+        self.on_start()
+
+    def update(self) -> Status:
+        """Update, within the duration."""
+        limits = self._limits
+        if limits is None:
+            return self.on_update()
+        status = SUCCESS if limits.content_ended else self.on_update()
+        return limits.judge(status, self.registered.ends == "open")
+
+    def terminate(self, new_status: Status) -> None:
+        """Clean up, release the slots and write the trace."""
+        try:
+            self.on_stop()
+        finally:
+            for slot in self.slots:
+                self.context.release(self.actor.id, slot, self)
+            if new_status is FAILURE:
+                self.context.trace.action("fail", self, self.feedback_message)
+            else:
+                reason = "stopped" if new_status is INVALID else None
+                self.context.trace.action("end", self, reason)

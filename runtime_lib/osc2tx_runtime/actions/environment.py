@@ -1,0 +1,165 @@
+"""Actions of the environment (DSL 8.11): state that lasts until it is changed again.
+
+The standard lets them end "when the same type is invoked again", which would block a serial for
+ever; here they take no time and their effect stays.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Literal, Unpack
+
+from osc2tx_runtime.action import Action, ActionOptions
+from osc2tx_runtime.behaviour.base import Status
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import Modifier
+from osc2tx_runtime.registry import action
+
+from .support import note_lights
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.actors import Environment
+
+__all__ = ["Air", "AssignCelestialPosition", "Clouds", "Fog", "Rain", "Snow", "Wind"]
+
+
+class _Weather(Action):
+    """Sets values of the environment; those that are None stay."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        modifiers: tuple[Modifier, ...],
+        values: dict[str, float | None],
+        options: ActionOptions,
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.values = {name: value for name, value in values.items() if value is not None}
+        if not self.values:
+            raise ScenarioError(f"{self.action_name}: give at least one of {', '.join(values)}")
+
+    def on_start(self) -> None:
+        """Sets them."""
+        for name, value in self.values.items():
+            self.effect(f"environment {name}", value, partial(self._set, name, value))
+
+    def on_update(self) -> Status:
+        """Ends at once."""
+        return Status.SUCCESS
+
+    def _set(self, name: str, value: float) -> None:
+        context = self.context
+        switched = context.world.set_environment({name: value})
+        context.trace.environment(**{name: value})
+        for actor_id, lights in switched.items():
+            note_lights(context, actor_id, lights)
+
+
+@action("environment", "air", ends="instant")
+class Air(_Weather):
+    """Set temperature (K), pressure (Pa) and relative humidity (0 to 1)."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        temperature: float | None = None,
+        pressure: float | None = None,
+        relative_humidity: float | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        values = {
+            "temperature": temperature,
+            "pressure": pressure,
+            "relative_humidity": relative_humidity,
+        }
+        super().__init__(actor, modifiers, values, options)
+
+
+@action("environment", "rain", ends="instant")
+class Rain(_Weather):
+    """Set the intensity of rain (m/s of water column)."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        intensity: float,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, modifiers, {"rain_intensity": intensity}, options)
+
+
+@action("environment", "snow", ends="instant")
+class Snow(_Weather):
+    """Set the intensity of snow (m/s of water column)."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        intensity: float,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, modifiers, {"snow_intensity": intensity}, options)
+
+
+@action("environment", "wind", ends="instant")
+class Wind(_Weather):
+    """Set speed (m/s) and direction (rad) of the wind."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        speed: float | None = None,
+        direction: float | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        values = {"wind_speed": speed, "wind_direction": direction}
+        super().__init__(actor, modifiers, values, options)
+
+
+@action("environment", "fog", ends="instant")
+class Fog(_Weather):
+    """Set the visual range (m)."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        visual_range: float,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, modifiers, {"visual_range": visual_range}, options)
+
+
+@action("environment", "clouds", ends="instant")
+class Clouds(_Weather):
+    """Set the cloud cover (okta)."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        cloudiness: float,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, modifiers, {"cloudiness": cloudiness}, options)
+
+
+@action("environment", "assign_celestial_position", ends="instant")
+class AssignCelestialPosition(_Weather):
+    """Set azimuth (rad from +y, clockwise) and elevation (rad) of the sun or the moon."""
+
+    def __init__(
+        self,
+        actor: Environment,
+        *modifiers: Modifier,
+        light_source: Literal["sun", "moon"] = "sun",
+        azimuth: float | None = None,
+        elevation: float | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        values = {f"{light_source}_azimuth": azimuth, f"{light_source}_elevation": elevation}
+        super().__init__(actor, modifiers, values, options)

@@ -1,0 +1,94 @@
+"""Actions that put an actor somewhere at once (DSL 8.8.2.4, 8.8.2.5)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Unpack
+
+from osc2tx_runtime.action import ActionOptions
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
+from osc2tx_runtime.places import Placer, place_of_odr
+from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.values import OdrPoint, Orientation, Point
+
+from .support import OneStepAction
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.actors import MovableObject
+
+__all__ = ["AssignOrientation", "AssignPosition"]
+
+
+@action("movable_object", "assign_position", slots=(LONGITUDINAL, LATERAL))
+class AssignPosition(OneStepAction):
+    """Be somewhere else at the next step; the speed stays.
+
+    Args:
+        actor: Who.
+        *modifiers: position, lane, speed, yaw, orientation: instead of a point.
+        position: Point in the world.
+        odr_point: Point in road coordinates.
+        **options: Duration and label.
+    """
+
+    accepts: ClassVar[tuple[type, ...]] = (Position, Lane, Speed, Yaw, Orient)
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        position: Point | None = None,
+        odr_point: OdrPoint | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        given = (position is not None) + (odr_point is not None) + bool(modifiers)
+        if given != 1:
+            raise ScenarioError(f"{self.action_name}: give position, odr_point or modifiers")
+        self.movable = actor
+        self.position = position
+        self.odr_point = odr_point
+
+    def on_start(self) -> None:
+        """Assigns it."""
+        placer = Placer(self.world)
+        if self.odr_point is not None:
+            at, speed, heading = place_of_odr(self.world.map, self.odr_point), None, None
+        else:
+            modifiers = self.modifiers
+            if self.position is not None:
+                modifiers = (Position(at_point=self.position),)
+            spot = placer.spot(self.movable, modifiers, self.here)
+            at, speed, heading = spot.at, spot.speed, spot.heading
+        actor_id = self.actor.id
+        self.effect(
+            "position",
+            (at, speed, heading),
+            lambda: self.world.assign(actor_id, at=at, speed=speed, heading=heading),
+        )
+
+
+@action("movable_object", "assign_orientation", slots=(LATERAL,))
+class AssignOrientation(OneStepAction):
+    """Have a heading at the next step; not for vehicles on a lane, which follow it."""
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        orientation: Orientation,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.movable = actor
+        self.orientation = orientation
+
+    def on_start(self) -> None:
+        """Assigns it."""
+        if self.movable.lane_bound and self.here.lane_position is not None:
+            raise UnsupportedError(
+                f"{self.actor.id} follows its lane, so its orientation cannot be assigned",
+                self.source,
+            )
+        yaw = self.orientation.yaw
+        self.effect("heading", yaw, lambda: self.world.assign(self.actor.id, heading=yaw))

@@ -1,0 +1,160 @@
+"""Bases of all nodes: what py_trees calls a behaviour, ticked without its overhead.
+
+A node's work is `pulse()`: one call per pass that returns the new status. py_trees' generator
+`tick()` is kept for viewers and visitors, but costs every node a pass through all its ancestors;
+`pulse()` calls go straight down the tree.
+
+A node is left in one of three ways, which `stop` tells apart by the status it is given:
+SUCCESS (it ended, by itself or because its open end was reached), FAILURE, INVALID (cut short).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from osc2tx_runtime.errors import ScenarioError
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.behaviour.events import Event
+    from osc2tx_runtime.context import ExecutionContext
+
+__all__ = ["Behaviour", "Leaf", "Node", "Status", "pulse_of"]
+
+RUNNING = Status.RUNNING
+SUCCESS = Status.SUCCESS
+FAILURE = Status.FAILURE
+INVALID = Status.INVALID
+
+
+class Node(Behaviour):
+    """What leaves and compositions share.
+
+    Attributes:
+        source: Place in the scenario, `hello_world.osc:57`; filled from the sidecar map.
+        label: Name that `@label.end` and its like refer to; None without one.
+        open_ended: Never ends by itself; what surrounds it ends it.
+        instant: Takes no time (emit, call, assignments), so it bounds no composition.
+        synthetic: Not written in the module, so the sidecar map does not count it.
+        context: The run; there from `setup` on.
+    """
+
+    source: str = ""
+    label: str | None = None
+    open_ended: bool = False
+    instant: bool = False
+    synthetic: bool = False
+    context: ExecutionContext
+    _started: Event | None = None
+    _ended: Event | None = None
+    _failed: Event | None = None
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the `context` of the run."""
+        self.context = kwargs["context"]
+        if self.label is not None:
+            events = self.context.label_events
+            self._started = events.get((self.label, "start"))
+            self._ended = events.get((self.label, "end"))
+            self._failed = events.get((self.label, "fail"))
+
+    def pulse(self) -> Status:
+        """Do the work of one pass.
+
+        Called again at the same instant it must change nothing, unless an event came.
+        """
+        raise NotImplementedError
+
+    def fail(self, reason: str) -> Status:
+        """Return FAILURE and keep the reason for the verdict."""
+        self.feedback_message = reason
+        return FAILURE
+
+    def update(self) -> Status:
+        """Return the status of one pass, as py_trees asks."""
+        return self.pulse()
+
+    def tick_once(self) -> None:
+        """Pulse; py_trees' name for it."""
+        self.pulse()
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Pulse, then yield the nodes that are in use, for the visitors of py_trees."""
+        self.pulse()
+        for node in self.iterate():
+            if node.status is not INVALID:
+                yield node
+
+    def stop(self, new_status: Status = INVALID) -> None:
+        """Leave the node; what runs inside is left first."""
+        if self.status is RUNNING:
+            self._stop_children(new_status)
+            self.terminate(new_status)
+            self._post_life_event(new_status)
+        elif new_status is INVALID:
+            self._stop_children(new_status)
+        self.status = new_status
+
+    def _stop_children(self, new_status: Status) -> None:
+        """Running children end with an ended parent and are cut short otherwise."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.stop(SUCCESS if new_status is SUCCESS else INVALID)
+            elif new_status is INVALID and child.status is not INVALID:
+                child.stop(INVALID)
+
+    def _begin(self) -> None:
+        """Enter the node. RUNNING from here on, so that a clean-up finds a half-started node."""
+        for child in self.children:
+            if child.status is not INVALID:
+                child.stop(INVALID)
+        self.status = RUNNING
+        self.feedback_message = ""
+        if self._started is not None:
+            self.context.post(self._started)
+        self.initialise()
+
+    def _post_life_event(self, new_status: Status) -> None:
+        event = {SUCCESS: self._ended, FAILURE: self._failed}.get(new_status)
+        if event is not None:
+            self.context.post(event)
+
+
+class Leaf(Node):
+    """A node without members; subclasses write `initialise`, `update` and `terminate`.
+
+    `terminate` is called exactly once for each `initialise`.
+    """
+
+    def update(self) -> Status:
+        """Return the status of this pass."""
+        raise NotImplementedError
+
+    def pulse(self) -> Status:
+        """Start if needed, update, and leave when that is done."""
+        try:
+            if self.status is not RUNNING:
+                self._begin()
+            status = self.update()
+        except ScenarioError as error:
+            if error.source is None:
+                error.source = self.source or None
+            raise
+        if status is not RUNNING:
+            self.stop(status)
+        return status
+
+
+def pulse_of(child: Behaviour) -> Callable[[], Status]:
+    """Return the call that ticks a member: nodes of ours, and any other py_trees behaviour."""
+    if isinstance(child, Node):
+        return child.pulse
+
+    def tick_foreign() -> Status:
+        child.tick_once()
+        return FAILURE if child.status is INVALID else child.status
+
+    return tick_foreign

@@ -1,0 +1,58 @@
+"""The `duration` of a node: how long it must and may take, in whole steps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, SUCCESS, Status
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.behaviour.base import Node
+
+__all__ = ["Duration", "Limits"]
+
+Duration = float | tuple[float, float]
+"""Seconds, or the least and the most seconds."""
+
+
+class Limits:
+    """Applies a duration to the content of a node.
+
+    Open-ended content ends with success at the least duration. Content that ends before it is
+    held until then. Content that has not ended at the most duration fails, once all that happens
+    at that instant has happened.
+    """
+
+    def __init__(self, node: Node, duration: Duration) -> None:
+        low, high = duration if isinstance(duration, tuple) else (duration, duration)
+        if not 0 <= low <= high:
+            raise ValueError(f"duration {duration}: from the least to the most, not negative")
+        self._node = node
+        self._seconds = (low, high)
+        self._low = self._high = self._start = 0
+        self.content_ended = False
+
+    def begin(self) -> None:
+        """Start counting at the present step."""
+        context = self._node.context
+        self._start = context.step
+        self._low, self._high = (context.steps(seconds) for seconds in self._seconds)
+        self.content_ended = False
+
+    def judge(self, status: Status, open_ended: bool) -> Status:
+        """Return the node's status for that of its content."""
+        if status is FAILURE:
+            return status
+        context = self._node.context
+        steps = context.step - self._start
+        if status is SUCCESS:
+            self.content_ended = True
+            return SUCCESS if steps >= self._low else RUNNING
+        if open_ended:
+            return SUCCESS if steps >= self._low else RUNNING
+        if steps < self._high:
+            return RUNNING
+        if steps == self._high and not context.settled:
+            context.request_settling()  # an event of this instant may still end the content
+            return RUNNING
+        return self._node.fail(f"not finished within {self._seconds[1]:g} s")

@@ -1,0 +1,87 @@
+"""What this runtime carries out, as plain data: for the compiler and for the documentation.
+
+What is not listed is not there; the compiler refuses it before anything runs.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from osc2tx_runtime.actors import PhysicalObject
+from osc2tx_runtime.initializer import PLACEMENT_MODIFIERS
+from osc2tx_runtime.measures import RoutePosition
+from osc2tx_runtime.modifiers import MODIFIERS, Modifier
+from osc2tx_runtime.registry import Method, methods
+
+__all__ = ["FIELDS", "METHODS", "capabilities"]
+
+METHODS: Mapping[str, Callable[..., float]] = {
+    "physical_object.object_distance": PhysicalObject.object_distance,
+    "physical_object.road_distance": PhysicalObject.road_distance,
+    "physical_object.get_s_coord": PhysicalObject.get_s_coord,
+    "physical_object.get_t_coord": PhysicalObject.get_t_coord,
+    "traffic_participant.space_gap": PhysicalObject.space_gap,
+    "traffic_participant.time_gap": PhysicalObject.time_gap,
+    "traffic_participant.space_headway": PhysicalObject.space_headway,
+    "traffic_participant.time_headway": PhysicalObject.time_headway,
+    "traffic_participant.time_to_collision": PhysicalObject.time_to_collision,
+    "route_position.ahead_of": RoutePosition.ahead_of,
+    "route_position.behind": RoutePosition.behind,
+}
+"""Methods of the domain model that can be read in expressions."""
+
+FIELDS: Mapping[str, str] = {
+    "physical_object.position": "route_position",
+    "physical_object.orientation": "orientation_3d",
+    "physical_object.pose": "pose_3d",
+    "movable_object.speed": "speed",
+    "movable_object.acceleration": "acceleration",
+}
+"""State variables that can be read in expressions, with their types."""
+
+
+def capabilities() -> dict[str, dict[str, Any]]:
+    """Lists what there is, by kind and name, in sorted order.
+
+    Returns:
+        `actions`: `vehicle.drive` to its `arguments`, `modifiers`, `slots` and how it `ends`;
+        `modifiers`: name to parameters; `placement`: the same for those an actor can start with;
+        `methods`: `physical_object.object_distance` to parameters; `fields`: name to type.
+    """
+    return {
+        "actions": {f"{m.kind}.{m.name}": _action(m) for m in methods.all()},
+        "modifiers": {name: _parameters(MODIFIERS[name]) for name in sorted(MODIFIERS)},
+        "placement": {
+            kind.name: _parameters(kind)
+            for kind in sorted(PLACEMENT_MODIFIERS, key=lambda each: each.name)
+        },
+        "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
+        "fields": dict(sorted(FIELDS.items())),
+    }
+
+
+def _action(method: Method) -> dict[str, Any]:
+    accepted = [kind.name for kind in method.factory.accepts if issubclass(kind, Modifier)]
+    return {
+        "arguments": _arguments(method.factory.__init__),
+        "modifiers": sorted(accepted),
+        "slots": list(method.slots),
+        "ends": method.ends,
+    }
+
+
+def _arguments(function: Callable[..., Any]) -> list[str]:
+    """Names of the parameters in their order, without the actor and what all have."""
+    return [
+        parameter.name
+        for parameter in list(inspect.signature(function).parameters.values())[1:]
+        if parameter.name not in ("actor", "duration", "label")
+        and parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
+    ]
+
+
+def _parameters(kind: type[Modifier]) -> list[str]:
+    return [field.name for field in dataclasses.fields(kind)]

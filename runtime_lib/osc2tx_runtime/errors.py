@@ -1,0 +1,61 @@
+"""The errors a scenario can meet; `main` prints them as `file:line: error: message`."""
+
+from __future__ import annotations
+
+__all__ = [
+    "CapabilityError",
+    "InputError",
+    "PlacementError",
+    "ScenarioError",
+    "SettingsError",
+    "SlotConflict",
+    "UnsupportedError",
+]
+
+
+class ScenarioError(Exception):
+    """The scenario cannot run, or cannot go on.
+
+    Attributes:
+        message: What is wrong, and what to do about it where that is known.
+        source: Place in the scenario, `hello_world.osc:57`; None where unknown.
+        exit_code: What `main` returns: 5 ran and failed, 4 unreadable input, 2 usage.
+    """
+
+    exit_code = 5
+
+    def __init__(self, message: str, source: str | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.source = source
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.message}" if self.source else self.message
+
+
+class PlacementError(ScenarioError):
+    """An actor cannot be put where the scenario wants it."""
+
+
+class SlotConflict(ScenarioError):
+    """Two actions that run at the same time control the same thing of one actor."""
+
+
+class UnsupportedError(ScenarioError):
+    """The runtime does not do what the scenario asks for."""
+
+
+class CapabilityError(ScenarioError):
+    """The chosen world cannot do what the scenario asks for."""
+
+
+class SettingsError(ScenarioError):
+    """A run option is wrong."""
+
+    exit_code = 2
+
+
+class InputError(ScenarioError):
+    """A file cannot be found, read or written."""
+
+    exit_code = 4

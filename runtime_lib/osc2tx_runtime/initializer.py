@@ -1,0 +1,198 @@
+"""Puts the cast on the map before step 0."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.actors import PhysicalObject
+from osc2tx_runtime.errors import PlacementError, ScenarioError, SettingsError
+from osc2tx_runtime.modifiers import (
+    Lane,
+    Lateral,
+    Modifier,
+    Orient,
+    Position,
+    Speed,
+    Yaw,
+)
+from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
+from osc2tx_runtime.places import Placer, Spot, one_of_kind
+from osc2tx_runtime.world.collision import Box, box_of, overlapping
+from osc2tx_runtime.world.state import ActorState
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.scenario import Placement
+
+__all__ = ["PLACEMENT_MODIFIERS", "ScenarioInitializer"]
+
+PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (Position, Lane, Lateral, Speed, Yaw, Orient)
+"""Modifiers that say where and how an actor starts."""
+
+
+class _Start:
+    """One actor to be placed.
+
+    Attributes:
+        actor: Who.
+        modifiers: Where and how.
+        source: Place in the scenario.
+        references: Actors that must be placed before.
+        rank: Absolute places come before relative ones, defaults last.
+    """
+
+    def __init__(
+        self, actor: PhysicalObject, modifiers: Sequence[Modifier], source: str | None
+    ) -> None:
+        self.actor = actor
+        self.modifiers = modifiers
+        self.source = source
+        self.references: list[PhysicalObject] = []
+        for modifier in modifiers:
+            if not isinstance(modifier, PLACEMENT_MODIFIERS):
+                raise PlacementError(f"{actor.id} cannot start with {modifier.name}", source)
+            if getattr(modifier, "at", "all") == "end":
+                raise PlacementError(f"{actor.id}: {modifier.name} at the end is no start", source)
+            reference = getattr(modifier, "reference", None)
+            reference = reference or getattr(modifier, "relative_to", None)
+            if reference is not None:
+                self.references.append(reference)
+        position = one_of_kind(modifiers, Position)
+        absolute = position is not None and position.absolute
+        self.rank = 0 if absolute else 1 if self.references else 2
+
+
+class ScenarioInitializer:
+    """Resolves placements in the order of their dependencies and fills the world.
+
+    Args:
+        context: The run: its world, actors and settings.
+    """
+
+    def __init__(self, context: ExecutionContext) -> None:
+        self._context = context
+        self._world = context.world
+        self._placer = Placer(context.world)
+        self._boxes: dict[str, Box] = {}
+
+    def run(self, placements: Sequence[Placement]) -> None:
+        """Places every physical actor and sets the routes of those with a destination.
+
+        Raises:
+            PlacementError: A place does not exist, is taken, or depends on itself.
+            SettingsError: A destination is none.
+        """
+        waiting = self._starts(placements)
+        for start in waiting:
+            self._world.add(start.actor.spec())
+        spawned = self._context.settings.spawn
+        for start in waiting:
+            if start.rank == 2 and start.actor.id in spawned:
+                start.rank = 1
+        while waiting:
+            ready = [s for s in waiting if all(r.id in self._boxes for r in s.references)]
+            if not ready:
+                raise _cycle(waiting)
+            start = min(ready, key=lambda s: s.rank)  # the first of equals: order of the cast
+            waiting.remove(start)
+            self._place(start)
+        self._set_routes()
+
+    def _starts(self, placements: Sequence[Placement]) -> list[_Start]:
+        """One start per physical actor, in the order of the cast."""
+        written: dict[str, Placement] = {}
+        for placement in placements:
+            known = written.setdefault(placement.actor.id, placement)
+            if known is not placement:
+                raise PlacementError(
+                    f"{placement.actor.id} is placed already ({known.source})", placement.source
+                )
+        starts = []
+        for actor in self._context.actors.values():
+            given = written.get(actor.id)
+            if isinstance(actor, PhysicalObject):
+                modifiers = () if given is None else given.modifiers
+                starts.append(_Start(actor, modifiers, given.source if given else actor.source))
+            elif given is not None:
+                raise PlacementError(f"{actor.id} cannot be placed anywhere", given.source)
+        return starts
+
+    def _place(self, start: _Start) -> None:
+        actor = start.actor
+        try:
+            spot = self._placer.spot(
+                actor,
+                start.modifiers,
+                spawn=self._spawn(actor.id),
+                is_free=lambda place: self._taken_by(actor, Spot(place, None, None)) is None,
+            )
+            other = self._taken_by(actor, spot)
+            if other is not None:
+                raise PlacementError(f"{actor.id} overlaps {other} at its start")
+            self._world.place(actor.id, spot.at, spot.speed or 0.0, spot.heading)
+        except ScenarioError as error:
+            error.source = error.source or start.source
+            raise
+        except MapError as error:
+            raise PlacementError(f"{actor.id}: {error.message}", start.source) from error
+        self._boxes[actor.id] = box_of(self._world.state(actor.id))
+
+    def _spawn(self, actor_id: str) -> LanePosition | None:
+        given = self._context.settings.spawn.get(actor_id)
+        return None if given is None else LanePosition(*given)
+
+    def _taken_by(self, actor: PhysicalObject, spot: Spot) -> str | None:
+        """Who stands there already."""
+        pose = self._world.map.pose(spot.at) if isinstance(spot.at, LanePosition) else spot.at
+        if spot.heading is not None:
+            pose = Pose(pose.x, pose.y, pose.z, spot.heading)
+        box = box_of(ActorState(pose.x, pose.y, pose.z, pose.h, 0, 0, None, 0, actor.shape))
+        for other, taken in self._boxes.items():
+            if overlapping(box, taken):
+                return other
+        return None
+
+    # --- routes -------------------------------------------------------------------------------
+
+    def _set_routes(self) -> None:
+        for actor_id, goal in self._context.settings.destination.items():
+            if actor_id not in self._boxes:
+                raise SettingsError(f"--destination {actor_id}={goal}: {actor_id} is not placed")
+            place = self._goal(actor_id, goal)
+            try:
+                self._world.set_route(actor_id, self._world.map.route_to(place))
+            except MapError as error:
+                raise SettingsError(f"--destination {actor_id}={goal}: {error.message}") from error
+
+    def _goal(self, actor_id: str, goal: str) -> LanePosition:
+        if goal in self._boxes:
+            state = self._world.state(goal)
+            on = self._world.map.locate(state.x, state.y, state.z)
+            if on is None:
+                raise SettingsError(f"--destination {actor_id}={goal}: {goal} is not on a road")
+            return on
+        parts = goal.split(",")
+        try:
+            road, lane, s = parts
+            return LanePosition(road.strip(), int(lane), float(s))
+        except ValueError:
+            raise SettingsError(
+                f"--destination {actor_id}={goal}: write a placed actor or ROAD,LANE,S"
+            ) from None
+
+
+def _cycle(waiting: Sequence[_Start]) -> PlacementError:
+    """Names the starts that wait for each other."""
+    by_id = {start.actor.id: start for start in waiting}
+    start, seen = waiting[0], []
+    while start not in seen:
+        seen.append(start)
+        blocking = [r.id for r in start.references if r.id in by_id]
+        if not blocking:
+            missing = ", ".join(reference.id for reference in start.references)
+            return PlacementError(f"{start.actor.id} waits for {missing}", start.source)
+        start = by_id[blocking[0]]
+    ring = seen[seen.index(start) :]
+    places = ", ".join(f"{each.actor.id} ({each.source})" for each in ring)
+    return PlacementError(f"the starts of {places} depend on each other", ring[-1].source)

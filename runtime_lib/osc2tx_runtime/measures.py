@@ -1,0 +1,218 @@
+"""Live fields and measuring methods of physical objects."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.values import Orientation, Point, Pose
+from osc2tx_runtime.world.distances import (
+    DistanceDirection,
+    DistanceMode,
+    RoadDirection,
+    gap_between,
+    headway_between,
+    lateral_on_road,
+    object_distance,
+    side_gap,
+    time_to_collision,
+    time_to_cover,
+)
+from osc2tx_runtime.world.distances import along_lanes as route_between
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["Measures", "RoutePosition", "RouteType"]
+
+RouteType = Literal["on_road", "on_lane_section", "on_lane", "on_crossing"]
+
+
+class Measures:
+    """What one can read of a physical object; mixed into the actor classes."""
+
+    id: str
+
+    @property
+    def context(self) -> ExecutionContext:
+        """The run."""
+        raise NotImplementedError
+
+    @property
+    def state(self) -> ActorState:
+        """Snapshot of the present step."""
+        return self.context.world.state(self.id)
+
+    # --- fields -------------------------------------------------------------------------------
+
+    @property
+    def speed(self) -> float:
+        """Speed (m/s), negative in reverse."""
+        return self.state.v
+
+    @property
+    def acceleration(self) -> float:
+        """Acceleration along the heading (m/s^2)."""
+        return self.state.a
+
+    @property
+    def position(self) -> RoutePosition:
+        """Place of the reference point."""
+        return RoutePosition(self)
+
+    @property
+    def orientation(self) -> Orientation:
+        """Orientation (rad)."""
+        return Orientation(yaw=self.state.h)
+
+    @property
+    def pose(self) -> Pose:
+        """Place and orientation of the reference point."""
+        state = self.state
+        return Pose(x=state.x, y=state.y, z=state.z, yaw=state.h)
+
+    # --- distances ----------------------------------------------------------------------------
+
+    def object_distance(
+        self,
+        reference: Measures,
+        direction: DistanceDirection,
+        mode: DistanceMode = "reference_points",
+    ) -> float:
+        """Distance (m) in the own axes; positive if the reference is in front, left, above."""
+        return object_distance(self.state, reference.state, direction, mode)
+
+    def road_distance(
+        self,
+        reference: Measures,
+        direction: RoadDirection,
+        mode: DistanceMode = "reference_points",
+        route_type: RouteType = "on_road",
+    ) -> float:
+        """Distance (m) along or across the road; positive if the reference is ahead or left.
+
+        With `bounding_boxes` it is measured between the facing ends or sides.
+        """
+        if route_type not in ("on_road", "on_lane"):
+            raise UnsupportedError(f"road_distance with route_type {route_type} is not there yet")
+        shape, other = self.state.shape, reference.state.shape
+        if direction == "longitudinal":
+            along = self._along(reference)
+            return along if mode == "reference_points" else -gap_between(-along, shape, other)
+        lateral = self._lateral(reference)
+        return lateral if mode == "reference_points" else -side_gap(lateral, shape, other)
+
+    def space_gap(self, reference: Measures, direction: RoadDirection) -> float:
+        """Space (m) between facing ends or sides; positive if the caller is ahead or left.
+
+        0 while both overlap in this direction. Lateral moves are free: vehicles in neighbouring
+        lanes have a longitudinal gap as well.
+        """
+        shape, other = self.state.shape, reference.state.shape
+        if direction == "longitudinal":
+            return gap_between(-self._along(reference), shape, other)
+        return side_gap(self._lateral(reference), shape, other)
+
+    def time_gap(self, reference: Measures, direction: RoadDirection) -> float:
+        """Space gap over the speed of the follower (s); lateral: over the approach speed."""
+        gap = self.space_gap(reference, direction)
+        if direction == "longitudinal":
+            return time_to_cover(gap, reference.speed if gap > 0.0 else self.speed)
+        me, other = self.state, reference.state
+        across = [s.v * math.sin(s.h - me.h) for s in (me, other)]
+        to_left = me.lateral_speed + across[0] - other.lateral_speed - across[1]
+        return time_to_cover(gap, -to_left if gap > 0.0 else to_left)
+
+    def space_headway(self, reference: Measures) -> float:
+        """Distance (m) from front to front; positive if the caller trails."""
+        return -headway_between(-self._along(reference), self.state.shape, reference.state.shape)
+
+    def time_headway(self, reference: Measures) -> float:
+        """Space headway over the speed of the trailing one (s); positive if the caller trails."""
+        headway = self.space_headway(reference)
+        return time_to_cover(headway, self.speed if headway > 0.0 else reference.speed)
+
+    def time_to_collision(self, reference: Measures) -> float:
+        """Time (s) until the boxes touch at constant velocities; infinite if they never do."""
+        return time_to_collision(self.state, reference.state)
+
+    def get_s_coord(self, route_type: RouteType = "on_road") -> float:
+        """Own s (m) on the road."""
+        return self._road_coordinates(route_type)[0]
+
+    def get_t_coord(self, route_type: RouteType = "on_road") -> float:
+        """Own t (m): left of the reference line of the road, or of the lane's centre line."""
+        return self._road_coordinates(route_type)[1]
+
+    # --- internals ----------------------------------------------------------------------------
+
+    def _road_coordinates(self, route_type: RouteType) -> tuple[float, float]:
+        state = self.state
+        place = state.lane_position
+        if place is None:
+            raise ScenarioError(f"{self.id} is not on a road")
+        if route_type == "on_lane":
+            return place.s, place.offset
+        if route_type != "on_road":
+            raise UnsupportedError(f"coordinates with route_type {route_type} are not there yet")
+        line = self.context.world.map.road_pose(place.road, place.s, 0.0)
+        across = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
+        return place.s, across
+
+    def _along(self, reference: Measures) -> float:
+        """Route distance (m) to the reference, positive if it is ahead."""
+        along = route_between(self.context.world.map, self.state, reference.state)
+        if along is None:
+            raise self._no_way(reference)
+        return along
+
+    def _lateral(self, reference: Measures) -> float:
+        """How far (m) the reference is to the left."""
+        lateral = lateral_on_road(self.context.world.map, self.state, reference.state)
+        if lateral is None:
+            raise self._no_way(reference)
+        return lateral
+
+    def _no_way(self, reference: Measures) -> ScenarioError:
+        return ScenarioError(
+            f"no lane leads from {self.id} to {reference.id} or back, so they have no distance"
+            " along the road"
+        )
+
+
+class RoutePosition:
+    """Place of an object, with its relation to others along the road."""
+
+    __slots__ = ("_object",)
+
+    def __init__(self, of: Measures) -> None:
+        self._object = of
+
+    def ahead_of(self, reference: Measures) -> float:
+        """How far (m) it is ahead of another object along the road; negative if behind."""
+        return -self._object._along(reference)
+
+    def behind(self, reference: Measures) -> float:
+        """How far (m) it is behind another object along the road; negative if ahead."""
+        return self._object._along(reference)
+
+    @property
+    def x(self) -> float:
+        """World x (m)."""
+        return self._object.state.x
+
+    @property
+    def y(self) -> float:
+        """World y (m)."""
+        return self._object.state.y
+
+    @property
+    def z(self) -> float:
+        """World z (m)."""
+        return self._object.state.z
+
+    def norm(self) -> float:
+        """Distance from the world's origin (m)."""
+        return Point(self.x, self.y, self.z).norm()

@@ -1,0 +1,57 @@
+"""OpenDRIVE road maps: read an .xodr file, then ask it about lanes, places and distances.
+
+Input is a file; output is a `RoadMap`, which answers everything and never changes. Begin at
+`road_map`. In order of control flow:
+
+* `xml_reader`, `reader`, `signal_reader`: text to roads, checked, or a `MapError`.
+* `polynomials`, `geometry`, `model`: what a road is made of.
+* `network`: which lane follows which; `lane_line`: arc length along a lane.
+* `motion`: moving along lanes; `routes`: distances over the lane graph.
+* `poses`: from a lane to (x, y, z); `projection`: back to a lane.
+* `outlines`: drawing and default start places; `signals`, `errors`: value types.
+
+Invariants: SI units, right-handed coordinates, headings in (-pi, pi]. Results do not depend on
+set order, platform hash seeds or the order of queries. Distances are measured on the xy plane.
+"""
+
+from __future__ import annotations
+
+from .errors import MapError
+from .model import (
+    DRIVING,
+    Advance,
+    Junction,
+    JunctionConnection,
+    Lane,
+    LaneKey,
+    LaneOutline,
+    LanePosition,
+    LaneSection,
+    Pose,
+    Road,
+)
+from .road_map import RoadMap, read_map, read_map_text
+from .routes import Route
+from .signals import Controller, Signal, SignalReference
+
+__all__ = [
+    "DRIVING",
+    "Advance",
+    "Controller",
+    "Junction",
+    "JunctionConnection",
+    "Lane",
+    "LaneKey",
+    "LaneOutline",
+    "LanePosition",
+    "LaneSection",
+    "MapError",
+    "Pose",
+    "Road",
+    "RoadMap",
+    "Route",
+    "Signal",
+    "SignalReference",
+    "read_map",
+    "read_map_text",
+]

@@ -1,0 +1,22 @@
+"""The one exception this package raises about map files."""
+
+from __future__ import annotations
+
+__all__ = ["MapError"]
+
+
+class MapError(Exception):
+    """A map cannot be read, or a query names something the map does not have.
+
+    Attributes:
+        file: Path or name of the map.
+        line: Line in the file (1-based), None where unknown.
+        message: What is wrong and what to do about it.
+    """
+
+    def __init__(self, file: str, message: str, line: int | None = None) -> None:
+        self.file = file
+        self.line = line
+        self.message = message
+        where = file if line is None else f"{file}:{line}"
+        super().__init__(f"{where}: {message}")

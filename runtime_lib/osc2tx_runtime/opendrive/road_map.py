@@ -1,0 +1,311 @@
+"""The public face of a map: poses, lanes, distances."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import Literal
+
+from .errors import MapError
+from .lane_line import lane_line
+from .model import (
+    DRIVING,
+    Advance,
+    Junction,
+    Lane,
+    LaneKey,
+    LaneOutline,
+    LanePosition,
+    Pose,
+    Road,
+)
+from .motion import Forks, advance
+from .network import connect_lanes, linked_ends
+from .outlines import lane_outlines, spawn_points
+from .poses import lane_pose, surface_pose
+from .projection import Projection, RoadIndex, lane_at, place_score, position_of, project
+from .reader import MapContent, read_content, read_content_text
+from .routes import LaneGroups, Route, passable
+from .signals import Controller, Signal
+
+__all__ = ["RoadMap", "read_map", "read_map_text"]
+
+_THIN = 0.05  # m: lanes narrower than this do not exist at that place
+
+
+class RoadMap:
+    """A road network with its queries. Immutable; caches fill on use.
+
+    Attributes:
+        name: Name of the map: file name without suffix.
+        roads: Roads by id, in numeric order.
+        junctions: Junctions by id, in numeric order.
+    """
+
+    def __init__(self, content: MapContent) -> None:
+        self.name = content.name
+        self._file = content.file
+        self._roads = content.roads
+        self.roads: Mapping[str, Road] = MappingProxyType(content.roads)
+        self.junctions: Mapping[str, Junction] = MappingProxyType(content.junctions)
+        self._signals = content.signals
+        self._controllers = content.controllers
+        self._forks = Forks()
+        connect_lanes(content.roads, content.junctions)
+
+    # --- places -------------------------------------------------------------------------------
+
+    def pose(self, p: LanePosition) -> Pose:
+        """Pose on a lane, heading in direction of travel including the slope of the lane."""
+        lane, s = self._lane(p.road, p.lane, p.s)
+        return lane_pose(lane, s, p.offset)
+
+    def road_pose(self, road: str, s: float, t: float) -> Pose:
+        """Pose in the frame of the reference line at (s, t)."""
+        found = self._road(road)
+        return surface_pose(found, min(max(s, 0.0), found.length), t, 0.0, 1, tangent=True)
+
+    def locate(
+        self,
+        x: float,
+        y: float,
+        z: float | None = None,
+        heading: float | None = None,
+        hint: LanePosition | None = None,
+        lane_types: frozenset[str] = DRIVING,
+        max_distance: float = 50.0,
+    ) -> LanePosition | None:
+        """Lane that contains a point, else the nearest one within `max_distance`.
+
+        Where lanes overlap (junctions, bridges) the point alone is ambiguous: `z` (m), `heading`
+        (rad, direction of travel) and `hint` (the last known place, which is then tracked along
+        its road and the roads linked to it) decide.
+        """
+        if hint is not None:
+            found = self._track(x, y, hint, lane_types, z, heading)
+            if found is not None:
+                return position_of(*found)
+        best = self._index.best((x, y), lane_types, max_distance, z, heading)
+        return None if best is None else position_of(*best)
+
+    def road_coordinates(
+        self, x: float, y: float, hint: LanePosition | None = None, max_distance: float = 50.0
+    ) -> tuple[str, float, float] | None:
+        """Road, s and t (m) of a point, for the road that contains it or is nearest."""
+        found = self._track(x, y, hint, None) if hint is not None else None
+        if found is None:
+            found = self._index.best((x, y), None, max_distance)
+        return None if found is None else (found[0].road.id, found[0].s, found[0].t)
+
+    def _track(
+        self,
+        x: float,
+        y: float,
+        hint: LanePosition,
+        types: frozenset[str] | None,
+        z: float | None = None,
+        heading: float | None = None,
+    ) -> tuple[Projection, Lane] | None:
+        """Searches the road of the hint, then the roads linked to its ends."""
+        lane, s = self._lane(hint.road, hint.lane, hint.s)
+        foot = project(lane.road, x, y, s)
+        if foot.beyond < 1e-6:
+            hit = lane_at(foot.road, foot.s, foot.t, types)
+            return (foot, hit[1]) if hit is not None and hit[0] == 0.0 else None
+        found: list[tuple[Projection, Lane]] = []
+        for road, near in linked_ends(lane, foot.s > 0.0):
+            onward = project(road, x, y, near)
+            hit = lane_at(road, onward.s, onward.t, types)
+            if onward.beyond < 1e-6 and hit is not None and hit[0] == 0.0:
+                found.append((onward, hit[1]))
+        if not found:
+            return None
+        return min(found, key=lambda place: place_score(place[0], place[1], 0.0, z, heading))
+
+    # --- lanes --------------------------------------------------------------------------------
+
+    def lane_type(self, road: str, lane: int, s: float) -> str:
+        """Type of a lane as written in the file, e.g. "driving"."""
+        return self._lane(road, lane, s)[0].type
+
+    def lane_width(self, road: str, lane: int, s: float) -> float:
+        """Width of a lane (m)."""
+        found, s = self._lane(road, lane, s)
+        return found.width_at(s)
+
+    def travel_direction(self, road: str, lane: int) -> int:
+        """+1 if traffic on the lane runs with s, -1 against."""
+        return 1 if (lane < 0) == self._road(road).right_hand_traffic else -1
+
+    def lanes(
+        self,
+        road: str,
+        s: float,
+        *,
+        like: int | None = None,
+        lane_types: frozenset[str] = DRIVING,
+    ) -> tuple[int, ...]:
+        """Lanes of one direction, from the right edge to the left in direction of travel.
+
+        Args:
+            road: Road id.
+            s: Road coordinate (m).
+            like: A lane of the wanted direction; default: the direction of s.
+            lane_types: Types that count; lanes without width at `s` never do.
+        """
+        found = self._road(road)
+        s = min(max(s, 0.0), found.length)
+        section = found.section_at(s)
+        direction = 1 if like is None else self.travel_direction(road, like)
+        with_s = section.right if found.right_hand_traffic else section.left
+        against = section.left if found.right_hand_traffic else section.right
+        ids = sorted(
+            lane.id
+            for lane in (with_s if direction > 0 else against)
+            if lane.type in lane_types and lane.width_at(s) >= _THIN
+        )
+        return tuple(ids if direction > 0 else reversed(ids))
+
+    def neighbour(
+        self, p: LanePosition, side: Literal["left", "right"], count: int = 1
+    ) -> LanePosition | None:
+        """Place beside `p`, `count` drivable lanes of the same direction away; None if absent.
+
+        Shoulders, medians and the like end the search, lanes without width do not.
+        """
+        lane, s = self._lane(p.road, p.lane, p.s)
+        step = lane.direction if side == "left" else -lane.direction
+        beside, left = lane.id, count
+        while left > 0:
+            beside += step
+            found = lane.section.lanes.get(beside)
+            if found is None or beside * lane.id <= 0:
+                return None
+            if found.type in DRIVING and found.width_at(s) >= _THIN:
+                left -= 1
+            elif found.type not in DRIVING and not passable(found, s):
+                return None
+        return LanePosition(p.road, beside, p.s)
+
+    def lane_key(self, p: LanePosition) -> LaneKey:
+        """The lane of a position."""
+        return self._lane(p.road, p.lane, p.s)[0].key
+
+    def lane_length(self, key: LaneKey) -> float:
+        """Arc length of the centre line on the xy plane (m)."""
+        return lane_line(self._keyed(key)).length
+
+    def successors(self, key: LaneKey) -> tuple[LaneKey, ...]:
+        """Lanes that follow in direction of travel, sorted."""
+        return tuple(lane.key for lane in self._keyed(key).successors)
+
+    def predecessors(self, key: LaneKey) -> tuple[LaneKey, ...]:
+        """Lanes that lead here in direction of travel, sorted."""
+        return tuple(lane.key for lane in self._keyed(key).predecessors)
+
+    # --- ways ---------------------------------------------------------------------------------
+
+    def advance(self, p: LanePosition, distance: float, route: Route | None = None) -> Advance:
+        """Moves along the lane by an arc length (m) at the offset of `p`; negative: backwards.
+
+        At a fork the branch with the least distance to go on `route` is taken, else the one that
+        turns least. At a dead end the move stops; `travelled` tells how far it went.
+        """
+        lane, s = self._lane(p.road, p.lane, p.s)
+        start = p if s == p.s else LanePosition(p.road, p.lane, s, p.offset)
+        return advance(lane, start, distance, route, self._forks)
+
+    def route_to(self, goal: LanePosition) -> Route:
+        """Distance-to-go field to a place."""
+        lane, s = self._lane(goal.road, goal.lane, goal.s)
+        place = LanePosition(goal.road, goal.lane, s, goal.offset)
+        return Route(place, lane, self._groups, self._lane)
+
+    def route_distance(self, a: LanePosition, b: LanePosition) -> float | None:
+        """Distance from a to b along lanes (m), negative if b is behind; None if not connected."""
+        lane_a, s_a = self._lane(a.road, a.lane, a.s)
+        lane_b, s_b = self._lane(b.road, b.lane, b.s)
+        return self._groups.signed(lane_a, s_a, lane_b, s_b)
+
+    # --- furniture and drawing ----------------------------------------------------------------
+
+    def signals(self) -> tuple[Signal, ...]:
+        """All signals, sorted by id."""
+        return self._signals
+
+    def controllers(self) -> tuple[Controller, ...]:
+        """All signal controllers, sorted by id."""
+        return self._controllers
+
+    def spawn_points(self) -> tuple[LanePosition, ...]:
+        """Default start places: driving lanes outside junctions, every 20 m from 10 m."""
+        return spawn_points(self._roads.values())
+
+    def lane_outlines(
+        self, bounds: tuple[float, float, float, float] | None = None, step: float = 4.0
+    ) -> Iterator[LaneOutline]:
+        """Edges of all lanes for drawing, optionally only near a box (xmin, ymin, xmax, ymax)."""
+        return lane_outlines(self._roads.values(), bounds, step)
+
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Box around all lanes: xmin, ymin, xmax, ymax (m)."""
+        edges = self._index.outline
+        low, high = edges.min(axis=0), edges.max(axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    # --- internals ----------------------------------------------------------------------------
+
+    @cached_property
+    def _index(self) -> RoadIndex:
+        return RoadIndex(self._roads)
+
+    @cached_property
+    def _groups(self) -> LaneGroups:
+        return LaneGroups(self._roads.values())
+
+    def _road(self, road: str) -> Road:
+        found = self._roads.get(road)
+        if found is None:
+            raise MapError(self._file, f"there is no road `{road}`; road ids differ between maps")
+        return found
+
+    def _lane(self, road: str, lane: int, s: float) -> tuple[Lane, float]:
+        """Lane at s, and s limited to the road."""
+        found = self._roads.get(road) or self._road(road)
+        s = 0.0 if s < 0.0 else min(s, found.length)
+        section = found.section_at(s)
+        result = section.lanes.get(lane)
+        if result is None:
+            known = ", ".join(str(lane_id) for lane_id in section.lanes)
+            raise MapError(
+                self._file, f"road `{road}` has no lane {lane} at s = {s:.3f} m; it has {known}"
+            )
+        return result, s
+
+    def _keyed(self, key: LaneKey) -> Lane:
+        sections = self._road(key.road).sections
+        lane = sections[key.section].lanes.get(key.lane) if key.section < len(sections) else None
+        if lane is None:
+            raise MapError(
+                self._file,
+                f"road `{key.road}` has no lane {key.lane} in section {key.section}",
+            )
+        if not lane.section.ready:
+            lane.section.prepare()
+        return lane
+
+
+def read_map(path: Path) -> RoadMap:
+    """Reads an OpenDRIVE file.
+
+    Raises:
+        MapError: The file cannot be read or is not a usable map.
+    """
+    return RoadMap(read_content(Path(path)))
+
+
+def read_map_text(text: str | bytes, name: str = "map") -> RoadMap:
+    """Reads an OpenDRIVE map that is in memory; `name` is used in messages."""
+    return RoadMap(read_content_text(text, name))

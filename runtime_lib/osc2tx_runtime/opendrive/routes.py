@@ -1,0 +1,226 @@
+"""Distances over the lane graph.
+
+Lanes that lie side by side and run the same way form a group; moving within a group costs no
+length (OpenSCENARIO DSL 8.7.6.1). A distance is measured along the lane of the one behind and
+changes lane only where that lane does not lead on, so that going 30 m ahead in a lane and asking
+for the distance afterwards gives 30 m even where an inner lane is shorter.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Callable, Iterable
+
+from .lane_line import lane_line
+from .model import DRIVING, Lane, LanePosition, LaneSection, Road
+from .network import lane_order
+
+__all__ = ["LaneGroups", "Route", "RouteField", "passable"]
+
+_NARROW = 0.5  # m: what is narrower does not separate lanes
+
+
+def passable(lane: Lane, s: float) -> bool:
+    """True if vehicles change lanes across this lane although they do not drive on it."""
+    return lane.type == "biking" or lane.width is None or lane.width.value(s) < _NARROW
+
+
+class RouteField:
+    """Distance to go from the end of each group to the begin of a goal group.
+
+    Attributes:
+        goal: The goal group.
+        gap: Metres from the end of a group to the begin of the goal; infinite if not connected.
+        following: Next group on the way, -1 if none.
+    """
+
+    __slots__ = ("following", "gap", "goal")
+
+    def __init__(self, goal: int, count: int) -> None:
+        self.goal = goal
+        self.gap = [math.inf] * count
+        self.following = [-1] * count
+
+
+class LaneGroups:
+    """Groups of all lanes of a map, with cached distance fields."""
+
+    def __init__(self, roads: Iterable[Road]) -> None:
+        self.groups: list[tuple[Lane, ...]] = []
+        for road in roads:
+            for section in road.sections:
+                self._add_section(section)
+        self.previous: list[tuple[int, ...]] = [self._leading(group) for group in self.groups]
+        self._fields: dict[int, RouteField] = {}
+        self._gaps: dict[tuple[Lane, Lane], tuple[float, Lane] | None] = {}
+
+    def _add_section(self, section: LaneSection) -> None:
+        middle = 0.5 * (section.begin + section.end)
+        for side in (section.right, section.left):
+            group: list[Lane] = []
+            for lane in side:
+                if lane.type in DRIVING:
+                    group.append(lane)
+                    continue
+                self._close([lane])
+                if group and not passable(lane, middle):
+                    self._close(group)
+                    group = []
+            if group:
+                self._close(group)
+
+    def _close(self, group: list[Lane]) -> None:
+        for lane in group:
+            lane.group = len(self.groups)
+        self.groups.append(tuple(group))
+
+    def _leading(self, group: tuple[Lane, ...]) -> tuple[int, ...]:
+        found = {before.group for lane in group for before in lane.predecessors}
+        return tuple(sorted(found))
+
+    def field(self, goal: int) -> RouteField:
+        """Backward Dijkstra from a group over the whole map, cached."""
+        field = self._fields.get(goal)
+        if field is None:
+            field = self._fields[goal] = self._search(goal)
+        return field
+
+    def _search(self, goal: int) -> RouteField:
+        field = RouteField(goal, len(self.groups))
+        gap, following = field.gap, field.following
+        heap: list[tuple[float, int, int]] = [(0.0, before, goal) for before in self.previous[goal]]
+        heapq.heapify(heap)
+        while heap:
+            distance, group, target = heapq.heappop(heap)
+            if distance >= gap[group]:
+                continue
+            gap[group], following[group] = distance, target
+            onward = distance + self.length(group)
+            for before in self.previous[group]:
+                if onward < gap[before]:
+                    heapq.heappush(heap, (onward, before, group))
+        return field
+
+    def length(self, group: int) -> float:
+        """Length (m) of the middle lane of a group, used to compare ways."""
+        lanes = self.groups[group]
+        return lane_line(lanes[len(lanes) // 2]).length
+
+    def gap(self, lane: Lane, goal: Lane) -> tuple[float, Lane] | None:
+        """Metres from the end of a lane to the begin of the group of another, cached.
+
+        The lane of arrival comes with it: it may lie beside the goal.
+        """
+        key = (lane, goal)
+        if key not in self._gaps:
+            self._gaps[key] = self._walk(lane, goal)
+        return self._gaps[key]
+
+    def _walk(self, lane: Lane, goal: Lane) -> tuple[float, Lane] | None:
+        following = self.field(goal.group).following
+        total = 0.0
+        while True:
+            target = following[lane.group]
+            if target < 0:
+                return None
+            lane = self._step(lane, target, goal, following)
+            if lane.group == goal.group:
+                return total, lane
+            total += lane_line(lane).length
+
+    def _step(self, lane: Lane, target: int, goal: Lane, following: list[int]) -> Lane:
+        """Lane with which the way goes on: the one that needs the fewest lane changes.
+
+        In a junction each lane often has a connecting road of its own. Those that end in the same
+        group count as parallel: a car in the outer lane of a bend stays there.
+        """
+        then = following[target] if target != goal.group else -1
+        lanes = self.groups[lane.group]
+        here = lanes.index(lane)
+        candidates = [
+            (
+                abs(i - here) + self._changes(onward, goal),
+                abs(i - here),
+                onward.group != target,
+                lane_order(onward),
+                onward,
+            )
+            for i, beside in enumerate(lanes)
+            for onward in beside.successors
+            if onward.group == target or (then >= 0 and following[onward.group] == then)
+        ]
+        return min(candidates, key=lambda candidate: candidate[:4])[4]
+
+    def _changes(self, lane: Lane, goal: Lane) -> int:
+        """Lane changes left from a lane that lies in, or right before, the group of the goal."""
+        group = self.groups[goal.group]
+        arrivals = [lane] if lane.group == goal.group else lane.successors
+        found = [o for o in arrivals if o.group == goal.group]
+        return min((abs(group.index(o) - group.index(goal)) for o in found), default=0)
+
+    def forward(self, a: Lane, s_a: float, b: Lane, s_b: float) -> float | None:
+        """Metres from a to b in direction of travel; None if b is not reached."""
+        line = lane_line(a)
+        if a.group == b.group and (s_b - s_a) * a.direction >= 0.0:
+            return abs(line.length_at(s_b) - line.length_at(s_a))
+        key = (a, b)
+        found = self._gaps[key] if key in self._gaps else self.gap(a, b)
+        if found is None:
+            return None
+        gap, entry = found
+        here = line.length_at(s_a)
+        there = lane_line(entry).length_at(s_b)
+        if a.direction > 0:
+            here = line.length - here
+        if b.direction < 0:
+            there = lane_line(entry).length - there
+        return here + gap + there
+
+    def signed(self, a: Lane, s_a: float, b: Lane, s_b: float) -> float | None:
+        """Distance from a to b, negative if b is behind; the nearer of both ways round."""
+        ahead, behind = self.forward(a, s_a, b, s_b), self.forward(b, s_b, a, s_a)
+        if behind is None:
+            return ahead
+        if ahead is None or behind < ahead:
+            return -behind
+        if behind == ahead and (lane_order(b), s_b) < (lane_order(a), s_a):
+            return -behind  # opposite on a ring: one fixed sign keeps it antisymmetric
+        return ahead
+
+
+class Route:
+    """Distance-to-go field to a goal; decides at forks.
+
+    Attributes:
+        goal: Where the route leads.
+    """
+
+    __slots__ = ("_field", "_find", "_groups", "_lane", "goal")
+
+    def __init__(
+        self,
+        goal: LanePosition,
+        lane: Lane,
+        groups: LaneGroups,
+        find: Callable[[str, int, float], tuple[Lane, float]],
+    ) -> None:
+        self.goal = goal
+        self._lane = lane
+        self._groups = groups
+        self._find = find
+        self._field = groups.field(lane.group)
+
+    def distance(self, p: LanePosition) -> float | None:
+        """Distance to go (m) from a place; None if the goal is not reached from there.
+
+        From a place just past the goal it is the way round.
+        """
+        lane, s = self._find(p.road, p.lane, p.s)
+        return self._groups.forward(lane, s, self._lane, self.goal.s)
+
+    def cost(self, lane: Lane) -> float:
+        """Distance to go (m) from the begin of a lane to the goal group, to compare branches."""
+        if lane.group == self._field.goal:
+            return 0.0
+        return self._groups.length(lane.group) + self._field.gap[lane.group]

@@ -1,0 +1,141 @@
+"""The registry of methods: which class carries out `hero.change_lane(...)`."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.action import Action
+    from osc2tx_runtime.actors import Actor
+
+__all__ = ["LATERAL", "LONGITUDINAL", "Ends", "Method", "MethodRegistry", "action", "methods"]
+
+LONGITUDINAL = "longitudinal"
+LATERAL = "lateral"
+
+Ends = Literal["goal", "open", "instant"]
+ActionT = TypeVar("ActionT", bound="type[Action]")
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """One registered action.
+
+    Attributes:
+        kind: Actor kind of the DSL (`vehicle`).
+        name: Method name (`change_lane`).
+        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing.
+        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once.
+        factory: The class that carries it out.
+    """
+
+    kind: str
+    name: str
+    slots: tuple[str, ...]
+    ends: Ends
+    factory: type[Action]
+
+    def signature(self) -> str:
+        """Return the call as one writes it: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
+        parameters = list(inspect.signature(self.factory).parameters.values())[1:]  # not `actor`
+        return f"{self.name}({', '.join(str(parameter) for parameter in parameters)})"
+
+
+class MethodRegistry:
+    """Finds action classes by actor kind and method name."""
+
+    def __init__(self) -> None:
+        self._methods: dict[tuple[str, str], Method] = {}
+
+    def action(
+        self,
+        kind: str,
+        name: str,
+        *,
+        slots: Iterable[str] = (),
+        ends: Ends = "goal",
+        replace: bool = False,
+    ) -> Callable[[ActionT], ActionT]:
+        """Register the decorated `Action` class as method `name` of actors of `kind`.
+
+        Args:
+            kind: Actor kind of the DSL, such as `vehicle`.
+            name: Method name.
+            slots: Slots the action claims for as long as it runs.
+            ends: When it ends.
+            replace: Take the place of a registered class instead of reporting it.
+
+        Raises:
+            ValueError: If the method is registered already.
+        """
+
+        def register(factory: ActionT) -> ActionT:
+            known = self._methods.get((kind, name))
+            if known is not None and not replace:
+                raise ValueError(
+                    f"{kind}.{name} is registered already, by {known.factory.__qualname__};"
+                    " pass replace=True to take its place"
+                )
+            method = Method(kind, name, tuple(slots), ends, factory)
+            self._methods[kind, name] = method
+            if "method" not in vars(factory):  # for instances made without the registry
+                factory.method = method
+            return factory
+
+        return register
+
+    def find(self, kinds: Iterable[str], name: str) -> Method | None:
+        """Return the method of the first of `kinds` (most derived first) that has it."""
+        for kind in kinds:
+            method = self._methods.get((kind, name))
+            if method is not None:
+                return method
+        return None
+
+    def names(self, kinds: Iterable[str]) -> tuple[str, ...]:
+        """Return the sorted method names of an actor with these kinds."""
+        wanted = tuple(kinds)
+        return tuple(sorted({name for kind, name in self._methods if kind in wanted}))
+
+    def near(self, kinds: Iterable[str], name: str) -> tuple[str, ...]:
+        """Return up to three method names that look like `name`."""
+        return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
+
+    def bind(self, actor: Actor, name: str) -> Callable[..., Action]:
+        """Return the constructor of the action `name` for one actor.
+
+        Raises:
+            AttributeError: If no kind of the actor has this method; names near ones.
+        """
+        kinds = type(actor).kinds
+        method = self.find(kinds, name)
+        if method is None:
+            near = self.near(kinds, name)
+            hint = f"; did you mean {' or '.join(near)}?" if near else ""
+            raise AttributeError(f"{kinds[0]} has no method `{name}`{hint}")
+        found = method
+
+        def create(*args: Any, **kwargs: Any) -> Action:
+            node = found.factory(actor, *args, **kwargs)
+            node.become(found)
+            return node
+
+        return create
+
+    def signature(self, kind: str, name: str) -> str:
+        """Return how a method is called, as text."""
+        return self._methods[kind, name].signature()
+
+    def all(self) -> tuple[Method, ...]:
+        """Return every method, sorted by kind and name."""
+        return tuple(self._methods[key] for key in sorted(self._methods))
+
+
+methods = MethodRegistry()
+"""The registry that actors use; own actions go in here as well."""
+
+action = methods.action

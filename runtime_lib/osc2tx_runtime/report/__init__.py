@@ -1,0 +1,7 @@
+"""The run report: one self-contained HTML file made from a trace and, if known, the road map."""
+
+from __future__ import annotations
+
+from .page import write_report
+
+__all__ = ["write_report"]

@@ -1,0 +1,217 @@
+"use strict";
+// Data, time, colours and small helpers that all views share. Texts of the trace reach the page
+// through textContent only.
+
+const byId = (id) => document.getElementById(id);
+const DATA = JSON.parse(byId("run-data").textContent);
+const SVG_SPACE = byId("motion").namespaceURI;
+
+// ---- errors: shown on the page and readable in the DOM -----------------------------------------
+
+function showError(message) {
+  document.documentElement.dataset.error = message;
+  byId("error").hidden = false;
+  byId("error").textContent = "The report could not be drawn completely: " + message;
+}
+window.addEventListener("error", (event) => showError(String(event.message)));
+
+// ---- small helpers -----------------------------------------------------------------------------
+
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+const mix = (a, b, share) => (a === null || b === null ? a : a + (b - a) * share);
+
+/** Make an HTML element: element("td", {className: "x"}, "text", child...). */
+function element(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+/** Make an SVG element with attributes; children may be texts (they stay texts). */
+function svg(tag, attributes = {}, ...children) {
+  const made = document.createElementNS(SVG_SPACE, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+
+/** A number with fixed decimals and a true minus sign; a dash where there is none. */
+function format(value, digits) {
+  if (value === null || value === undefined) return "–";
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+
+const seconds = (time) => format(time, 2) + " s";
+
+/** Index of the last entry of a sorted list that is not after `value` (0 if all are). */
+function lastIndex(list, value) {
+  let low = 0, high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (list[middle] <= value) low = middle + 1; else high = middle;
+  }
+  return Math.max(low - 1, 0);
+}
+
+/** A row of buttons of which one is pressed. */
+function segments(host, choices, onPick) {
+  const buttons = choices.map(([value, text]) => {
+    const button = element("button", { type: "button", textContent: text });
+    button.addEventListener("click", () => { press(value); onPick(value); });
+    return [value, button];
+  });
+  const press = (chosen) =>
+    buttons.forEach(([value, button]) => button.setAttribute("aria-pressed", value === chosen));
+  host.append(...buttons.map(([, button]) => button));
+  press(choices[0][0]);
+}
+
+const measure = document.createElement("canvas").getContext("2d");
+const FONT = 'system-ui, -apple-system, "Segoe UI", "Liberation Sans", Arial, sans-serif';
+function textWidth(text, style = "12px") {
+  measure.font = style + " " + FONT;
+  return measure.measureText(text).width;
+}
+
+/** Shorten a text with an ellipsis so that it fits. */
+function fitText(text, width, style) {
+  if (textWidth(text, style) <= width) return text;
+  let length = text.length;
+  while (length > 0 && textWidth(text.slice(0, length) + "…", style) > width) length -= 1;
+  return length > 0 ? text.slice(0, length) + "…" : "";
+}
+
+// ---- colours -----------------------------------------------------------------------------------
+
+const theme = {};
+const THEME_NAMES = ["text", "soft", "card", "line", "bad", "label", "land", "asphalt", "shoulder",
+  "walk", "bike", "park", "green", "other", "mark", "arrow", "accent"];
+
+/** Canvas drawing needs the values of the style sheet's variables. */
+function readTheme() {
+  const style = getComputedStyle(document.documentElement);
+  for (const name of THEME_NAMES) theme[name] = style.getPropertyValue("--" + name).trim();
+  theme.palette = Array.from({ length: 10 }, (_, i) => style.getPropertyValue("--c" + i).trim());
+}
+readTheme();
+
+/** For SVG: a variable, so that a change of the colour scheme needs no drawing. */
+const paletteColor = (index) => `var(--c${index % 10})`;
+
+// ---- actors and their movement -----------------------------------------------------------------
+
+const ACTORS = DATA.actors.map((actor, index) => ({ ...actor, index, color: paletteColor(index) }));
+const ACTOR_BY_ID = new Map(ACTORS.map((actor) => [actor.id, actor]));
+const TRACKED = ACTORS.filter((actor) => actor.track);
+const MOVABLE = TRACKED.filter((actor) => actor.movable);
+
+// Canvas paths hold single precision: everything is drawn relative to a point nearby.
+const ORIGIN = TRACKED.length ? [TRACKED[0].track.x[0], TRACKED[0].track.y[0]] : [0, 0];
+for (const { track } of TRACKED) {
+  track.px = track.x.map((x) => x - ORIGIN[0]);
+  track.py = track.y.map((y) => y - ORIGIN[1]);
+  track.placeTimes = track.places.map((place) => place[0]);
+}
+
+/** The value of one column between its samples; held before the first and after the last. */
+function columnAt(track, column, time) {
+  if (!column) return null;
+  const i = lastIndex(track.t, time);
+  const next = Math.min(i + 1, track.t.length - 1);
+  const span = track.t[next] - track.t[i];
+  return mix(column[i], column[next], span > 0 ? clamp((time - track.t[i]) / span, 0, 1) : 0);
+}
+
+/** Heading between samples, the short way round. */
+function headingAt(track, time) {
+  if (!track.h) return 0;
+  const i = lastIndex(track.t, time);
+  const next = Math.min(i + 1, track.t.length - 1);
+  const span = track.t[next] - track.t[i];
+  const turn = track.h[next] - track.h[i];
+  const short = Math.atan2(Math.sin(turn), Math.cos(turn));
+  return track.h[i] + short * (span > 0 ? clamp((time - track.t[i]) / span, 0, 1) : 0);
+}
+
+/** Position (m, relative to ORIGIN) and heading (rad) of an actor. */
+function poseAt(actor, time) {
+  const track = actor.track;
+  return { x: columnAt(track, track.px, time), y: columnAt(track, track.py, time), h: headingAt(track, time) };
+}
+
+/** Road and lane of an actor as [time, road, lane]. */
+const placeAt = ({ track }, time) => track.places[lastIndex(track.placeTimes, time)];
+
+/** Start and end of an action on the page; an open one lasts to the end of the run. */
+const actionEnd = (action) => (action.end === null ? DATA.duration : action.end);
+
+// ---- the one time of the page ------------------------------------------------------------------
+
+const clock = {
+  now: 0,
+  end: Math.max(DATA.duration, 0),
+  listeners: [],
+  set(time) {
+    this.now = clamp(time, 0, this.end);
+    for (const listener of this.listeners) listener(this.now);
+  },
+};
+
+/** Let a pointer set the time on an element: `timeOf(x)` gives the time at a client coordinate. */
+function scrub(host, timeOf) {
+  const move = (event) => clock.set(timeOf(event.clientX - host.getBoundingClientRect().left));
+  host.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    host.setPointerCapture(event.pointerId);
+    move(event);
+  });
+  host.addEventListener("pointermove", (event) => {
+    if (host.hasPointerCapture(event.pointerId)) move(event);
+  });
+}
+
+/** Draw now and again whenever the width of an element changes. */
+function drawOnResize(host, draw) {
+  let width = host.clientWidth;
+  new ResizeObserver(() => {
+    if (host.clientWidth === width) return;
+    width = host.clientWidth;
+    draw();
+  }).observe(host);
+  draw();
+}
+
+// ---- axes --------------------------------------------------------------------------------------
+
+/** A step of 1, 2 or 5 times a power of ten that gives about `count` ticks. */
+function niceStep(span, count) {
+  const rough = Math.max(span, 1e-9) / count;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= rough * 0.999);
+}
+
+/** Ticks that enclose [low, high] (or lie within it, for `inside`). */
+function niceTicks(low, high, count, inside = false) {
+  const step = niceStep(high - low, count);
+  const first = (inside ? Math.ceil(low / step - 1e-9) : Math.floor(low / step + 1e-9));
+  const last = (inside ? Math.floor(high / step + 1e-9) : Math.ceil(high / step - 1e-9));
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const values = Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+  return { values, digits, low: values[0], high: values[values.length - 1] };
+}
+
+/** The time axis of charts and timeline: vertical lines, numbers below, and the scale. */
+function timeAxis(host, left, right, top, bottom) {
+  const end = clock.end || 1;
+  const toX = (time) => left + (time / end) * (right - left);
+  const ticks = niceTicks(0, end, clamp((right - left) / 90, 3, 14), true);
+  for (const value of ticks.values) {
+    const x = toX(value);
+    host.append(svg("line", { class: "grid", x1: x, x2: x, y1: top, y2: bottom }));
+    const label = format(value, ticks.digits) + (value === 0 ? " s" : "");
+    host.append(svg("text", { x, y: bottom + 16, "text-anchor": "middle" }, label));
+  }
+  host.append(svg("line", { class: "axis", x1: left, x2: right, y1: bottom, y2: bottom }));
+  return { toX, toTime: (x) => ((x - left) / (right - left)) * end };
+}

@@ -1,0 +1,168 @@
+// The timeline: actions as bars in a row per actor, instants as marks in rows of their own.
+
+const LINE_HEIGHT = 24;
+const BAR_HEIGHT = 18;
+const MAX_MARK_LINES = 4;
+
+const TIMELINE_ROWS = buildTimelineRows();
+const timeline = { host: byId("timeline"), axis: null, cursor: null };
+
+/** Rows of marks that exist, then a row for every actor with actions. */
+function buildTimelineRows() {
+  const markRows = [
+    ["events", (mark) => mark.kind === "event" || mark.kind === "collision"],
+    ["lights", (mark) => mark.kind === "lights"],
+    ["signals", (mark) => mark.kind === "signal"],
+    ["environment", (mark) => mark.kind === "environment"],
+  ].map(([name, test]) => ({ name, marks: DATA.marks.filter(test) })).filter((row) => row.marks.length);
+  const actors = new Map(ACTORS.map((actor) => [actor.id, []]));
+  for (const action of DATA.actions) {
+    if (!actors.has(action.actor)) actors.set(action.actor, []);
+    actors.get(action.actor).push(action);
+  }
+  const barRows = [...actors].filter(([, actions]) => actions.length)
+    .map(([name, actions]) => ({ name: name || "(no actor)", id: name, actions }));
+  const [events, others] = [markRows.filter((row) => row.name === "events"), markRows.filter((row) => row.name !== "events")];
+  return [...events, ...barRows, ...others];
+}
+
+/** Without the actor's name in front, which the row already says. */
+const shortName = (action) =>
+  action.name.startsWith(action.actor + " ") ? action.name.slice(action.actor.length + 1) : action.name;
+
+/** The first line on which [from, to] is free; a new one if none is; `limit` if there are enough. */
+function freeLine(lines, from, to, limit) {
+  let index = lines.findIndex((spans) => spans.every(([a, b]) => to <= a || from >= b));
+  if (index < 0 && lines.length === limit) return limit;
+  if (index < 0) index = lines.push([]) - 1;
+  lines[index].push([from, to]);
+  return index;
+}
+
+/** Where a bar and its text go: inside if it fits, else beside it. */
+function layoutBar(action, toX, right) {
+  const x0 = toX(action.start), x1 = Math.max(toX(actionEnd(action)), x0 + 5);
+  const style = action.status === "fail" ? "600 12px" : "12px";
+  const name = fitText(shortName(action), 260, style);
+  const textSpan = textWidth(name, style) + 12;
+  if (textSpan <= x1 - x0) return { action, x0, x1, name, textX: x0 + 6, from: x0, to: x1 };
+  if (x1 + textSpan <= right) return { action, x0, x1, name, textX: x1 + 5, from: x0, to: x1 + textSpan };
+  return { action, x0, x1, name, textX: x0 - textSpan + 6, from: x0 - textSpan, to: x1 };
+}
+
+function layoutMark(mark, toX, right) {
+  const x = toX(mark.t);
+  const label = mark.kind === "lights" ? `${mark.actor}: ${mark.name}` : mark.name;
+  const name = fitText(mark.kind === "collision" ? "collision " + label : label, 240);
+  const width = textWidth(name) + 8;
+  return x + 8 + width <= right + 8
+    ? { mark, label, x, name, textX: x + 8, from: x - 6, to: x + 8 + width }
+    : { mark, label, x, name, textX: x - width, from: x - 8 - width, to: x + 6 };
+}
+
+/** Places the contents of a row on lines; gives the number of lines. */
+function layoutRow(row, toX, right) {
+  const lines = [], limit = row.marks ? MAX_MARK_LINES : Infinity;
+  row.items = (row.actions || row.marks).map((item) =>
+    row.actions ? layoutBar(item, toX, right) : layoutMark(item, toX, right));
+  for (const item of row.items) item.line = freeLine(lines, item.from, item.to + 4, limit);
+  // Marks beyond the limit share one more line, without names.
+  row.lines = lines.length + (row.items.some((item) => item.line === limit) ? 1 : 0);
+}
+
+function barTitle(action) {
+  const end = action.end === null ? "not ended" : seconds(action.end);
+  const lines = [`${action.name} (${action.status})`, `${seconds(action.start)} to ${end}`];
+  return [...lines, action.source, action.reason].filter(Boolean).join("\n");
+}
+
+/** A press on a bar or mark moves the time to its start, not to where the pointer is. */
+function jumpOnPress(group, time) {
+  group.addEventListener("pointerdown", (event) => {
+    event.stopPropagation();
+    clock.set(time);
+  });
+}
+
+function drawBar(item, y) {
+  const { action, x0, x1, name, textX } = item;
+  const failed = action.status === "fail";
+  const actor = ACTOR_BY_ID.get(action.actor);
+  const kind = failed ? " bar-fail" : action.end === null ? " bar-open" : "";
+  const box = svg("rect", { class: "bar-box" + kind, x: x0, y: y + 3, width: x1 - x0, height: BAR_HEIGHT, rx: Math.min(4, (x1 - x0) / 2) });
+  if (!failed) box.style.fill = box.style.stroke = actor ? actor.color : "var(--soft)";
+  const text = svg("text", { class: failed ? "bar-text fail" : "bar-text", x: textX, y: y + 16 }, name);
+  const group = svg("g", { class: "bar" }, svg("title", {}, barTitle(action)), box, text);
+  jumpOnPress(group, action.start);
+  return group;
+}
+
+function drawMark(item, y, bottom) {
+  const { mark, x, name, textX, line, label } = item;
+  const labelled = line < MAX_MARK_LINES;
+  const middle = y + 12;
+  const group = svg("g", { class: "mark " + mark.kind }, svg("title", {}, `${label}\n${seconds(mark.t)}`));
+  if (bottom) group.append(svg("line", { x1: x, x2: x, y1: middle, y2: bottom }));
+  group.append(svg("path", { d: `M${x} ${middle - 5}l5 5l-5 5l-5 -5Z` }));
+  if (labelled) group.append(svg("text", { x: textX, y: middle + 4 }, name));
+  jumpOnPress(group, mark.t);
+  return group;
+}
+
+/** Width of the column with the names of the rows. */
+const namesWidth = () =>
+  clamp(Math.max(0, ...TIMELINE_ROWS.map((row) => textWidth(row.name, "600 12px"))) + 20, 70, 170);
+
+function drawTimeline() {
+  const { host } = timeline;
+  const width = host.clientWidth, left = namesWidth(), right = width - 14;
+  if (!width) return;
+  const toX = (time) => left + (time / (clock.end || 1)) * (right - left);
+  TIMELINE_ROWS.forEach((row) => layoutRow(row, toX, right));
+  const rowHeights = TIMELINE_ROWS.map((row) => row.lines * LINE_HEIGHT + 8);
+  const bottom = rowHeights.reduce((sum, height) => sum + height, 0) || 30;
+  host.style.height = bottom + 26 + "px";
+  host.setAttribute("viewBox", `0 0 ${width} ${bottom + 26}`); // so that printing can scale it
+  host.replaceChildren();
+  drawBands(rowHeights, width);
+  timeline.axis = timeAxis(host, left, right, 0, bottom);
+  let y = 0;
+  TIMELINE_ROWS.forEach((row, i) => {
+    drawRow(row, y, left, row.name === "events" ? bottom : 0);
+    y += rowHeights[i];
+  });
+  if (!TIMELINE_ROWS.length) host.append(svg("text", { x: left + 12, y: 20 }, "No actions or events"));
+  timeline.cursor = svg("line", { class: "cursor", y1: 0, y2: bottom });
+  host.append(timeline.cursor);
+  moveTimelineCursor();
+}
+
+function drawBands(rowHeights, width) {
+  let y = 0;
+  rowHeights.forEach((height, i) => {
+    if (i % 2) timeline.host.append(svg("rect", { class: "band", x: 0, y, width, height }));
+    y += height;
+  });
+}
+
+function drawRow(row, y, left, markBottom) {
+  const name = fitText(row.name, left - 16, "600 12px");
+  timeline.host.append(svg("text", { class: "row-name", x: 4, y: y + 20 }, svg("title", {}, row.name), name));
+  for (const item of row.items) {
+    const top = y + 4 + item.line * LINE_HEIGHT;
+    timeline.host.append(row.actions ? drawBar(item, top) : drawMark(item, top, markBottom));
+  }
+}
+
+function moveTimelineCursor() {
+  if (!timeline.axis) return;
+  const x = timeline.axis.toX(clock.now);
+  timeline.cursor.setAttribute("x1", x);
+  timeline.cursor.setAttribute("x2", x);
+}
+
+function startTimeline() {
+  scrub(timeline.host, (x) => timeline.axis.toTime(x));
+  clock.listeners.push(moveTimelineCursor);
+  drawOnResize(timeline.host, drawTimeline);
+}

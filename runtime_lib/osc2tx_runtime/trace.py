@@ -1,0 +1,182 @@
+"""The trace: one JSON object per line, the same bytes for the same run. See docs/trace.md."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.slots import place_key
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.action import Action
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["TRACE_VERSION", "TraceWriter", "number"]
+
+TRACE_VERSION = 1
+ACTION_ORDER = {"start": 0, "end": 1, "fail": 2}
+
+
+def number(value: float | None) -> str:
+    """Return a number as the trace writes it: at most six decimals, no minus zero."""
+    if value is None:
+        return "null"
+    text = repr(round(value, 6) + 0.0)
+    return "null" if "n" in text else text  # nan and inf are no JSON
+
+
+def to_json(value: Any) -> str:
+    """Return compact JSON; actors as their ids.
+
+    Floats have nine significant digits: unlike states, parameters, arguments and the environment
+    have values of any size (2 mm/h of rain are 5.6e-7 m/s).
+    """
+    if isinstance(value, float):
+        text = repr(float(f"{value:.9g}") + 0.0)
+        return "null" if "n" in text else text
+    if isinstance(value, Mapping):
+        return "{" + ",".join(f"{json.dumps(str(k))}:{to_json(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ",".join(map(to_json, value)) + "]"
+    if value is None or isinstance(value, str | int):
+        return json.dumps(value)
+    if hasattr(value, "__float__"):  # numbers of other libraries
+        return to_json(float(value))
+    return json.dumps(str(getattr(value, "id", value)))
+
+
+class TraceWriter:
+    """Collects the lines of a run.
+
+    What happens at one instant is kept until `end_instant` and written in a fixed order, so that
+    the order in which the tree visits parallel members does not show.
+
+    Args:
+        enabled: Keep lines at all.
+
+    Attributes:
+        lines: The lines so far, without line ends.
+    """
+
+    def __init__(self, enabled: bool = True) -> None:
+        self.enabled = enabled
+        self.lines: list[str] = []
+        self._events: set[tuple[str, str]] = set()
+        self._actions: list[tuple[tuple[str, int, str], int, str]] = []
+        self._others: dict[tuple[int, str, str], str] = {}
+        self._environment: dict[str, Any] = {}
+        self._written: dict[str, tuple[ActorState, str]] = {}
+
+    # --- what happens at the present instant ---
+
+    def event(self, name: str, arguments: Mapping[str, Any] | None = None) -> None:
+        """Note that an event occurs; equal ones of one instant are one."""
+        if self.enabled:
+            values = {key: arguments[key] for key in sorted(arguments)} if arguments else {}
+            self._events.add((name, f',"arguments":{to_json(values)}' if values else ""))
+
+    def action(self, status: str, action: Action, reason: str | None = None) -> None:
+        """Note that an action starts, ends or fails; `reason` says why where it is not plain."""
+        if not self.enabled:
+            return
+        text = (
+            f'"kind":"action","status":"{status}","name":{json.dumps(action.action_name)},'
+            f'"actor":{json.dumps(action.actor.id)},"source":{json.dumps(action.source)}'
+        )
+        if reason is not None:
+            text += f',"reason":{json.dumps(reason)}'
+        key = place_key(action.source, action.action_name)
+        self._actions.append((key, ACTION_ORDER[status], text))
+
+    def lights(self, actor_id: str, mode: str) -> None:
+        """Note the new light mode of a vehicle."""
+        self.other(0, "lights", actor=actor_id, mode=mode)
+
+    def environment(self, **values: Any) -> None:
+        """Note new values of the environment, SI units; those of one instant are one line."""
+        self._environment.update(values)
+
+    def signal(self, signal_id: str, state: str) -> None:
+        """Note the new state of a traffic light."""
+        self.other(2, "signal", signal=signal_id, state=state)
+
+    def collision(self, actor_ids: Iterable[str]) -> None:
+        """Note a new contact of two actors."""
+        self.other(3, "collision", actors=sorted(actor_ids))
+
+    def other(self, rank: int, kind: str, **values: Any) -> None:
+        """Note a line of another kind, about its first value; the last one about it counts.
+
+        Call it where the order is fixed: from effects, or after a step.
+
+        Args:
+            rank: Order of the kinds within an instant.
+            kind: Kind of the line.
+            **values: What it says.
+        """
+        if self.enabled:
+            subject = to_json(next(iter(values.values()), None))
+            text = f'"kind":{json.dumps(kind)},{to_json(values)[1:-1]}'
+            self._others[rank, kind, subject] = text
+
+    # --- the file ---
+
+    def header(self, values: Mapping[str, Any]) -> None:
+        """Write the first line."""
+        if self.enabled:
+            head = {"kind": "header", "version": TRACE_VERSION, **values}
+            self.lines.append(to_json(head))
+
+    def end_instant(self, time: float, states: Iterable[tuple[str, ActorState]] = ()) -> None:
+        """Write the lines of one instant: states, events, actions, then the other kinds."""
+        if not self.enabled:
+            return
+        t = f'{{"t":{number(time)},'
+        lines = self.lines
+        written = self._written
+        for actor_id, state in states:
+            before = written.get(actor_id)
+            if before is None or before[0] != state:  # what stands still is written once
+                text = f'"kind":"state","actor":{json.dumps(actor_id)},{state_json(state)}}}'
+                before = written[actor_id] = (state, text)
+            lines.append(t + before[1])
+        for name, arguments in sorted(self._events):
+            lines.append(f'{t}"kind":"event","name":{json.dumps(name)}{arguments}}}')
+        lines.extend(f"{t}{text}}}" for _, _, text in sorted(self._actions))
+        if self._environment:
+            values = {key: self._environment[key] for key in sorted(self._environment)}
+            self._others[1, "environment", ""] = f'"kind":"environment",{to_json(values)[1:-1]}'
+        lines.extend(f"{t}{text}}}" for _, text in sorted(self._others.items()))
+        self._environment.clear()
+        self._events.clear()
+        self._actions.clear()
+        self._others.clear()
+
+    def result(self, status: str, reason: str, steps: int) -> None:
+        """Write the last line."""
+        if self.enabled:
+            values = {"kind": "result", "status": status, "reason": reason, "steps": steps}
+            self.lines.append(to_json(values))
+
+
+def state_json(state: ActorState) -> str:
+    """Return the state of an actor as the inside of a JSON object.
+
+    Most lines of a trace come from here, so the numbers are not written by `number` one by one.
+    """
+    x, y, z, h, v, a = state.x, state.y, state.z, state.h, state.v, state.a
+    road = "null" if state.road is None else json.dumps(state.road)
+    lane = "null" if state.lane is None else state.lane
+    s, offset = state.s, state.offset
+    if s is None or offset is None or not isfinite(x + y + z + h + v + a + s + offset):
+        return (
+            f'"x":{number(x)},"y":{number(y)},"z":{number(z)},"h":{number(h)},"v":{number(v)},'
+            f'"a":{number(a)},"road":{road},"lane":{lane},"s":{number(s)},"offset":{number(offset)}'
+        )
+    return (
+        f'"x":{round(x, 6) + 0.0!r},"y":{round(y, 6) + 0.0!r},"z":{round(z, 6) + 0.0!r},'
+        f'"h":{round(h, 6) + 0.0!r},"v":{round(v, 6) + 0.0!r},"a":{round(a, 6) + 0.0!r},'
+        f'"road":{road},"lane":{lane},"s":{round(s, 6) + 0.0!r},"offset":{round(offset, 6) + 0.0!r}'
+    )

@@ -1,0 +1,247 @@
+"""The world that needs no simulator: lane-bound actors on an OpenDRIVE map."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
+
+from .collision import Box, box_of, swept_contacts
+from .commands import Command
+from .distances import along_lanes
+from .motion import Body
+from .protocol import (
+    LONGITUDINAL,
+    LOW_BEAM_SUN_ELEVATION,
+    ActorSpec,
+    LightMode,
+    LightState,
+    Progress,
+)
+from .state import ActorState
+
+__all__ = ["EmbeddedWorld"]
+
+_CAPABILITIES = frozenset(
+    {
+        "Accelerate",
+        "FollowSpeed",
+        "KeepGap",
+        "KeepLane",
+        "LaneChange",
+        "LaneOffset",
+        "SpeedChange",
+        "Standstill",
+        "Turn",
+        "assign_orientation",
+        "assign_position",
+        "assign_speed",
+        "collisions",
+        "environment",
+        "lights",
+    }
+)
+
+
+class EmbeddedWorld:
+    """Deterministic world with closed-form motion.
+
+    Attributes:
+        map: The road map.
+        dt: Length of a step (s).
+    """
+
+    def __init__(self, road_map: RoadMap, dt: float = 0.05) -> None:
+        self.map = road_map
+        self.dt = dt
+        self._specs: dict[str, ActorSpec] = {}
+        self._bodies: dict[str, Body] = {}
+        self._boxes: list[Box] = []
+        self._assigned: dict[str, dict[str, float | LanePosition | Pose]] = {}
+        self._lights: dict[str, LightState] = {}
+        self._next_lights: dict[str, LightState] = {}
+        self._environment: dict[str, float] = {}
+        self._next_environment: dict[str, float] = {}
+        self._touching: frozenset[tuple[int, int]] = frozenset()
+        self._collisions: tuple[tuple[str, str], ...] = ()
+
+    # --- cast ---------------------------------------------------------------------------------
+
+    def add(self, spec: ActorSpec) -> None:
+        """Makes an actor known; it has a state from its placement on."""
+        self._specs[spec.id] = spec
+
+    def place(
+        self, actor: str, at: LanePosition | Pose, speed: float = 0.0, heading: float | None = None
+    ) -> None:
+        """Puts an actor somewhere before step 0.
+
+        Lane-bound actors follow the lane if `at` is one; others, and those placed by a pose, go
+        straight. `heading` (rad) turns an actor that is not lane-bound.
+        """
+        spec = self._specs[actor]
+        pose = self.map.pose(at) if isinstance(at, LanePosition) else at
+        if heading is not None:
+            pose = Pose(pose.x, pose.y, pose.z, heading)
+        unplaced = ActorState(pose.x, pose.y, pose.z, pose.h, 0.0, 0.0, None, 0.0, spec.shape)
+        body = Body(spec, unplaced, None)
+        if spec.lane_bound and isinstance(at, LanePosition):
+            body.state = body.rebind(at, speed, self.map)
+        else:
+            body.state = body.free_state(pose, speed, 0.0, self.map)
+        self._bodies[actor] = body
+        self._bodies = {each: self._bodies[each] for each in self._specs if each in self._bodies}
+        self._lights[actor] = self._next_lights[actor] = LightState()
+        self._boxes = [box_of(each.state) for each in self._bodies.values()]
+
+    def actors(self) -> tuple[str, ...]:
+        """Ids of the placed actors in the order of the cast."""
+        return tuple(self._bodies)
+
+    def set_route(self, actor: str, route: Route | None) -> None:
+        """Decides which branch the actor takes at forks."""
+        self._body(actor).route = route
+
+    # --- reading ------------------------------------------------------------------------------
+
+    def state(self, actor: str) -> ActorState:
+        """State of an actor at the present step."""
+        body = self._bodies.get(actor)
+        return self._body(actor).state if body is None else body.state
+
+    def along(self, a: ActorState, b: ActorState) -> float | None:
+        """Route distance (m) from a to b; None if not connected."""
+        return along_lanes(self.map, a, b)
+
+    def progress(self, actor: str, slot: str) -> Progress:
+        """Progress of the command in a slot."""
+        body = self._body(actor)
+        return body.speed_progress() if slot == LONGITUDINAL else body.side_progress()
+
+    def lights(self, actor: str) -> LightState:
+        """Lights at the present step."""
+        return self._lights.get(actor, LightState())
+
+    def environment(self) -> Mapping[str, float]:
+        """Environment at the present step."""
+        return MappingProxyType(self._environment)
+
+    def collisions(self) -> Sequence[tuple[str, str]]:
+        """Pairs of actors (ids sorted) whose contact began during the last step, sorted."""
+        return self._collisions
+
+    def capabilities(self) -> frozenset[str]:
+        """Names of the commands (classes) and other features the world carries out."""
+        return _CAPABILITIES
+
+    # --- writing ------------------------------------------------------------------------------
+
+    def command(self, actor: str, slot: str, command: Command | None) -> None:
+        """Sets what a slot pursues; None: hold the speed, keep the lane."""
+        body = self._body(actor)
+        if slot == LONGITUDINAL:
+            body.pursue_speed(command)
+        else:
+            body.pursue_side(command, self.map)
+
+    def assign(
+        self,
+        actor: str,
+        *,
+        speed: float | None = None,
+        at: LanePosition | Pose | None = None,
+        heading: float | None = None,
+    ) -> None:
+        """Changes a state at once; it can be seen from the next step on."""
+        self._body(actor)
+        wishes = self._assigned.setdefault(actor, {})
+        for name, value in (("speed", speed), ("at", at), ("heading", heading)):
+            if value is not None:
+                wishes[name] = value
+
+    def set_lights(self, actor: str, mode: LightMode) -> LightState:
+        """Switches lights from the next step on; returns what they will be."""
+        self._body(actor)
+        lights = LightState(mode, self._automatic() if mode == "auto" else mode)
+        self._next_lights[actor] = lights
+        return lights
+
+    def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
+        """Changes the environment from the next step on; returns the lights that switch."""
+        self._next_environment.update(values)
+        lights = LightState("auto", self._automatic())
+        switched = {
+            actor: lights
+            for actor, now in self._next_lights.items()
+            if now.mode == "auto" and now != lights
+        }
+        self._next_lights.update(switched)
+        return switched
+
+    def _automatic(self) -> LightMode:
+        elevation = self._next_environment.get("sun_elevation", LOW_BEAM_SUN_ELEVATION)
+        return "low_beam" if elevation < LOW_BEAM_SUN_ELEVATION else "off"
+
+    # --- time ---------------------------------------------------------------------------------
+
+    def step(self) -> None:
+        """Goes from step k to k+1."""
+        bodies = tuple(self._bodies.values())
+        # All read the snapshot; none is replaced before every actor has moved.
+        states = [self._next_state(body) for body in bodies]
+        boxes = []
+        for body, state, box in zip(bodies, states, self._boxes, strict=True):
+            boxes.append(box if state is body.state else box_of(state))
+            body.state = state
+        self._find_collisions(boxes)
+        self._boxes = boxes
+        self._lights.update(self._next_lights)
+        self._environment.update(self._next_environment)
+
+    def _next_state(self, body: Body) -> ActorState:
+        wishes = self._assigned.pop(body.spec.id, None) if self._assigned else None
+        if wishes is None:
+            return body.moved(self, self.map) if body.spec.movable else body.state
+        speed, at, heading = (wishes.get(name) for name in ("speed", "at", "heading"))
+        if isinstance(speed, float):
+            body.pursue_speed(None)
+        if at is None and heading is None:
+            state = body.moved(self, self.map)
+        elif isinstance(at, LanePosition) and body.spec.lane_bound:
+            state = body.rebind(at, body.state.v, self.map)
+        else:
+            state = self._jump(body, at, heading)
+        return state._replace(v=speed, a=0.0) if isinstance(speed, float) else state
+
+    def _jump(self, body: Body, at: object, heading: object) -> ActorState:
+        state = body.state
+        pose = Pose(state.x, state.y, state.z, state.h)
+        if isinstance(at, LanePosition):
+            pose = self.map.pose(at)
+        elif isinstance(at, Pose):
+            pose = at
+            body.bound = None
+        if isinstance(heading, float):
+            pose = Pose(pose.x, pose.y, pose.z, heading)
+        return body.free_state(pose, state.v, 0.0, self.map)
+
+    def _find_collisions(self, boxes: list[Box]) -> None:
+        ids = tuple(self._bodies)
+        touching = swept_contacts(self._boxes, boxes)
+        before = self._touching
+        self._collisions = tuple(
+            sorted(
+                (min(ids[i], ids[j]), max(ids[i], ids[j]))
+                for i, j in touching
+                if (i, j) not in before
+            )
+        )
+        self._touching = frozenset(touching)
+
+    def _body(self, actor: str) -> Body:
+        body = self._bodies.get(actor)
+        if body is None:
+            raise ScenarioError(f"{actor} is not placed in the world")
+        return body

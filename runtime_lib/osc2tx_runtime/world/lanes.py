@@ -1,0 +1,39 @@
+"""Lane numbers: counted over driving lanes of one direction, from one edge of the road."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from osc2tx_runtime.opendrive import LanePosition, RoadMap
+
+__all__ = ["lane_with_number", "lanes_to_left", "number_of_lane"]
+
+Side = Literal["left", "right"]
+
+
+def lane_with_number(
+    road_map: RoadMap, place: LanePosition, number: int, edge: Side
+) -> LanePosition | None:
+    """Centre of the lane with a number (1: outermost on `edge`), at the height of `place`."""
+    lanes = road_map.lanes(place.road, place.s, like=place.lane)
+    if not 1 <= number <= len(lanes):
+        return None
+    lane = lanes[number - 1] if edge == "right" else lanes[-number]
+    return LanePosition(place.road, lane, place.s)
+
+
+def number_of_lane(road_map: RoadMap, place: LanePosition, edge: Side) -> int:
+    """Number of the lane of `place`, counted from `edge`; 0 if it is no driving lane."""
+    lanes = road_map.lanes(place.road, place.s, like=place.lane)
+    if place.lane not in lanes:
+        return 0
+    index = lanes.index(place.lane)
+    return index + 1 if edge == "right" else len(lanes) - index
+
+
+def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) -> int:
+    """How many driving lanes `lane` is to the left of `place`; negative: to the right.
+
+    On different roads both are counted from the right edge.
+    """
+    return number_of_lane(road_map, lane, "right") - number_of_lane(road_map, place, "right")

@@ -1,0 +1,232 @@
+"""Lateral commands at work: the offset of a lane-bound actor at the next step.
+
+A lane change binds the actor to its target lane at once and lets the offset from there run to its
+end value; so curves, widths and section changes on the way need no care. The course is a function
+of time, which stands still while the actor is too slow for it: the heading never differs from the
+lane's by more than `HEADING_LIMIT`, and at standstill nothing moves sideways.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.opendrive import LanePosition, RoadMap
+
+from .catalogue import Limits
+from .commands import Command, KeepLane, LaneChange, LaneOffset
+from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
+from .protocol import Progress
+
+__all__ = [
+    "HEADING_LIMIT",
+    "LANE_CHANGE_TIME",
+    "LANE_CHANGE_WIDTH",
+    "SIDEWAYS",
+    "HoldOffset",
+    "Impossible",
+    "Lateral",
+    "lateral_of",
+    "offset_from",
+]
+
+LANE_CHANGE_TIME = 3.0
+"""Seconds of a lane change that says nothing about its course, for `LANE_CHANGE_WIDTH` metres."""
+
+LANE_CHANGE_WIDTH = 3.5
+"""Metres; other distances take longer or shorter with their square root."""
+
+HEADING_LIMIT = 0.5
+"""Radians between the heading of a vehicle and its lane."""
+
+SIDEWAYS = math.sin(HEADING_LIMIT)
+"""Largest share of the driven path that goes sideways."""
+
+_AT_REST = 1e-6  # m/s of lateral speed
+
+
+class Lateral(Protocol):
+    """A command at work on one actor."""
+
+    def offset_after(self, offset: float, path: float, dt: float) -> tuple[float, float]:
+        """Offset (m) and lateral speed (m/s) at the next step; called once per step.
+
+        Args:
+            offset: Offset at the present step (m).
+            path: Metres driven in this step.
+            dt: Length of the step (s).
+        """
+
+    def progress(self) -> Progress:
+        """Progress at the present step."""
+
+
+class HoldOffset:
+    """Stays where it is in the lane."""
+
+    __slots__ = ()
+
+    def offset_after(self, offset: float, path: float, dt: float) -> tuple[float, float]:
+        """The same offset."""
+        return offset, 0.0
+
+    def progress(self) -> Progress:
+        """Always reached."""
+        return Progress(True)
+
+
+class Impossible(HoldOffset):
+    """Stays, because what was asked for does not exist."""
+
+    __slots__ = ("_reason",)
+
+    def __init__(self, reason: str) -> None:
+        self._reason = reason
+
+    def progress(self) -> Progress:
+        """Failed."""
+        return Progress(False, self._reason)
+
+
+class Shift:
+    """A change of the offset in closed form."""
+
+    __slots__ = ("_lag", "_profile", "_steps", "_time", "end")
+
+    def __init__(self, profile: Profile, end: float) -> None:
+        self._profile = profile
+        self._steps = 0
+        self._lag = 0.0
+        self._time = 0.0
+        self.end = end
+
+    def offset_after(self, offset: float, path: float, dt: float) -> tuple[float, float]:
+        """Value of the profile, at a time that does not run on where the actor is too slow."""
+        self._steps += 1
+        if path == 0.0:
+            self._lag += dt
+            return offset, 0.0
+        time = self._steps * dt - self._lag
+        wanted, room = self._profile.value(time), abs(path) * SIDEWAYS
+        if abs(wanted - offset) <= room:
+            self._time = time
+            return wanted, self._profile.rate(time)
+        share = room / abs(wanted - offset)
+        self._lag += (1.0 - share) * dt
+        self._time = self._steps * dt - self._lag
+        reached = self._profile.value(self._time)
+        return reached, (reached - offset) / dt
+
+    def progress(self) -> Progress:
+        """Done when the profile has ended."""
+        return Progress(self._time >= self._profile.duration - 1e-9)
+
+
+def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:
+    """How far (m) a point is to the left of the centre of a lane."""
+    centre = road_map.pose(lane)
+    return (y - centre.y) * math.cos(centre.h) - (x - centre.x) * math.sin(centre.h)
+
+
+def shift_profile(
+    offset: float,
+    end: float,
+    rate: float,
+    command: tuple[DynamicProfile, float | None, float | None],
+    limits: Limits,
+) -> Profile:
+    """Closed form of a change of the offset.
+
+    Args:
+        offset: Where it starts (m).
+        end: Where it ends (m).
+        rate: Lateral speed at the start (m/s); `constant` does not look at it.
+        command: Profile, peak of the lateral speed (m/s), duration (s).
+        limits: Of the actor.
+    """
+    profile, peak, duration = command
+    change = abs(end - offset)
+    if profile == "constant":
+        usual = 1.0 / LANE_CHANGE_TIME if change == 0.0 else change / _usual_time(change, limits)
+        return Linear(offset, end, duration or change / (peak or usual))
+    fastest = quintic_duration(change, rate_peak=None, curve_peak=limits.lateral)
+    if profile == "asap":
+        slowed = 0.0 if peak is None else quintic_duration(change, rate_peak=peak, curve_peak=1.0)
+        return Quintic(offset, end, max(fastest, slowed), rate)
+    if duration is not None:
+        return Quintic(offset, end, duration, rate)
+    if peak is not None:
+        return Quintic(offset, end, quintic_duration(change, rate_peak=peak, curve_peak=1.0), rate)
+    time = _usual_time(change, limits)
+    # Taking over a lateral speed needs time even where there is no distance to go.
+    return Quintic(offset, end, max(time, 1.0) if abs(rate) > _AT_REST else time, rate)
+
+
+def _usual_time(change: float, limits: Limits) -> float:
+    fastest = quintic_duration(change, rate_peak=None, curve_peak=limits.lateral)
+    return max(LANE_CHANGE_TIME * math.sqrt(change / LANE_CHANGE_WIDTH), fastest)
+
+
+def lateral_of(
+    command: Command | None,
+    road_map: RoadMap,
+    bound: LanePosition,
+    physical: LanePosition,
+    motion: tuple[float, float, float],
+    before: Lateral,
+    limits: Limits,
+) -> tuple[LanePosition, Lateral]:
+    """Puts a lateral command to work.
+
+    Args:
+        command: What to do; None: stay in the lane.
+        road_map: The map.
+        bound: Lane the actor follows now, with its offset from there.
+        physical: Lane in which its reference point is.
+        motion: World x, y (m) and lateral speed (m/s).
+        before: What was at work until now.
+        limits: Of the actor.
+
+    Returns:
+        The lane to follow from now on, with the offset of the actor from there, and the command
+        at work.
+    """
+    x, y, rate = motion
+    match command:
+        case LaneChange():
+            target = _lane_beside(road_map, physical, command.lanes)
+            if target is None:
+                return bound, Impossible(_no_lane(road_map, physical, command.lanes))
+            end = command.offset
+        case LaneOffset():
+            target, end = physical, command.offset
+        case None | KeepLane():
+            if not isinstance(before, Shift) or before.progress().done:
+                return bound, HoldOffset()
+            if (bound.road, bound.lane) == (physical.road, physical.lane):
+                return bound, before  # cut short in the lane it was to end in: let it end
+            target, end = physical, 0.0  # cut short before that: back to where it is now
+        case _:
+            raise UnsupportedError(f"{type(command).__name__} is no command for an actor on a lane")
+    start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
+    course: tuple[DynamicProfile, float | None, float | None] = ("none", None, None)
+    if isinstance(command, (LaneChange, LaneOffset)):
+        course = (command.profile, command.rate_peak, command.duration)
+    profile = shift_profile(start, end, rate, course, limits)
+    return LanePosition(target.road, target.lane, target.s, start), Shift(profile, end)
+
+
+def _lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
+    if lanes == 0:
+        return place
+    return road_map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
+
+
+def _no_lane(road_map: RoadMap, place: LanePosition, lanes: int) -> str:
+    side = "left" if lanes > 0 else "right"
+    count = "is no driving lane" if abs(lanes) == 1 else f"are not {abs(lanes)} driving lanes"
+    return (
+        f"there {count} to the {side} of lane {place.lane} of road {place.road}"
+        f" at s = {place.s:.1f} m"
+    )

@@ -1,0 +1,210 @@
+"""One actor over one step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
+
+from .commands import Command, KeepLane, Turn
+from .lateral import SIDEWAYS, HoldOffset, Lateral, lateral_of, offset_from
+from .longitudinal import Longitudinal, Senses, longitudinal_of
+from .protocol import ActorSpec, Progress
+from .state import ActorState
+
+__all__ = ["ANY_LANE", "TURN_RATE", "Body"]
+
+TURN_RATE = math.pi
+"""Radians per second at which actors off the lanes turn."""
+
+ANY_LANE = DRIVING | {
+    "shoulder", "sidewalk", "walking", "biking", "parking", "border", "curb", "median", "stop",
+    "restricted", "special1", "special2", "special3", "tram", "rail", "roadWorks",
+}  # fmt: skip
+"""Lane types on which actors off the lanes are located."""
+
+_NEAR = 0.5  # m: how far outside a lane an actor is still on it
+_STILL = 1e-9  # m/s
+
+
+@dataclass(slots=True)
+class Body:
+    """An actor with its commands at work.
+
+    Attributes:
+        spec: What it is.
+        state: Snapshot of the present step.
+        bound: Lane it follows, with its offset from there; None off the lanes.
+        route: Decides at forks; None: the smallest change of heading.
+        blocked: Why it cannot go on; None while it can.
+    """
+
+    spec: ActorSpec
+    state: ActorState
+    bound: LanePosition | None
+    route: Route | None = None
+    blocked: str | None = None
+    _speed: Longitudinal | None = None
+    _side: Lateral = field(default_factory=HoldOffset)
+    _heading: float | None = None
+
+    # --- commands -----------------------------------------------------------------------------
+
+    def pursue_speed(self, command: Command | None) -> None:
+        """Puts a longitudinal command to work; None holds the speed."""
+        if command is None:
+            self._speed = None
+            return
+        self._speed = longitudinal_of(command, self.state.v, self.spec.limits)
+
+    def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
+        """Puts a lateral command to work; None keeps the lane."""
+        if self.bound is None:
+            self._pursue_heading(command)
+            return
+        here, state = self.state.lane_position or self.bound, self.state
+        self.bound, self._side = lateral_of(
+            command,
+            road_map,
+            self.bound,
+            here,
+            (state.x, state.y, state.lateral_speed),
+            self._side,
+            self.spec.limits,
+        )
+
+    def _pursue_heading(self, command: Command | None) -> None:
+        if isinstance(command, Turn):
+            self._heading = command.heading
+        elif command is None or isinstance(command, KeepLane):
+            self._heading = None
+        else:
+            raise UnsupportedError(
+                f"{self.spec.id} is not on a driving lane, so it cannot change or follow one"
+            )
+
+    def speed_progress(self) -> Progress:
+        """Progress of the longitudinal command."""
+        if self.blocked is not None:
+            return Progress(False, self.blocked)
+        return Progress(True) if self._speed is None else self._speed.progress()
+
+    def side_progress(self) -> Progress:
+        """Progress of the lateral command."""
+        if self.blocked is not None:
+            return Progress(False, self.blocked)
+        if self.bound is not None:
+            return self._side.progress()
+        return Progress(self._heading is None or abs(_turn(self.state.h, self._heading)) < 1e-9)
+
+    # --- motion -------------------------------------------------------------------------------
+
+    def moved(self, senses: Senses, road_map: RoadMap) -> ActorState:
+        """State at the next step; the snapshot itself stays as it is."""
+        state, dt = self.state, senses.dt
+        speed = state.v if self._speed is None else self._speed.speed_after(state, senses)
+        path = 0.5 * (state.v + speed) * dt
+        if self.bound is not None:
+            return self._along_lane(speed, path, road_map, dt)
+        if path == 0.0 and self._heading is None:
+            return self._standing(speed, dt)
+        return self._straight_on(speed, path, road_map, dt)
+
+    def _along_lane(self, speed: float, path: float, road_map: RoadMap, dt: float) -> ActorState:
+        bound = self.bound
+        assert bound is not None
+        offset, rate = self._side.offset_after(bound.offset, path, dt)
+        aside = offset - bound.offset
+        if path == 0.0 and aside == 0.0:
+            return self._standing(speed, dt)
+        along = path if aside == 0.0 else math.copysign(math.sqrt(max(path**2 - aside**2, 0)), path)
+        if along:
+            ahead = road_map.advance(bound, along, self.route)
+            place = ahead.position
+            if abs(ahead.travelled - along) > 1e-6:
+                speed = self._stop_at_end(place)
+            else:
+                self.blocked = None
+        else:
+            place = bound
+        if offset != place.offset:
+            place = LanePosition(place.road, place.lane, place.s, offset)
+        self.bound = place
+        return self._state_on_lane(place, speed, rate, (speed - self.state.v) / dt, road_map)
+
+    def _standing(self, speed: float, dt: float) -> ActorState:
+        """The same place; the same state if nothing else changes."""
+        state, a = self.state, (speed - self.state.v) / dt
+        if speed == state.v and a == state.a and state.lateral_speed == 0.0:
+            return state
+        return state._replace(v=speed, a=a, lateral_speed=0.0)
+
+    def _stop_at_end(self, place: LanePosition) -> float:
+        self.blocked = (
+            f"{self.spec.id} has come to the end of lane {place.lane} of road {place.road}"
+        )
+        self._speed = None
+        return 0.0
+
+    def _state_on_lane(
+        self, bound: LanePosition, speed: float, rate: float, a: float, road_map: RoadMap
+    ) -> ActorState:
+        pose = road_map.pose(bound)
+        h = pose.h
+        if rate and abs(speed) > _STILL:
+            h += math.asin(min(max(rate / speed, -SIDEWAYS), SIDEWAYS))
+            h = math.pi - (math.pi - h) % math.tau
+        elif abs(speed) <= _STILL and self._half_way(bound):
+            h = self.state.h  # standing half way through a lane change
+        under = self._lane_under(bound, pose, road_map) if bound.offset else bound
+        return ActorState(pose.x, pose.y, pose.z, h, speed, a, under, rate, self.spec.shape)
+
+    def _half_way(self, bound: LanePosition) -> bool:
+        return not self._side.progress().done and bound.road == self.state.road
+
+    @staticmethod
+    def _lane_under(bound: LanePosition, pose: Pose, road_map: RoadMap) -> LanePosition:
+        """The lane under the reference point: beside the bound one during a lane change."""
+        while True:
+            half = 0.5 * road_map.lane_width(bound.road, bound.lane, bound.s)
+            if abs(bound.offset) <= half:
+                return bound
+            beside = road_map.neighbour(bound, "left" if bound.offset > 0.0 else "right")
+            if beside is None:
+                return bound
+            offset = offset_from(road_map, beside, pose.x, pose.y)
+            if abs(offset) >= abs(bound.offset):
+                return bound
+            bound = LanePosition(beside.road, beside.lane, beside.s, offset)
+
+    def _straight_on(self, speed: float, path: float, road_map: RoadMap, dt: float) -> ActorState:
+        state = self.state
+        h = state.h
+        if self._heading is not None:
+            turn = _turn(h, self._heading)
+            h += math.copysign(min(abs(turn), TURN_RATE * dt), turn)
+            h = math.pi - (math.pi - h) % math.tau
+        pose = Pose(state.x + path * math.cos(h), state.y + path * math.sin(h), state.z, h)
+        return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
+
+    def free_state(self, pose: Pose, speed: float, a: float, road_map: RoadMap) -> ActorState:
+        """State off the lanes: where it is, and which lane is under it, if any."""
+        hint = self.state.lane_position
+        on = road_map.locate(
+            pose.x, pose.y, pose.z, hint=hint, lane_types=ANY_LANE, max_distance=_NEAR
+        )
+        z = pose.z if on is None else road_map.pose(on).z
+        return ActorState(pose.x, pose.y, z, pose.h, speed, a, on, 0.0, self.spec.shape)
+
+    def rebind(self, bound: LanePosition, speed: float, road_map: RoadMap) -> ActorState:
+        """State after a jump to a place on a lane."""
+        self.bound, self.blocked = bound, None
+        self._side = HoldOffset()
+        return self._state_on_lane(bound, speed, 0.0, 0.0, road_map)
+
+
+def _turn(here: float, there: float) -> float:
+    """Smallest angle (rad) from one heading to another."""
+    return (there - here + math.pi) % math.tau - math.pi

@@ -1,0 +1,45 @@
+"""Shared fixtures: golden files and the optional test data."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+DATA_VARIABLE = "OSC2TX_TEST_DATA"
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--update-golden", action="store_true", help="rewrite expected files instead of comparing"
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("--update-golden") and os.environ.get("CI"):
+        raise pytest.UsageError("--update-golden is refused when CI is set")
+
+
+@pytest.fixture
+def golden(request: pytest.FixtureRequest) -> Callable[[str, Path], None]:
+    """Compare a text with an expected file, or rewrite that file under --update-golden."""
+
+    def check(actual: str, expected: Path) -> None:
+        if request.config.getoption("--update-golden"):
+            expected.parent.mkdir(parents=True, exist_ok=True)
+            expected.write_text(actual, encoding="utf-8", newline="\n")
+            return
+        if not expected.exists():
+            pytest.fail(f"missing golden file {expected}; run pytest --update-golden")
+        assert actual == expected.read_text(encoding="utf-8")
+
+    return check
+
+
+@pytest.fixture(scope="session")
+def test_data() -> Path:
+    """Folder of public scenarios and maps that are not part of the product."""
+    folder = os.environ.get(DATA_VARIABLE)
+    if not folder or not Path(folder).is_dir():
+        pytest.skip(f"{DATA_VARIABLE} does not name a folder with test data")
+    return Path(folder)

@@ -1,0 +1,88 @@
+"""Scenario `compositions`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    OneOf,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.units import s
+
+require_api(1)
+
+
+class Compositions(Scenario):
+    """Scenario `compositions` (input.osc:5)."""
+
+    name = "compositions"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+
+    # Everything at once
+    def behavior(self) -> Behaviour:  # input.osc:11
+        return Parallel(
+            "compositions",
+            self.ego_serial(),
+            self.with_limit(),
+            self.other.keep_speed(duration=1 * s),
+            duration=20 * s,
+            overlap="equal",
+        )
+
+    # the ego vehicle
+    def ego_serial(self) -> Behaviour:  # input.osc:13
+        return Serial(
+            "ego: serial",
+            self.ego.drive(duration=2 * s),
+            # deep inside
+            OneOf(
+                "ego: one_of",
+                self.ego.keep_speed(duration=4 * s),
+                self.inner(),
+                # nothing below
+            ),
+        )
+
+    def inner(self) -> Behaviour:  # input.osc:18
+        return Serial(
+            "inner",
+            Wait(elapsed(1 * s)),
+            self.ego.change_lane(num_of_lanes=1, side="left"),
+        )
+
+    # the other one
+    def with_limit(self) -> Behaviour:  # input.osc:23
+        return Until(
+            Serial(
+                "with_limit",
+                self.other.drive(),
+                duration=(3 * s, 5 * s),
+            ),
+            elapsed(4 * s),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Compositions().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Compositions))

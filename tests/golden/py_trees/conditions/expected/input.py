@@ -1,0 +1,91 @@
+"""Scenario `conditions`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Emit,
+    Event,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    Wait,
+    elapsed,
+    every,
+    fall,
+    main,
+    require_api,
+    rise,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import kph, m, s
+
+require_api(1)
+
+
+class Conditions(Scenario):
+    """Scenario `conditions` (input.osc:5)."""
+
+    name = "conditions"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+        self.near = self.parameter("near", 20 * m)
+        self.close = Event(
+            rise(
+                lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
+                < self.near
+            )
+        )
+        self.help_needed = Event()
+
+    def behavior(self) -> Behaviour:  # input.osc:13
+        return Parallel(
+            "conditions",
+            self.ego_serial(),
+            self.other_serial(),
+        )
+
+    def ego_serial(self) -> Behaviour:  # input.osc:14
+        return Serial(
+            "ego: serial",
+            Wait(self.close),
+            Wait(self.help_needed, lambda: self.ego.speed > 10 * kph),
+            Wait(fall(lambda: self.ego.speed > 30 * kph and self.other.speed != 0 * kph)),
+            Wait(elapsed(1.5 * s)),
+            Wait(every(2 * s, offset=1 * s)),
+            Wait(lambda: self.ego.speed < self.other.speed),
+            self.ego.keep_speed(duration=3 * s, label="first"),
+            Wait(self.ended("second")),
+        )
+
+    def other_serial(self) -> Behaviour:  # input.osc:23
+        return Serial(
+            "other: serial",
+            Wait(self.started("first")),
+            Emit(self.help_needed),
+            Until(
+                self.other.drive(speed(20 * kph), duration=(1 * s, 4 * s), label="second"),
+                # whatever comes first
+                self.help_needed,
+                lambda: 10 * kph <= self.ego.speed <= 20 * kph,
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Conditions().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Conditions))

@@ -1,0 +1,160 @@
+"""A fake world, fake actions, and a way to run a tree in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+from osc2tx_runtime.action import Action
+from osc2tx_runtime.behaviour import Behaviour, Event, Status
+from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.registry import Method
+from osc2tx_runtime.runner import Outcome, run_tree, setup_tree
+from osc2tx_runtime.settings import RunSettings
+from osc2tx_runtime.trace import TraceWriter
+
+
+class FakeActor:
+    kinds = ("vehicle", "physical_object")
+
+    def __init__(self, id: str) -> None:
+        self.id = id
+
+
+class FakeWorld:
+    """Actors that drive at the commanded speed along x; remembers all commands."""
+
+    def __init__(self, ids: tuple[str, ...] = (), dt: float = 0.05) -> None:
+        self.dt = dt
+        self.map = SimpleNamespace(name="fake")
+        self.k = 0
+        self.ids = ids
+        self.x = dict.fromkeys(ids, 0.0)
+        self.v = dict.fromkeys(ids, 0.0)
+        self.commands: list[tuple[int, str, str, Any]] = []
+        self.contacts: dict[int, list[tuple[str, str]]] = {}
+
+    def actors(self) -> tuple[str, ...]:
+        return self.ids
+
+    def state(self, actor: str) -> Any:
+        return SimpleNamespace(
+            **{"x": self.x[actor], "y": 0.0, "z": -0.0, "h": 0.0, "v": self.v[actor], "a": 0.0},
+            **{"road": None, "lane": None, "s": None, "offset": None},
+            **{"length": 4.5, "width": 1.8, "height": 1.5, "rear": 1.0},
+        )
+
+    def command(self, actor: str, slot: str, command: Any) -> None:
+        self.commands.append((self.k, actor, slot, command))
+        if slot == "longitudinal" and command is not None:
+            self.v[actor] = command
+
+    def step(self) -> None:
+        self.k += 1
+        for actor in self.ids:
+            self.x[actor] += self.v[actor] * self.dt
+
+    def collisions(self) -> list[tuple[str, str]]:
+        return self.contacts.get(self.k, [])
+
+
+class Drive(Action):
+    """Open-ended, claims the longitudinal slot."""
+
+    method = Method("vehicle", "drive", ("longitudinal",), "open", None)  # type: ignore[arg-type]
+
+    def __init__(self, actor: Any, speed: float = 10.0, **options: Any) -> None:
+        super().__init__(actor, **options)
+        self.speed = speed
+
+    def on_start(self) -> None:
+        self.command("longitudinal", self.speed)  # type: ignore[arg-type]
+
+
+class Task(Action):
+    """Succeeds, or fails, after a number of steps."""
+
+    method = Method("vehicle", "task", (), "goal", None)  # type: ignore[arg-type]
+
+    def __init__(self, actor: Any, steps: int, fails: bool = False, **options: Any) -> None:
+        super().__init__(actor, **options)
+        self.steps, self.fails = steps, fails
+        self.action_name = self.name = f"{actor.id} task"
+        self.log: list[str] = []
+
+    def on_start(self) -> None:
+        self.log.append("start")
+
+    def on_update(self) -> Status:
+        if self.elapsed_steps < self.steps:
+            return Status.RUNNING
+        return self.fail("gave up") if self.fails else Status.SUCCESS
+
+    def on_stop(self) -> None:
+        self.log.append("stop")
+
+
+class Switch(Action):
+    """Changes a state at one instant."""
+
+    method = Method("vehicle", "switch", (), "instant", None)  # type: ignore[arg-type]
+
+    def __init__(self, actor: Any, mode: str, **options: Any) -> None:
+        super().__init__(actor, **options)
+        self.mode = mode
+
+    def on_start(self) -> None:
+        self.effect("lights", self.mode, self.apply)
+
+    def apply(self) -> None:
+        self.context.trace.lights(self.actor.id, self.mode)
+
+    def on_update(self) -> Status:
+        return Status.SUCCESS
+
+
+class Run:
+    """A finished (or broken) run of a tree."""
+
+    outcome: Outcome
+
+    def __init__(
+        self,
+        tree: Behaviour | Callable[[], Behaviour],
+        *,
+        max_time: float = 20.0,
+        dt: float = 0.05,
+        ids: tuple[str, ...] = (),
+        world: FakeWorld | None = None,
+        events: dict[str, Event] | None = None,
+        one_of: str = "race",
+        label_events: Any = None,
+        **settings: Any,
+    ) -> None:
+        self.root = tree if isinstance(tree, Behaviour) else tree()
+        self.world = world or FakeWorld(ids, dt)
+        self.context = ExecutionContext(
+            self.world,  # type: ignore[arg-type]
+            RunSettings(dt=dt, max_time=max_time, **settings),
+            {id: FakeActor(id) for id in self.world.ids},  # type: ignore[misc]
+            events=events,
+            trace=TraceWriter(),
+            one_of=one_of,
+            label_events=label_events,
+        )
+
+    def go(self) -> Run:
+        setup_tree(self.root, self.context)
+        self.outcome = run_tree(self.root, self.context)
+        return self
+
+    @property
+    def lines(self) -> list[str]:
+        return self.context.trace.lines
+
+
+def event(name: str) -> Event:
+    made = Event()
+    made.name = name
+    return made

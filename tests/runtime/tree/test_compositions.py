@@ -1,0 +1,276 @@
+"""What ends a composition, and with which result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import py_trees
+import pytest
+
+from osc2tx_runtime.behaviour import (
+    Behaviour,
+    Call,
+    Emit,
+    OneOf,
+    Parallel,
+    Serial,
+    Status,
+    Until,
+    Wait,
+    elapsed,
+    every,
+)
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from tests.runtime.tree.kit import Drive, FakeActor, Run, Switch, Task, event
+
+HERO: Any = FakeActor("hero")
+NPC: Any = FakeActor("npc")
+IDS = ("hero", "npc")
+
+
+def run(tree: Behaviour, **options: Any) -> Run:
+    return Run(tree, ids=IDS, **options).go()
+
+
+@pytest.mark.parametrize("dt", [0.05, 0.01, 0.03])
+@pytest.mark.parametrize("seconds", [0.0, 0.1, 5.0, 0.3])
+def test_elapsed_takes_round_d_by_dt_steps(seconds: float, dt: float) -> None:
+    done = run(Wait(elapsed(seconds)), dt=dt)
+    assert done.outcome.steps == round(seconds / dt)
+
+
+def test_serial_elapsed_adds_up_without_gaps() -> None:
+    done = run(Serial("s", *(Wait(elapsed(0.1)) for _ in range(30))))
+    assert done.outcome.steps == 60
+
+
+@pytest.mark.parametrize(
+    ("period", "offset", "first"), [(0.2, 0.0, 0), (0.2, 0.1, 2), (0.01, 0.02, 0)]
+)
+def test_every_first_hit(period: float, offset: float, first: int) -> None:
+    assert run(Wait(every(period, offset=offset))).outcome.steps == first
+
+
+def test_parallel_ends_with_the_last_bounded_member() -> None:
+    drive = Drive(HERO)
+    done = run(Parallel("p", drive, Task(NPC, 4), Task(NPC, 7)))
+    assert (done.outcome.status, done.outcome.steps) == ("success", 7)
+    assert drive.status is Status.SUCCESS
+    ended = '"status":"end","name":"hero drive","actor":"hero","source":""}'
+    assert [line for line in done.lines if line.endswith(ended)] == [
+        '{"t":0.35,"kind":"action",' + ended
+    ]
+
+
+def test_parallel_of_open_members_runs_on() -> None:
+    done = run(Parallel("p", Drive(HERO), Drive(NPC)), max_time=0.5)
+    assert done.outcome.status == "timeout"
+    assert done.outcome.reason == "not finished at 0.5 s; still running: hero drive, npc drive"
+
+
+def test_zero_time_members_bound_nothing() -> None:
+    tree = Parallel("p", Drive(HERO), Emit(event("a")), Switch(HERO, "on"))
+    assert run(tree, max_time=0.2).outcome.status == "timeout"
+    assert run(Parallel("p", Emit(event("a")), Call(lambda: None))).outcome.steps == 0
+
+
+def test_open_member_may_be_nested() -> None:
+    tree = Parallel(
+        "p", Serial("s", Wait(elapsed(0.1)), Parallel("q", Drive(HERO), Drive(NPC))), Task(NPC, 5)
+    )
+    done = run(tree)
+    assert (done.outcome.status, done.outcome.steps) == ("success", 5)
+
+
+def test_open_ended_member_before_another_is_reported() -> None:
+    drive = Drive(HERO)
+    drive.source = "x.osc:3"
+    with pytest.raises(UnsupportedError, match=r"x.osc:3: hero drive never ends by itself"):
+        run(Serial("s", drive, Task(HERO, 1)))
+
+
+def test_failure_fails_the_parallel_and_cuts_the_others_short() -> None:
+    other = Task(HERO, 9)
+    bad = Task(NPC, 3, fails=True)
+    bad.source = "x.osc:12"
+    done = run(Parallel("p", other, bad))
+    assert done.outcome.status == "failure"
+    assert done.outcome.reason == "npc task (x.osc:12) failed at 0.150 s: gave up"
+    assert other.log == ["start", "stop"]
+    assert any('"end","name":"hero task"' in line and '"stopped"' in line for line in done.lines)
+    assert any('"fail","name":"npc task"' in line and '"gave up"' in line for line in done.lines)
+
+
+def test_two_failures_of_one_instant_are_named_in_order_of_the_source() -> None:
+    one, two = Task(HERO, 3, fails=True), Task(NPC, 3, fails=True)
+    one.source, two.source = "x.osc:10", "x.osc:9"
+    reason = run(Parallel("p", one, two)).outcome.reason
+    assert reason.index("npc") < reason.index("hero")
+
+
+def test_race_survives_a_failing_member() -> None:
+    done = run(OneOf("r", Task(HERO, 2, fails=True), Task(NPC, 5), Task(HERO, 8)))
+    assert (done.outcome.status, done.outcome.steps) == ("success", 5)
+
+
+def test_race_success_beats_failure_of_the_same_instant() -> None:
+    assert run(OneOf("r", Task(HERO, 2, fails=True), Task(NPC, 2))).outcome.status == "success"
+
+
+def test_race_fails_when_all_failed() -> None:
+    done = run(OneOf("r", Task(HERO, 2, fails=True), Task(NPC, 4, fails=True)))
+    assert (done.outcome.status, done.outcome.steps) == ("failure", 4)
+
+
+def test_race_ties_go_to_the_first_in_the_source() -> None:
+    race = OneOf("r", Task(HERO, 2), Task(NPC, 2))
+    run(race)
+    assert race.current_child is race.children[0]
+
+
+def test_losers_of_a_race_are_cut_short() -> None:
+    drive = Drive(HERO)
+    done = run(OneOf("r", drive, Task(NPC, 2)))
+    assert drive.status is Status.INVALID
+    assert [line for line in done.lines if "drive" in line and '"end"' in line] == [
+        '{"t":0.1,"kind":"action","status":"end","name":"hero drive","actor":"hero","source":"",'
+        '"reason":"stopped"}'
+    ]
+
+
+def test_one_of_first_and_seeded() -> None:
+    def chosen(policy: str, seed: int) -> list[int]:
+        race = OneOf("r", *(Task(HERO, 1) for _ in range(3)))
+        run(race, one_of=policy, seed=seed)
+        return [i for i, task in enumerate(race.children) if task.log]  # type: ignore[attr-defined]
+
+    assert chosen("first", 5) == [0]
+    assert all(len(chosen("seeded", seed)) == 1 for seed in range(5))
+    assert [chosen("seeded", s) for s in range(9)] == [chosen("seeded", s) for s in range(9)]
+    assert {chosen("seeded", seed)[0] for seed in range(40)} == {0, 1, 2}
+
+
+def test_until_is_asked_before_the_child() -> None:
+    task = Task(HERO, 9)
+    assert run(Until(task, lambda: True)).outcome.steps == 0
+    assert task.log == []
+
+
+def test_until_ends_a_running_child_with_success() -> None:
+    drive = Drive(HERO)
+    done = run(Serial("s", Until(drive, elapsed(0.25)), Task(NPC, 1)))
+    assert (done.outcome.steps, drive.status) == (6, Status.SUCCESS)
+
+
+def test_until_passes_the_end_of_its_child_on() -> None:
+    assert run(Until(Task(HERO, 2), elapsed(9))).outcome.steps == 2
+    assert run(Until(Task(HERO, 2, fails=True), elapsed(9))).outcome.status == "failure"
+
+
+@pytest.mark.parametrize(
+    ("content", "duration", "status", "steps"),
+    [
+        (lambda **o: Drive(HERO, **o), 0.5, "success", 10),
+        (lambda **o: Drive(HERO, **o), (0.2, 0.5), "success", 4),
+        (lambda **o: Task(HERO, 6, **o), 0.3, "success", 6),
+        (lambda **o: Task(HERO, 4, **o), 0.3, "success", 6),  # held until the least
+        (lambda **o: Task(HERO, 5, **o), (0.1, 0.3), "success", 5),
+        (lambda **o: Task(HERO, 7, **o), 0.3, "failure", 6),
+        (lambda **o: Serial("s", Task(HERO, 2), Drive(HERO), **o), 0.3, "success", 6),
+        (lambda **o: Serial("s", Task(HERO, 7), **o), (0.0, 0.3), "failure", 6),
+        (lambda **o: Serial("s", Wait(elapsed(0.3)), Emit(event("a")), **o), 0.3, "success", 6),
+        (lambda **o: Parallel("p", Drive(HERO), Drive(NPC), **o), 0.3, "success", 6),
+        (lambda **o: OneOf("r", Drive(HERO), Task(NPC, 2), **o), 0.3, "success", 6),
+    ],
+)
+def test_duration(content: Any, duration: Any, status: str, steps: int) -> None:
+    done = run(content(duration=duration))
+    assert (done.outcome.status, done.outcome.steps) == (status, steps)
+    if status == "failure":
+        assert "not finished within 0.3 s" in done.outcome.reason
+
+
+def test_an_event_of_the_last_instant_still_ends_the_content() -> None:
+    a = event("a")
+    tree = Parallel(
+        "p",
+        Serial("s", Wait(a), duration=(0.0, 0.3)),
+        Serial("e", Wait(elapsed(0.3)), Emit(a)),
+    )
+    assert run(tree).outcome.status == "success"
+
+
+def test_equal_overlap() -> None:
+    same = Parallel("p", Task(HERO, 4), Task(NPC, 4), Drive(HERO), overlap="equal")
+    assert run(same).outcome.status == "success"
+    done = run(Parallel("p", Task(HERO, 4), Task(NPC, 6), overlap="equal"))
+    assert done.outcome.reason == (
+        "p failed at 0.200 s: overlap equal: the first member ended at 0.200 s,"
+        " still running: npc task"
+    )
+
+
+@pytest.mark.parametrize(
+    "options", [{"overlap": "inside"}, {"start_to_start": 1.0}, {"end_to_end": (0, 2)}]
+)
+def test_other_overlaps_are_refused_before_the_run(options: Any) -> None:
+    tree = Parallel("p", Task(HERO, 4), **options)
+    tree.source = "x.osc:5"
+    with pytest.raises(UnsupportedError, match=r"x.osc:5: parallel\(.*\) is not supported yet"):
+        run(tree)
+
+
+def test_exception_in_a_leaf_leaves_nothing_running() -> None:
+    class Broken(Task):
+        def on_update(self) -> Status:
+            if self.elapsed_steps == 2:
+                raise RuntimeError("bug")
+            return Status.RUNNING
+
+    drive, broken = Drive(NPC), Broken(HERO, 1)
+    made = Run(Parallel("p", drive, broken), ids=IDS)
+    with pytest.raises(RuntimeError, match="bug"):
+        made.go()
+    assert all(node.status is not Status.RUNNING for node in made.root.iterate())
+    assert not made.context.slots.live()
+    assert broken.log == ["start", "stop"]
+    assert '"status":"error","reason":"RuntimeError(' in made.lines[-1]
+
+
+def test_exception_in_on_start_leaves_nothing_running() -> None:
+    class Broken(Drive):
+        def on_start(self) -> None:
+            raise ScenarioError("no road")
+
+    broken = Broken(HERO)
+    broken.source = "x.osc:2"
+    made = Run(Parallel("p", Drive(NPC), broken), ids=IDS)
+    with pytest.raises(ScenarioError, match=r"x.osc:2: no road"):
+        made.go()
+    assert all(node.status is not Status.RUNNING for node in made.root.iterate())
+    assert not made.context.slots.live()
+
+
+def test_other_py_trees_behaviours_can_be_members() -> None:
+    foreign = py_trees.behaviours.TickCounter("count", 3, py_trees.common.Status.SUCCESS)
+    done = run(Serial("s", foreign, Task(HERO, 1)))
+    assert (done.outcome.status, done.outcome.steps) == ("success", 4)
+
+
+def test_the_tree_works_under_py_trees_own_tick_and_display() -> None:
+    tree = Serial(
+        "hello", Parallel("both", Task(HERO, 1), Wait(event("go"))), OneOf("x", Task(NPC, 1))
+    )
+    made = Run(tree, ids=IDS)
+    for node in tree.iterate():
+        node.setup(context=made.context)
+    made.context.begin_pass()
+    visited = list(tree.tick())
+    assert visited[-1] is tree
+    assert [node.name for node in visited] == ["hero task", "wait @go", "both", "hello"]
+    text = py_trees.display.ascii_tree(tree)
+    assert [line.strip() for line in text.splitlines()][1:4] == [
+        "/_/ both",
+        "--> hero task",
+        "--> wait @go",
+    ]

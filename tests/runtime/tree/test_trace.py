@@ -1,0 +1,101 @@
+"""Lines of the trace: numbers, order, kinds."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from osc2tx_runtime.behaviour import Emit, Parallel
+from osc2tx_runtime.trace import TraceWriter, number
+from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
+
+HERO: Any = FakeActor("hero")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1.0, "1.0"),
+        (0.1 + 0.2, "0.3"),
+        (-0.0, "0.0"),
+        (-1e-9, "0.0"),
+        (1e-6, "1e-06"),
+        (1234567.1234567, "1234567.123457"),
+        (None, "null"),
+        (float("inf"), "null"),
+        (float("nan"), "null"),
+    ],
+)
+def test_number(value: float | None, text: str) -> None:
+    assert number(value) == text
+    json.loads(text)
+
+
+def test_order_within_an_instant() -> None:
+    world = FakeWorld(("npc", "hero"))
+    world.contacts[1] = [("hero", "npc")]
+    early, late = Task(HERO, 1), Task(HERO, 1)
+    early.source, late.source = "x.osc:9", "x.osc:10"
+    tree = Parallel("p", Emit(event("b")), late, Switch(HERO, "on"), early, Emit(event("a")))
+    lines = [json.loads(line) for line in Run(tree, world=world).go().lines]
+    first = [line for line in lines if line.get("t") == 0.0]
+    assert [line["actor"] for line in first if line["kind"] == "state"] == ["npc", "hero"]
+    rest = [(line["kind"], line.get("name"), line.get("source")) for line in first[2:]]
+    assert rest == [
+        ("event", "a", None),
+        ("event", "b", None),
+        ("action", "hero switch", ""),
+        ("action", "hero switch", ""),
+        ("action", "hero task", "x.osc:9"),
+        ("action", "hero task", "x.osc:10"),
+        ("lights", None, None),
+    ]
+    assert [line["kind"] for line in lines if line.get("t") == 0.05][-1] == "collision"
+
+
+def test_state_line_and_result_line() -> None:
+    run = Run(Task(HERO, 0), ids=("hero",)).go()
+    assert run.lines[0] == (
+        '{"t":0.0,"kind":"state","actor":"hero","x":0.0,"y":0.0,"z":0.0,"h":0.0,"v":0.0,"a":0.0,'
+        '"road":null,"lane":null,"s":null,"offset":null}'
+    )
+    assert run.lines[-1] == '{"kind":"result","status":"success","reason":"","steps":0}'
+
+
+def test_names_are_escaped() -> None:
+    trace = TraceWriter()
+    trace.event('a"\n')
+    trace.environment(b=1.0, a=None)
+    trace.end_instant(0.05)
+    assert [json.loads(line) for line in trace.lines] == [
+        {"t": 0.05, "kind": "event", "name": 'a"\n'},
+        {"t": 0.05, "kind": "environment", "a": None, "b": 1.0},
+    ]
+
+
+def test_a_disabled_trace_keeps_nothing() -> None:
+    trace = TraceWriter(enabled=False)
+    trace.event("a")
+    trace.lights("hero", "on")
+    trace.end_instant(0.0)
+    assert trace.lines == []
+
+
+def test_the_document_names_every_kind() -> None:
+    text = (Path(__file__).parents[3] / "docs/trace.md").read_text(encoding="utf-8")
+    for kind in ("header", "state", "event", "action", "lights", "environment", "signal"):
+        assert f'"kind":"{kind}"' in text
+    assert '"kind":"collision"' in text
+    assert '"kind":"result"' in text
+
+
+def test_sources_use_no_py_trees_clock_and_no_blackboard() -> None:
+    root = Path(__file__).parents[3] / "runtime_lib/osc2tx_runtime"
+    words = ("timers", "blackboard", "Timeout", "import time\n", "from time ", "except Exception")
+    for path in sorted(root.rglob("*.py")):
+        text = path.read_text(encoding="utf-8")
+        assert not [word for word in words if word in text], path
+        assert "osc2tx." not in text.replace("osc2tx_runtime", ""), path

