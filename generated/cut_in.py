@@ -1,5 +1,7 @@
 """Scenario `cut_in`.
 
+Another car overtakes the ego vehicle and cuts in with a short gap.
+
 Made by osc2tx from cut_in.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
@@ -61,11 +63,12 @@ class CutIn(Scenario):
         return Serial(
             "other_cuts_in",
             Until(
-                self.other.drive(speed(self.v_other), label="overtake"),
+                self.other.drive(speed(self.v_other)),
                 rise(
                     lambda: self.other.space_gap(reference=self.ego, direction="longitudinal")
                     > self.gap
                 ),
+                label="overtake",
             ),
             self.other.change_lane(num_of_lanes=1, side="right"),
             self.other.drive(speed(self.v_ego), duration=5 * s, label="settle"),

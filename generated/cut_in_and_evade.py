@@ -1,5 +1,8 @@
 """Scenario `cut_in_and_evade`.
 
+A truck passes the hero, cuts in and brakes. The hero evades to the right. Both then stop
+before an obstacle, side by side. The story of the case study, in plain OpenSCENARIO DSL 2.1.
+
 Made by osc2tx from cut_in_and_evade.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
@@ -74,7 +77,7 @@ class CutInAndEvade(Scenario):
             "cut_in_and_evade",
             # Twilight
             self.env.assign_celestial_position(
-                light_source=lambda: self.env.sun, azimuth=270 * deg, elevation=12 * deg
+                light_source=self.env.sun, azimuth=270 * deg, elevation=12 * deg
             ),
             self.parallel(),
         )
@@ -91,27 +94,30 @@ class CutInAndEvade(Scenario):
         return Serial(
             "hero_part",
             Until(
-                self.hero.drive(speed(self.v_hero), label="cruise"),
+                self.hero.drive(speed(self.v_hero)),
                 # the truck is in front and the gap closes
                 fall(
                     lambda: self.hero.road_distance(reference=self.npc, direction="longitudinal")
                     > self.safety_gap
                 ),
+                label="cruise",
             ),
             self.hero.change_lane(num_of_lanes=1, side="right", label="evade"),
             Emit(self.crash_avoided),
             Until(
-                self.hero.drive(speed(self.v_hero), label="pass_by"),
+                self.hero.drive(speed(self.v_hero)),
                 self.obstacle_detected,
+                label="pass_by",
             ),
             # Pull alongside and stop
             self.hero.change_speed(target=25 * kph, rate_profile="smooth"),
             Until(
-                self.hero.drive(speed(25 * kph), label="alongside"),
+                self.hero.drive(speed(25 * kph)),
                 rise(
                     lambda: self.npc.road_distance(reference=self.hero, direction="longitudinal")
                     >= -1 * m
                 ),
+                label="alongside",
             ),
             self.hero.change_speed(target=0 * kph, rate_profile="asap"),
             Wait(lambda: self.hero.speed < 0.1 * kph),
@@ -123,27 +129,30 @@ class CutInAndEvade(Scenario):
         return Serial(
             "npc_part",
             Until(
-                self.npc.drive(speed(self.v_npc_fast), label="overtake"),
+                self.npc.drive(speed(self.v_npc_fast)),
                 rise(
                     lambda: self.hero.road_distance(reference=self.npc, direction="longitudinal")
                     >= 4 * self.lag
                 ),
+                label="overtake",
             ),
             self.npc.change_lane(num_of_lanes=1, side="left", label="cut_in"),
             # Brake check, until the hero has evaded
             Until(
-                self.npc.drive(speed(self.v_npc_slow), label="brake_check"),
+                self.npc.drive(speed(self.v_npc_slow)),
                 self.crash_avoided,
+                label="brake_check",
             ),
             Until(
-                self.npc.drive(speed(self.v_npc_catchup), label="recover"),
+                self.npc.drive(speed(self.v_npc_catchup)),
                 rise(
                     lambda: self.npc.object_distance(reference=self.obstacle, direction="euclidean")
-                    < 60 * m
+                    < 90 * m
                 ),
+                label="recover",
             ),
-            self.npc.change_speed(target=0 * kph, rate_profile="asap"),
             Emit(self.obstacle_detected),
+            self.npc.change_speed(target=0 * kph, rate_profile="asap"),
             Wait(elapsed(20 * s)),
         )
 

@@ -1,5 +1,7 @@
 """Scenario `follow_leader`.
 
+A car follows its leader at a constant gap while the leader slows down and speeds up again.
+
 Made by osc2tx from follow_leader.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """

@@ -1,5 +1,7 @@
 """Scenario `pedestrian_crossing`.
 
+A pedestrian crosses the road in front of the ego vehicle, which brakes, waits and drives on.
+
 Made by osc2tx from pedestrian_crossing.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
@@ -62,23 +64,26 @@ class PedestrianCrossing(Scenario):
         return Serial(
             "walker_part",
             Until(
-                self.walker.remain_stationary(label="wait_at_curb"),
+                self.walker.remain_stationary(),
                 rise(
                     lambda: self.walker.object_distance(reference=self.ego, direction="euclidean")
                     < 45 * m
                 ),
+                label="wait_at_curb",
             ),
             Emit(self.crossing_started),
-            self.walker.walk(speed(self.v_walk), duration=7 * s, label="cross"),
+            self.walker.walk(speed(self.v_walk), duration=8 * s, label="cross"),
             Emit(self.road_is_free),
+            self.walker.remain_stationary(),
         )
 
-    def ego_part(self) -> Behaviour:  # pedestrian_crossing.osc:35
+    def ego_part(self) -> Behaviour:  # pedestrian_crossing.osc:36
         return Serial(
             "ego_part",
             Until(
-                self.ego.drive(speed(self.v_ego), label="approach"),
+                self.ego.drive(speed(self.v_ego)),
                 self.crossing_started,
+                label="approach",
             ),
             self.ego.change_speed(target=0 * kph, rate_profile="smooth", label="brake"),
             Wait(self.road_is_free),

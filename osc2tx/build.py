@@ -10,11 +10,13 @@ from __future__ import annotations
 import os
 import tempfile
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
+from traceback import format_exception
 
 from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.driver import Compilation
 from osc2tx.inputs import find_inputs
 
@@ -67,6 +69,7 @@ class BuildResult:
         compilations: One for each source file, in order.
         modules: How many modules the sources make.
         changed: Outputs that were missing or stale, in order.
+        bugs: Mistakes of osc2tx itself, as `run_all`; their sources make no module.
         collisions: Outputs that several sources make, a sentence each; none of them is written.
         failures: Outputs that could not be written, a sentence each.
     """
@@ -74,6 +77,7 @@ class BuildResult:
     compilations: tuple[Compilation, ...]
     modules: int
     changed: tuple[tuple[str, Path], ...]
+    bugs: tuple[str, ...]
     collisions: tuple[str, ...]
     failures: tuple[str, ...]
 
@@ -98,6 +102,26 @@ def compile_all(paths: Sequence[str | Path], given: GivenOptions) -> list[Compil
     return compilations
 
 
+def run_all(
+    compilations: Sequence[Compilation], stages: Callable[[Compilation], object]
+) -> tuple[str, ...]:
+    """Run stages on every file; a bug that one file shows does not stop the others.
+
+    Returns:
+        The bugs: file and message, for unforeseen ones below their traceback.
+    """
+    bugs = []
+    for compilation in compilations:
+        try:
+            stages(compilation)
+        except InternalCompilerError as error:
+            bugs.append(f"{compilation.path}: internal error: {error}")
+        except Exception as error:  # whatever it is, it is ours, and the other files need not wait
+            trace = "".join(format_exception(error))
+            bugs.append(f"{trace}{compilation.path}: internal error: {error!r}")
+    return tuple(bugs)
+
+
 def build(
     paths: Sequence[str | Path],
     out_dir: Path,
@@ -118,10 +142,13 @@ def build(
     """
     compilations = compile_all(paths, given)
     plan: dict[Path, list[Compilation]] = defaultdict(list)
-    for compilation in compilations:
+
+    def make_module(compilation: Compilation) -> None:
         if compilation.module is not None:
             place = PurePosixPath(compilation.name).with_name(f"{compilation.module.stem}.py")
             plan[out_dir / place].append(compilation)
+
+    bugs = run_all(compilations, make_module)
     collisions = [_collision(path, rivals) for path, rivals in plan.items() if len(rivals) > 1]
     changed, failures = [], []
     for output in _outputs(plan):
@@ -136,6 +163,7 @@ def build(
         compilations=tuple(compilations),
         modules=len(plan) - len(collisions),
         changed=tuple(changed),
+        bugs=bugs,
         collisions=tuple(collisions),
         failures=tuple(failures),
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import sys
 import traceback
+from collections import Counter
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from enum import IntEnum
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from osc2tx.driver import Compilation
 
 MOST_SHOWN = 100  # diagnostics of one file
+BUG_REPORT = "osc2tx: this is a bug of osc2tx; please report it with the lines above"
 
 COMMANDS = {
     "check": "Report what is wrong with scenario files.",
@@ -95,12 +97,11 @@ def compile_options(command: Command) -> Command:
 @compile_options
 def check(paths: tuple[str, ...], std: str | None, dialect: str | None, one_of: str | None) -> Exit:
     """Report what is wrong with scenario files; folders are searched for .osc files."""
-    from osc2tx.build import compile_all
+    from osc2tx.build import compile_all, run_all
 
     compilations = compile_all(paths, GivenOptions(std, dialect, one_of))
-    for compilation in compilations:
-        compilation.check()
-    code = report(compilations)
+    bugs = run_all(compilations, lambda compilation: compilation.check())
+    code = report(compilations, bugs)
     click.echo(f"checked {_count(len(compilations), 'file')}: {_found(compilations)}")
     return code
 
@@ -141,7 +142,7 @@ def _build(paths: Sequence[str], out_dir: Path, given: GivenOptions, check_only:
     from osc2tx.build import build as build_files
 
     result = build_files(paths, out_dir, given, check_only=check_only)
-    code = report(result.compilations)
+    code = report(result.compilations, result.bugs)
     if check_only:
         for state, path in result.changed:
             complain(f"{path}: is {state}")
@@ -159,17 +160,21 @@ def _build(paths: Sequence[str], out_dir: Path, given: GivenOptions, check_only:
 
 
 def _print_product(paths: Sequence[str], given: GivenOptions, emit: ProductName) -> Exit:
-    from osc2tx.build import compile_all
+    from osc2tx.build import compile_all, run_all
 
     compilations = compile_all(paths, given)
-    for compilation in compilations:
+
+    texts: list[str] = []
+
+    def dump(compilation: Compilation) -> None:
         text = compilation.dump(emit)
-        if text is None:
-            continue
-        if len(compilations) > 1:
-            click.echo(f"# {compilation.path}")
+        if text is not None:
+            texts.append(f"# {compilation.path}\n{text}" if len(compilations) > 1 else text)
+
+    bugs = run_all(compilations, dump)
+    for text in texts:
         click.echo(text, nl=not text.endswith("\n"))
-    return report(compilations)
+    return report(compilations, bugs)
 
 
 @cli.command()
@@ -195,27 +200,50 @@ def _explanation(entry: Code) -> str:
     return "\n".join(lines)
 
 
-def report(compilations: Sequence[Compilation]) -> Exit:
-    """Print all diagnostics and return the exit code they call for."""
-    shown: list[Diagnostic] = []
-    left_out: list[str] = []
-    code = Exit.OK
-    for compilation in compilations:
-        found = compilation.diagnostics
-        shown += found[:MOST_SHOWN]
-        if len(found) > MOST_SHOWN:
-            left_out.append(f"{compilation.path}: {len(found) - MOST_SHOWN} more not shown")
-        if not compilation.is_readable:
-            code = max(code, Exit.UNREADABLE)
-        elif compilation.sink.has_errors:
-            code = max(code, Exit.ERRORS)
+def report(compilations: Sequence[Compilation], bugs: Sequence[str] = ()) -> Exit:
+    """Print all diagnostics, and bugs of ours, and return the exit code they call for."""
+    found = _distinct(compilations)
+    counts: Counter[Path | str] = Counter()
+    shown = []
+    for diagnostic in found:
+        file = _file_of(diagnostic)
+        counts[file] += 1
+        if counts[file] <= MOST_SHOWN:
+            shown.append(diagnostic)
     if shown:
         color = sys.stderr.isatty() and "NO_COLOR" not in os.environ
         click.echo(render_all(shown, color=color, folder=Path.cwd()), err=True, color=color)
-        for line in left_out:
-            complain(line)
+        for file, count in counts.items():
+            if count > MOST_SHOWN:
+                complain(f"{file}: {count - MOST_SHOWN} more not shown")
         click.echo(f"`osc2tx explain {shown[0].code}` says more about a code.", err=True)
-    return code
+    for bug in bugs:
+        complain(bug)
+    if bugs:
+        complain(BUG_REPORT)
+        return Exit.BUG
+    if not all(compilation.is_readable for compilation in compilations):
+        return Exit.UNREADABLE
+    failed = any(compilation.sink.has_errors for compilation in compilations)
+    return Exit.ERRORS if failed else Exit.OK
+
+
+def _distinct(compilations: Sequence[Compilation]) -> list[Diagnostic]:
+    """Return all diagnostics; one in a file that several others import counts once."""
+    found: dict[tuple[object, ...], Diagnostic] = {}
+    for compilation in compilations:
+        for diagnostic in compilation.diagnostics:
+            start = diagnostic.primary.start if diagnostic.primary else None
+            key = (_file_of(diagnostic), start, diagnostic.code, diagnostic.message)
+            found.setdefault(key, diagnostic)
+    return list(found.values())
+
+
+def _file_of(diagnostic: Diagnostic) -> Path | str:
+    if diagnostic.primary is None:
+        return ""
+    source = diagnostic.primary.source
+    return source.path.resolve() if source.path else source.name
 
 
 def complain(message: str) -> None:
@@ -224,7 +252,7 @@ def complain(message: str) -> None:
 
 
 def _found(compilations: Sequence[Compilation]) -> str:
-    severities = [d.severity for c in compilations for d in c.diagnostics]
+    severities = [diagnostic.severity for diagnostic in _distinct(compilations)]
     errors = severities.count(Severity.ERROR)
     warnings = severities.count(Severity.WARNING)
     return f"{_count(errors, 'error')}, {_count(warnings, 'warning')}"
@@ -263,5 +291,5 @@ def _exit_code(arguments: Sequence[str] | None) -> int:
         return 141
     except Exception:  # the edge of the process: a bug must not look like exit code 1, stale
         traceback.print_exc()
-        complain("osc2tx: this is a bug of osc2tx; please report it with the lines above")
+        complain(BUG_REPORT)
         return Exit.BUG

@@ -96,9 +96,19 @@ class Compilation:
         return module
 
     @cached_property
+    def is_supported(self) -> bool:
+        """Whether the backend can write all of it down; what it cannot is reported."""
+        if self.ir is None:
+            return False
+        from osc2tx.backends.py_trees import check_support
+
+        check_support(self.ir, self.sink)
+        return not self._failed()
+
+    @cached_property
     def module(self) -> GeneratedModule | None:
         """The Python module; `None` also for a file that declares no scenario."""
-        if self.ir is None or not self.ir.scenarios:
+        if self.ir is None or not self.ir.scenarios or not self.is_supported:
             return None
         from osc2tx.backends.py_trees import emit
 
@@ -116,7 +126,7 @@ class Compilation:
 
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""
-        return self.ir is not None
+        return self.is_supported
 
     def dump(self, product: ProductName) -> str | None:
         """Return a product as text; `None` where it does not exist."""

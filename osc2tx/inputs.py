@@ -63,7 +63,7 @@ def _inputs_of(path: Path) -> list[Input]:
         if not path.is_dir():
             return [Input(path, path.parent)]
     except (OSError, ValueError) as error:
-        raise InputError(f"{path!r}: {error}") from None
+        raise InputError(f"{str(path)!r}: {error}") from None
     inputs = []
     for folder, folders, files in os.walk(path, onerror=_refuse):
         folders[:] = sorted(name for name in folders if not name.startswith("."))

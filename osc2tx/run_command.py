@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from osc2tx.build import compile_all
+from osc2tx.build import compile_all, run_all
 from osc2tx.cli import Exit, compile_options, complain, report
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.inputs import InputError, find_inputs
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.main import choose_scenario as choose
 from osc2tx_runtime.main import verdict
 from osc2tx_runtime.settings import OPTIONS
 
@@ -71,13 +72,14 @@ def run(
 
 
 def _run_source(compilation: Compilation, wanted: str | None, settings: RunSettings) -> Exit:
+    bugs = run_all([compilation], lambda item: item.module)
+    code = report([compilation], bugs)
+    if code is not Exit.OK:
+        return code
     module = compilation.module
-    code = report([compilation])
     path = compilation.path
     if module is None:
-        if code is Exit.OK:
-            raise click.UsageError(f"{path} declares no scenario")
-        return code
+        raise click.UsageError(f"{path} declares no scenario")
     with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
         place = Path(folder, f"{module.stem}.py")
         place.write_text(module.python, encoding="utf-8")
@@ -138,20 +140,13 @@ def _scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:
 def choose_scenario(
     scenarios: Mapping[str, type[Scenario]], wanted: str | None, path: Path
 ) -> type[Scenario]:
-    """Return the scenario that was asked for, else `top`, `main` or the only one."""
-    names = ", ".join(scenarios) or "none"
-    if wanted is not None:
-        if wanted not in scenarios:
-            raise click.UsageError(f"{path} has no scenario `{wanted}`; it has: {names}")
-        return scenarios[wanted]
-    for name in ("top", "main"):
-        if name in scenarios:
-            return scenarios[name]
-    if len(scenarios) == 1:
-        return next(iter(scenarios.values()))
+    """Return the scenario that was asked for, as a generated module chooses it."""
     if not scenarios:
         raise click.UsageError(f"{path} has no scenario")
-    raise click.UsageError(f"{path} has several scenarios; choose with --scenario: {names}")
+    try:
+        return choose(tuple(scenarios.values()), wanted)
+    except SettingsError as error:
+        raise click.UsageError(f"{path}: {error.message}") from None
 
 
 def merge_settings(

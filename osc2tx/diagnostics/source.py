@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from pathlib import Path
+
+LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,13 +27,8 @@ class SourceFile:
 
     def __post_init__(self) -> None:
         """Index the line starts; CR, LF and CR LF each end a line (§7.2.1.2)."""
-        starts = [0]
-        text = self.text
-        for index, char in enumerate(text):
-            ends_line = char == "\n" or (char == "\r" and text[index + 1 : index + 2] != "\n")
-            if ends_line:
-                starts.append(index + 1)
-        object.__setattr__(self, "line_starts", tuple(starts))
+        starts = (match.end() for match in LINE_END.finditer(self.text))
+        object.__setattr__(self, "line_starts", (0, *starts))
 
     def position(self, offset: int) -> tuple[int, int]:
         """Return the one-based line and column of an offset."""

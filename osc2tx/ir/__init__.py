@@ -64,7 +64,7 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
-from osc2tx.ir.verify import verify
+from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
     "Actor",
@@ -117,8 +117,10 @@ __all__ = [
     "Variable",
     "Wait",
     "children",
+    "condition_expressions",
     "dump_ir",
     "is_live",
     "verify",
     "walk",
+    "walk_behaviors",
 ]

@@ -96,10 +96,19 @@ class ActorSelf(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Attribute(ExpressionBase):
-    """A member of an actor or struct, `hero.speed`."""
+    """A member of an actor or struct, `hero.speed`.
+
+    Attributes:
+        base: The object.
+        owner: The type that declares the member.
+        name: The member.
+        is_variable: Whether it changes during a run.
+    """
 
     base: Expression
+    owner: str
     name: str
+    is_variable: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -213,4 +222,7 @@ def walk(expression: Expression) -> tuple[Expression, ...]:
 
 def is_live(expression: Expression) -> bool:
     """Whether the value depends on the state of the world, so that it must be read late."""
-    return any(isinstance(e, MethodCall | Attribute) for e in walk(expression))
+    return any(
+        isinstance(part, MethodCall) or (isinstance(part, Attribute) and part.is_variable)
+        for part in walk(expression)
+    )

@@ -12,7 +12,7 @@ from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.dialects import dialect_defaults
 from osc2tx.lowering.expressions import lower_arguments, lower_expression
 from osc2tx.lowering.names import composition_name, invocation_name, statement_name
-from osc2tx.lowering.triggers import lower_trigger
+from osc2tx.lowering.triggers import declares_event, lower_trigger
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
@@ -196,7 +196,12 @@ class BehaviorLowering:
                     pass
         return tuple(modifiers)
 
-    def _emit(self, node: ast.EmitDirective, comments: tuple[str, ...]) -> ir.Emit:
+    def _emit(self, node: ast.EmitDirective, comments: tuple[str, ...]) -> ir.Emit | None:
+        if not declares_event(self._ctx.model.symbol_of(node.event)):
+            self._ctx.unsupported(
+                "OSC506", node.event.span, f"`emit {node.event}` is not supported yet"
+            )
+            return None
         binding = self._ctx.model.bindings.get(node)
         arguments = () if binding is None else lower_arguments(self._ctx, binding, node.arguments)
         return ir.Emit(

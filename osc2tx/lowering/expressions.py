@@ -109,13 +109,21 @@ def _lower_member(
     name: ast.Name,
     type_: ir.ValueType,
 ) -> ir.Expression | None:
-    if not isinstance(ctx.model.symbol_of(node), sym.FieldSymbol):
+    field = ctx.model.symbol_of(node)
+    if not isinstance(field, sym.FieldSymbol):
         ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
         return None
     lowered = lower_expression(ctx, base)
     if lowered is None:
         return None
-    return ir.Attribute(span=node.span, type=type_, base=lowered, name=name.text)
+    return ir.Attribute(
+        span=node.span,
+        type=type_,
+        base=lowered,
+        owner=field.owner.name if field.owner is not None else "",
+        name=name.text,
+        is_variable=field.is_variable,
+    )
 
 
 def _lower_call(ctx: LoweringContext, node: ast.Call, type_: ir.ValueType) -> ir.Expression | None:

@@ -31,10 +31,21 @@ def _lower_event(ctx: LoweringContext, path: ast.Expression) -> ir.EventRef | ir
     symbol = ctx.model.symbol_of(path)
     if isinstance(path, ast.MemberAccess) and path.name.text in MOMENTS:
         base = ctx.model.symbol_of(path.base)
+        if isinstance(base, sym.LabelSymbol) and isinstance(base.node, ast.EmitDirective):
+            ctx.unsupported(
+                "OSC506",
+                path.span,
+                f"`{base.name}` labels an `emit`, which takes no time",
+                help=f"wait for the event itself, `@{base.node.event}`",
+            )
+            return None
         if isinstance(base, sym.LabelSymbol):
             moment = MOMENTS[path.name.text]
             return ir.LabelEvent(span=path.span, label=base.name, moment=moment)
     if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
+        if not declares_event(symbol):
+            ctx.unsupported("OSC506", path.span, f"`@{symbol.name}` cannot be waited for yet")
+            return None
         return ir.EventRef(span=path.span, name=symbol.name)
     ctx.unsupported("OSC506", path.span, f"event `{path.span.text}` cannot be waited for yet")
     return None
@@ -67,3 +78,8 @@ def _main_expression(node: ast.EventCondition) -> ast.Expression:
             return period
         case _:
             return node.expression
+
+
+def declares_event(symbol: sym.Symbol | None) -> bool:
+    """Whether an event belongs to the scenario: declared, or made by its use in a dialect."""
+    return isinstance(symbol, sym.EventSymbol) and (symbol.node is not None or symbol.is_implicit)

@@ -1,13 +1,36 @@
 """Semantic analysis: from syntax trees to a checked program.
 
-Input: an `ast.File`, and a callable that loads imported files. Output: a `SemanticModel` and
-diagnostics OSC2xx - OSC4xx, and OSC6xx for what a dialect lets pass.
+Input: an `ast.File`, and a callable that loads the files it imports. Output: a `SemanticModel`
+(`model`, over `symbols` and `types`) and diagnostics OSC2xx - OSC4xx, and OSC6xx for what a dialect
+lets pass. `dump_model` (`dump`, `dump_bodies`) prints a model.
+
+Order of events, with the modules that do the work; `builder` runs them:
+
+1. Imports (`imports`): files in the order in which they count, and the parts of the library that
+   are wanted. `library` builds those once per process, with the `prelude` of the dialect
+   (`dialects`); programs are layered on them (`scope`). A program with extensions gets a library of
+   its own, so that they stay its own.
+2. Definition pass (`collect`, `members`): a symbol for everything that is declared.
+3. Resolution pass, first half (`resolve`): exports (`exports`), actors and bases
+   (`resolve_types`, `inheritance`), extensions (`extensions`), enum values (`enums`), signatures.
+4. Resolution pass, second half (`check`): bodies. Statements: `behaviors`, `modifiers`, `events`,
+   `constraints`, `conditions`, `coverage`. Expressions: the package `expressions`. Arguments:
+   `binding`, `exclusive`. Names: `lookup`, `builtins`, `unimported`. Types: `assign`,
+   `conversions`. All share a `Resolution` (`resolution`) and get the place they look from as an
+   `Environment`.
+
+`units` converts authored values to SI, for the next stage.
+
+Invariants: no input raises; each mistake is reported once, what follows from it has the error type
+and stays quiet; every expression of the user's files has a type; a shared library is never
+written to once it is built.
 """
 
 from osc2tx.semantics.builder import ModelBuilder
 from osc2tx.semantics.dialects import ASAM, CARLA, DIALECTS, Dialect
 from osc2tx.semantics.dump import dump_model
 from osc2tx.semantics.model import Binding, SemanticModel
+from osc2tx.semantics.units import to_si
 
 __all__ = [
     "ASAM",
@@ -18,4 +41,5 @@ __all__ = [
     "ModelBuilder",
     "SemanticModel",
     "dump_model",
+    "to_si",
 ]

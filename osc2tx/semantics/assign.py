@@ -8,6 +8,7 @@ from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
     BOOL,
     ERROR,
+    EVENT,
     UINT,
     Dimension,
     ListType,
@@ -66,14 +67,26 @@ def check_fits(
         return
     wanted = _dimension_inside(target)
     given = _dimension_inside(source)
-    if wanted is None or given is None or isinstance(source, ListType | RangeType):
-        r.report("OSC301", expression.span, f"{what} must be `{target}`, not `{source}`")
-    elif wanted == given:
-        r.report("OSC301", expression.span, f"{what} must be `{target}`, not `{source}`")
+    composed = isinstance(source, ListType | RangeType)
+    if wanted is None or given is None or composed or wanted == given:
+        r.report(
+            "OSC301",
+            expression.span,
+            f"{what} must be `{target}`, not `{source}`",
+            help=_mismatch_help(expression, source, target),
+        )
     elif source in NUMBERS:
         _report_missing_unit(r, expression, target, what)
     else:
         _report_dimension(r, expression, source, target, what)
+
+
+def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> str | None:
+    if isinstance(source, RangeType):
+        return f"constrain it in its `with:` block: `keep(it in {expression.span.text})`"
+    if source == EVENT and target == BOOL:
+        return f"to react to an event write `@{expression.span.text}`"
+    return None
 
 
 def _dimension_inside(type_: Type) -> Dimension | None:

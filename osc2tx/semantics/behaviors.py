@@ -24,6 +24,7 @@ from osc2tx.semantics.symbols import (
     TypeSymbol,
 )
 from osc2tx.semantics.types import ERROR, ActorType, BehaviorType, Type
+from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
 
@@ -217,6 +218,8 @@ def _find_without_actor(r: Resolution, name: ast.Name, env: Environment) -> Call
             f"{'has none' if env.actor is None else f'acts as `{env.actor.name}`'}",
             help=f"write `<{associated[0].actor.name if associated[0].actor else ''}>.{name}(…)`",
         )
+        return None
+    if report_unimported(r, name):
         return None
     known = {n for layer in r.scope.layers() for n in layer.behaviors}
     r.report(

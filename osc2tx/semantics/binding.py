@@ -55,6 +55,10 @@ def bind_call(
     env: Environment,
 ) -> None:
     """Bind the arguments of a method call or an emit; those without default are required."""
+    if isinstance(callee, EventSymbol) and callee.is_implicit:
+        type_arguments(r, node.arguments, env)
+        r.bindings[node] = Binding(callee, receiver, ())
+        return
     pairs = _match(r, node.arguments, list(callee.parameters), callee, env)
     for parameter, value in pairs:
         type_ = r.type_of(value, env, parameter.type)

@@ -16,7 +16,7 @@ from osc2tx.semantics.model import SemanticModel
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
-from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol, TypeSymbol
+from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
 from osc2tx.syntax import ast
 
 
@@ -47,11 +47,13 @@ class ModelBuilder:
             collector.collect_file(file)
         _check_uses(resolution, walk.files)
         resolve_declarations(resolution, collector)
-        check_bodies(resolution, _extended(resolution, library))
+        check_bodies(resolution)
         return _model(root, tuple(walk.files), resolution, library)
 
     def _library(self, walk: ImportWalk) -> Library:
         modules = "all" if "all" in walk.modules else "types" if walk.modules else "none"
+        if self.dialect.unprefixed_library and len(walk.files) == 1:
+            modules = "all"  # such files often import nothing
         if any(_is_extension(s) for file in walk.files for s in file.statements):
             return build_library(self.standard, self.dialect, modules)
         return shared_library(self.standard, self.dialect.name, modules)
@@ -61,6 +63,10 @@ class ModelBuilder:
     ) -> tuple[Resolution, Collector]:
         scope = Scope(parent=library.scope)
         resolution = Resolution(scope, self.sink, relaxations, self.standard, infer)
+        if "all" not in walk.modules:
+            resolution.unimported = lambda: (
+                shared_library(self.standard, self.dialect.name, "all").scope
+            )
         unprefixed = walk.is_legacy or self.dialect.unprefixed_library
         uses = LIBRARY_NAMESPACES if unprefixed else ()
         return resolution, Collector(scope, self.sink, relaxations, null_uses=uses)
@@ -84,17 +90,6 @@ def _check_uses(r: Resolution, files: list[ast.File]) -> None:
                         f"no namespace `{name}`",
                         help="import the library: `import osc.standard.all`" if library else None,
                     )
-
-
-def _extended(r: Resolution, library: Library) -> list[TypeSymbol]:
-    """Return the library types that the program extends."""
-    texts = {source for statement in r.scope.contexts for source in (statement.span.source,)}
-    return [
-        symbol
-        for symbol in library.scope.declared
-        if isinstance(symbol, TypeSymbol)
-        and any(statement.span.source in texts for statement in symbol.statements)
-    ]
 
 
 def _model(

@@ -70,6 +70,9 @@ LIFE_CYCLE: Mapping[str, EventSymbol] = {
     for name in ("start", "end", "fail")
 }
 
+BEHAVIOR = _scenario("behavior")
+"""What `it` is in a modifier for any behavior."""
+
 COMPOSITION = _scenario("composition")
 DIRECTIVE = _scenario("directive")
 """What labels of compositions and of `wait`, `emit`, `call` stand for."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx.semantics.assign import check_value
 from osc2tx.semantics.behaviors import check_do_member, check_on, resolve_label
+from osc2tx.semantics.builtins import BEHAVIOR
 from osc2tx.semantics.conditions import check_inheritance_condition
 from osc2tx.semantics.constraints import check_keep, check_remove_default
 from osc2tx.semantics.coverage import check_coverage
@@ -28,10 +29,9 @@ from osc2tx.semantics.types import ERROR, BehaviorType, PrimitiveType, Type
 from osc2tx.syntax import ast
 
 
-def check_bodies(r: Resolution, extended: list[TypeSymbol]) -> None:
-    """Check the bodies of all types of the layer, and of those that it extends."""
-    owners = [s for s in r.scope.declared if isinstance(s, TypeSymbol)]
-    owners += [s for s in (*r.scope.primitives.values(), *extended) if s not in owners]
+def check_bodies(r: Resolution) -> None:
+    """Check what the layer declares in bodies of types, its own and extended ones."""
+    owners = r.scope.own_types()
     for owner in owners:
         for member in owner.members.values():
             if isinstance(member, LabelSymbol) and member.type == ERROR:
@@ -40,6 +40,8 @@ def check_bodies(r: Resolution, extended: list[TypeSymbol]) -> None:
     for owner in owners:
         check_inheritance_condition(r, owner)
         for statement in owner.statements:
+            if statement not in r.scope.contexts:
+                continue  # of the layer below
             _check_statement(r, owner, statement, environment_of(r, owner, statement))
         _check_single_do(r, owner)
     for symbol in r.scope.declared:
@@ -61,7 +63,7 @@ def environment_of(r: Resolution, owner: TypeSymbol, statement: ast.Statement) -
     it: Type | None = None
     invoked: BehaviorSymbol | None = None
     if isinstance(owner, ModifierSymbol):
-        it = BehaviorType(owner.target) if owner.target else ERROR
+        it = BehaviorType(owner.target or BEHAVIOR)
     elif isinstance(owner, PrimitiveSymbol):
         it = PrimitiveType(owner.name)
     return Environment(r.scope.context_of(statement), owner, it, actor, invoked)
@@ -123,8 +125,7 @@ def _check_field(
             if sample.default is not None:
                 check_value(r, sample.default, type_, env, what)
         case expression:
-            is_parameter = isinstance(node, ast.ParameterDeclaration)
-            check_value(r, expression, type_, env, what, allow_range=is_parameter)
+            check_value(r, expression, type_, env, what)
     if isinstance(node, ast.VariableDeclaration):
         return
     inner = env.with_it(type_)

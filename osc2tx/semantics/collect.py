@@ -61,6 +61,7 @@ class Collector:
                     context = self._enter_namespace(statement)
                 case ast.UseStatement():
                     self._check_use(statement)
+                    context = Context(context.namespace, (*context.uses, *statement.path))
                 case ast.ExportStatement():
                     self.scope.contexts[statement] = context
                     self._collect_export(statement, context)
@@ -77,7 +78,8 @@ class Collector:
                 help="choose a name that does not start with `std`",
             )
         self.scope.namespaces.add(statement.name)
-        return Context(statement.name, statement.uses)
+        implied = self.null_uses if self.relaxations.dialect.unprefixed_library else ()
+        return Context(statement.name, (*statement.uses, *implied))
 
     def _check_use(self, statement: ast.UseStatement) -> None:
         path = ".".join(statement.path)

@@ -22,6 +22,8 @@ from osc2tx.syntax import ast
 
 Node = ast.Node
 
+LONGEST = 72
+
 
 def dump_tables(model: SemanticModel, source: SourceFile) -> Iterator[str]:
     """Yield one line for each reference, typed expression, unit and binding of a file."""
@@ -69,7 +71,8 @@ def _describe(model: SemanticModel, node: Node) -> str | None:
 
 
 def _source(node: Node) -> str:
-    return " ".join(node.span.text.split())
+    text = " ".join(node.span.text.split())
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
 
 
 def describe_binding(binding: Binding) -> str:

@@ -12,7 +12,7 @@ from osc2tx.syntax import ast
 def resolve_enum_values(r: Resolution) -> None:
     """Count the members of every enum of the layer, extensions included."""
     pending: dict[EnumMemberSymbol, EnumMemberSymbol] = {}
-    for symbol in r.scope.declared:
+    for symbol in (*r.scope.declared, *r.scope.extended):
         if isinstance(symbol, EnumSymbol):
             _count(r, symbol, pending)
     for member in pending:
@@ -24,17 +24,19 @@ def _count(
 ) -> None:
     following = 0
     for member in symbol.members.values():
-        node = r.scope.enum_nodes[member]
-        match node.value:
+        node = r.scope.enum_node(member)
+        value = node.value if node else None
+        match value:
             case None:
                 member.value = following
                 following += 1
             case int():
-                member.value = node.value
-                following = node.value + 1
+                member.value = value
+                following = value + 1
             case ast.EnumLiteral() | ast.NameExpression():
-                r.needs_standard(node.value.span, "a reference as value of an enum member")
-                target = _target(r, symbol, node.value)
+                if member in r.scope.enum_nodes:
+                    r.needs_standard(value.span, "a reference as value of an enum member")
+                target = _target(r, symbol, value)
                 if target is not None:
                     pending[member] = target
 
@@ -45,7 +47,8 @@ def _target(
     enum: object = symbol
     name = value.name if isinstance(value, ast.NameExpression) else value.member
     if isinstance(value, ast.EnumLiteral):
-        context = r.scope.contexts.get(r.scope.nodes[symbol], Context())
+        node = r.scope.nodes.get(symbol)
+        context = r.scope.contexts.get(node, Context()) if node else Context()
         enum = resolve_type_name(r, value.enum, context)
     if not isinstance(enum, EnumSymbol):
         return None

@@ -55,7 +55,7 @@ def build_library(standard: str, dialect: Dialect, modules: str) -> Library:
         collect_prelude(resolution, collector, library_file(dialect.prelude, standard))
     else:
         resolve_declarations(resolution, collector)
-    check_bodies(resolution, [])
+    check_bodies(resolution)
     if sink.has_errors:
         first = sink.sorted()[0]
         raise InternalCompilerError(f"library: {first.primary}: {first.message}")

@@ -8,7 +8,8 @@ from osc2tx.semantics.resolution import Environment, Resolution, declared_here, 
 from osc2tx.semantics.resolve_types import choose
 from osc2tx.semantics.scope import CallableBehavior, is_subtype
 from osc2tx.semantics.symbols import ActionSymbol, ActorSymbol, ModifierSymbol
-from osc2tx.semantics.types import ERROR, ActorType
+from osc2tx.semantics.types import ERROR, ActorType, BehaviorType, ErrorType
+from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
 
@@ -43,6 +44,23 @@ def check_modifier(
         return
     r.references[node.modifier] = modifier
     bind_behavior(r, node, modifier, env)
+    if modifier is OVERRIDE:
+        _check_override(r, node)
+
+
+def _check_override(r: Resolution, node: ast.ModifierApplication) -> None:
+    """Check that `override` is told two invocations (§7.3.12.1.1)."""
+    for parameter, value in r.bindings[node].arguments:
+        type_ = r.types.get(value, ERROR)
+        if parameter.name in ("overridden", "by") and not isinstance(
+            type_, BehaviorType | ErrorType
+        ):
+            r.report(
+                "OSC301",
+                value.span,
+                f"`{parameter.name}` must be an invocation, not `{type_}`",
+                help="give the invocation a label, and name that",
+            )
 
 
 def _find_modifier(
@@ -57,7 +75,8 @@ def _find_modifier(
     if not candidates:
         if name.text == OVERRIDE.name:
             return OVERRIDE
-        _report_unknown(r, name)
+        if not report_unimported(r, name):
+            _report_unknown(r, name)
         return None
     quiet = env.it == ERROR
     fitting = candidates if quiet else [m for m in candidates if _fits(m, invoked, actor)]

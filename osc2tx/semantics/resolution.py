@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from typing import Protocol
@@ -79,6 +79,7 @@ class Resolution:
         relaxations: The dialect, and what it has let pass.
         standard: `"2.1"` or `"2.2"`.
         infer: The expression typer.
+        unimported: Gives the library if the program has not imported (all of) it.
         event_fields: The event behind each name that `as` bound.
         actor_fields: The implicit field `actor` per actor type.
         invoked: What the name in an invocation was found to be; `None` if it was reported.
@@ -89,6 +90,7 @@ class Resolution:
     relaxations: Relaxations
     standard: str
     infer: InferFunction
+    unimported: Callable[[], Scope] | None = None
     types: dict[ast.Node, Type] = field(default_factory=dict)
     references: dict[ast.Node, Symbol] = field(default_factory=dict)
     bindings: dict[ast.Node, Binding] = field(default_factory=dict)

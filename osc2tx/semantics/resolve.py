@@ -12,6 +12,7 @@ from osc2tx.semantics.builtins import LIFE_CYCLE
 from osc2tx.semantics.collect import Collector, dimension_of, report_duplicate
 from osc2tx.semantics.enums import resolve_enum_values
 from osc2tx.semantics.exports import resolve_exports
+from osc2tx.semantics.extensions import apply_extension
 from osc2tx.semantics.inheritance import check_inheritance
 from osc2tx.semantics.lookup import find_member
 from osc2tx.semantics.resolution import Resolution
@@ -25,7 +26,6 @@ from osc2tx.semantics.scope import Context, base_of, supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
-    EnumSymbol,
     EventSymbol,
     FieldSymbol,
     LabelSymbol,
@@ -34,7 +34,6 @@ from osc2tx.semantics.symbols import (
     ModifierSymbol,
     ParameterSymbol,
     PhysicalTypeSymbol,
-    PrimitiveSymbol,
     ScenarioSymbol,
     StructSymbol,
     Symbol,
@@ -57,13 +56,11 @@ def resolve_declarations(r: Resolution, collector: Collector) -> None:
     for extension in r.scope.extensions:
         apply_extension(r, collector, extension)
     resolve_enum_values(r)
+    for owner in r.scope.own_types():
+        resolve_members(r, owner)
     for symbol in r.scope.declared:
-        if isinstance(symbol, TypeSymbol):
-            resolve_members(r, symbol)
-        elif isinstance(symbol, FieldSymbol):
+        if isinstance(symbol, FieldSymbol):
             _resolve_field(r, symbol)
-    for primitive in r.scope.primitives.values():
-        resolve_members(r, primitive)
 
 
 def _for_each_symbol(r: Resolution, check: Callable[[Resolution, Symbol, Context], None]) -> None:
@@ -152,58 +149,6 @@ def _check_behaviors_unique(r: Resolution) -> None:
                 same = (other.actor, other.target) == (modifier.actor, modifier.target)
                 if same and other.namespace == modifier.namespace and name:
                     report_duplicate(r.sink, modifier, other)
-
-
-def apply_extension(
-    r: Resolution,
-    collector: Collector,
-    node: ast.EnumExtension | ast.TypeExtension | ast.PrimitiveExtension,
-) -> None:
-    """Add what an extension declares to the type that it names (§7.3.9)."""
-    context = r.scope.contexts[node]
-    match node:
-        case ast.EnumExtension():
-            enum = resolve_type_name(r, node.name, context)
-            if isinstance(enum, EnumSymbol):
-                collector.collect_enum_members(enum, node.members, context)
-            elif enum is not None:
-                r.report("OSC321", node.name.span, f"`{node.name}` is not an enum")
-        case ast.PrimitiveExtension():
-            r.needs_standard(node.span, f"`extend {node.primitive}`")
-            primitive = r.scope.primitives.setdefault(
-                node.primitive,
-                PrimitiveSymbol(name=node.primitive, namespace="null", span=node.span),
-            )
-            collector.collect_body(primitive, node.members, context)
-        case ast.TypeExtension():
-            target = _extended_type(r, node, context)
-            if target is not None:
-                _check_shadowing(r, target, node)
-                collector.collect_body(target, node.members, context)
-
-
-def _extended_type(r: Resolution, node: ast.TypeExtension, context: Context) -> TypeSymbol | None:
-    if node.name.actor is None and not r.scope.types_named(node.name.name.text):
-        modifiers = r.scope.modifiers_named(node.name.name.text)
-        if modifiers:
-            r.report(
-                "OSC321", node.name.span, f"`{node.name}` is a modifier; it cannot be extended"
-            )
-            return None
-    if node.name.actor is not None:
-        return resolve_behavior_name(r, node.name, context)
-    symbol = resolve_type_name(r, node.name.name, context)
-    if symbol is None or isinstance(symbol, TypeSymbol):
-        return symbol
-    r.report("OSC321", node.name.span, f"`{node.name}` has no members that could be extended")
-    return None
-
-
-def _check_shadowing(r: Resolution, target: TypeSymbol, node: ast.TypeExtension) -> None:
-    if isinstance(target, StructSymbol | ActorSymbol):
-        for member in node.members:
-            if isinstance(member, ast.DoDirective | ast.OnDirective):
-                r.report("OSC321", member.span, f"`{target.name}` is not a behavior")
 
 
 def resolve_members(r: Resolution, owner: TypeSymbol) -> None:

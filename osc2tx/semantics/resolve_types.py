@@ -30,6 +30,7 @@ from osc2tx.semantics.types import (
     StructType,
     Type,
 )
+from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
 S = TypeVar("S", bound=Symbol)
@@ -105,6 +106,8 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
         return symbol
     if candidates:
         return None
+    if report_unimported(r, name):
+        return None
     if associated := r.scope.behaviors_named(name.text):
         r.report(
             "OSC202",
@@ -120,15 +123,9 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
             "OSC202",
             name.span,
             f"no type `{name}`",
-            help=did_you_mean(name.text, [*known, *PRIMITIVES]) or _missing_library(r),
+            help=did_you_mean(name.text, [*known, *PRIMITIVES]),
         )
     return None
-
-
-def _missing_library(r: Resolution) -> str | None:
-    if r.scope.parent is not None and r.scope.parent.types:
-        return None
-    return "the standard library is not imported: `import osc.standard.all`"
 
 
 def choose(r: Resolution, candidates: Sequence[S], name: ast.Name, context: Context) -> S | None:
@@ -145,16 +142,27 @@ def choose(r: Resolution, candidates: Sequence[S], name: ast.Name, context: Cont
             help=f"write one of {homes}",
             labels=[label for s in selected for label in declared_here(s)],
         )
-    elif candidates:
-        found = candidates[0]
+        return None
+    return _report_invisible(r, candidates[0], name, context) if candidates else None
+
+
+def _report_invisible(r: Resolution, found: S, name: ast.Name, context: Context) -> S:
+    """Report a name of a namespace that is not used, and go on as if it were.
+
+    For the library's namespaces that is one mistake, however many names follow.
+    """
+    home = found.namespace
+    key = f"{context.namespace} {home}"
+    is_library = found.origin == "library"
+    if not is_library or r.relaxations.is_new("OSC215", name.span.source.name, key):
         r.report(
             "OSC215",
             name.span,
-            f"`{name}` is not visible here: it lives in namespace `{found.namespace}`",
-            help=f"write `{found.namespace}::{found.name}`, or `use {found.namespace}` in the "
-            "`namespace` statement",
+            f"`{name}` is not visible here: it lives in namespace `{home}`",
+            help=f"write `{home}::{found.name}`, or `namespace {context.namespace} use {home}` "
+            "above it",
         )
-    return None
+    return found
 
 
 def resolve_actor_name(r: Resolution, name: ast.Name, context: Context) -> ActorSymbol | None:
@@ -202,6 +210,8 @@ def find_behavior(
         if b.actor is not None and is_subtype(actor, b.actor)
     ]
     visible = r.scope.select(fitting, name, context)
+    if fitting and not visible:
+        choose(r, fitting, name, context)
     best: CallableBehavior | None = None
     for behavior in visible or fitting:
         if best is None or _is_nearer(behavior, best):

@@ -64,6 +64,7 @@ class Scope:
         nodes: The declaration of each of them.
         enum_nodes: The declarations of enum members.
         extensions: Extensions in source order.
+        extended: Symbols of the layers below that this layer extends.
         physical_types: The declared type of each dimension.
     """
 
@@ -82,6 +83,7 @@ class Scope:
     nodes: dict[Symbol, ast.Declaration] = field(default_factory=dict)
     enum_nodes: dict[EnumMemberSymbol, ast.EnumMember] = field(default_factory=dict)
     extensions: list[Extension] = field(default_factory=list)
+    extended: list[TypeSymbol | EnumSymbol] = field(default_factory=list)
     physical_types: dict[Dimension, PhysicalType] = field(default_factory=dict)
 
     def layers(self) -> Iterator[Scope]:
@@ -138,6 +140,18 @@ class Scope:
     def has_namespace(self, name: str) -> bool:
         """Whether some statement opened that namespace."""
         return any(name in layer.namespaces for layer in self.layers())
+
+    def enum_node(self, member: EnumMemberSymbol) -> ast.EnumMember | None:
+        """Return the declaration of an enum member."""
+        for layer in self.layers():
+            if node := layer.enum_nodes.get(member):
+                return node
+        return None
+
+    def own_types(self) -> list[TypeSymbol]:
+        """Return the types that this layer declares or extends."""
+        symbols = (*self.declared, *self.primitives.values(), *self.extended)
+        return [s for s in symbols if isinstance(s, TypeSymbol)]
 
     def context_of(self, node: ast.Statement) -> Context:
         """Return the context of a declaration or member."""

@@ -58,7 +58,6 @@ TOKEN = re.compile(
 # What may stand before the first token of a line: blanks, then a comment or nothing up to the end.
 LINE_HEAD = re.compile(r"([ \t\f]*+)(?:(\#[^\r\n]*+)?(\r\n|\r|\n|\Z))?")
 LINE_REST = re.compile(r"[^\r\n]*+")
-BLANKS = re.compile(r"[ \t\f]*+")
 # Where scanning goes on after nesting that was too deep: a line that is not indented.
 UNINDENTED_LINE = re.compile(r"[\r\n](?=[^\s#)\]])")
 UNKNOWN_RUN = re.compile(r"[&|]+|[;{}]|[^\w\s\"'#]")

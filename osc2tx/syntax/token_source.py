@@ -102,20 +102,15 @@ class TokenSource:
         end = match.end(1)
         if self._text.startswith(("/*", "//"), end):
             return self._skip_foreign_comment(end)
-        if self._text.startswith("\\", end) and self._text[end + 1 : end + 2] in ("\r", "\n"):
-            after = patterns.TOKEN.match(self._text, end)
-            assert after is not None
-            rest = patterns.BLANKS.match(self._text, after.end())
-            assert rest is not None
-            if self._text[rest.end() : rest.end() + 1] in ("", "\r", "\n"):
-                return after.end()
-        width = _width(match[1])
-        if width == 0 or not self.table.types:
+        self._begin_line(_width(match[1]), end)
+        return end
+
+    def _begin_line(self, width: int, at: int) -> None:
+        self._set_indentation(width, at)
+        if width == 0:
             self._statement_start = (len(self.table.types), len(self.table.comments))
-        self._set_indentation(width, end)
         self._line = len(self.table.types)
         self._indent_of_line = width
-        return end
 
     def _set_indentation(self, width: int, at: int) -> None:
         indents = self._indents
@@ -229,9 +224,8 @@ class TokenSource:
         if self._line is None:
             rest = patterns.LINE_HEAD.match(self._text, end)
             if rest is not None and rest[3] is None:
-                before = self._text[self.table.line_start(start) : start]
-                self._set_indentation(_width(before), rest.end(1))
-                self._line = len(self.table.types)
+                blanks = self._text[self.table.line_start(start) : start]
+                self._begin_line(_width(blanks) if not blanks.strip() else 0, rest.end(1))
                 return rest.end(1)
         return end
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.measures import Measures, RoutePosition
 from osc2tx_runtime.registry import methods
-from osc2tx_runtime.values import OdrPoint, Orientation, Point, Pose
-from osc2tx_runtime.world.catalogue import Shape, limits_of, shape_of
+from osc2tx_runtime.values import CelestialLightSource, OdrPoint, Orientation, Point, Pose
+from osc2tx_runtime.world.catalogue import VEHICLE_CATEGORIES, Shape, limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Actor",
     "Animal",
+    "CelestialLightSource",
     "Environment",
     "Map",
     "MovableObject",
@@ -197,6 +198,9 @@ class Vehicle(TrafficParticipant):
             width=width,
             height=height,
         )
+        if vehicle_category is not None and vehicle_category not in VEHICLE_CATEGORIES:
+            known = ", ".join(VEHICLE_CATEGORIES)
+            raise ScenarioError(f"vehicle_category `{vehicle_category}` is none of {known}")
         self.category = vehicle_category
         self.vehicle_category = vehicle_category
         self.rear_overhang = rear_overhang
@@ -215,9 +219,19 @@ class Animal(TrafficParticipant):
 
 
 class Environment(Actor):
-    """Weather and light."""
+    """Weather and light.
+
+    Attributes:
+        sun: To name it in `assign_celestial_position`.
+        moon: Likewise.
+    """
 
     kinds = ("environment", *Actor.kinds)
+
+    def __init__(self, *, name: str | None = None) -> None:
+        super().__init__(name=name)
+        self.sun = CelestialLightSource("sun")
+        self.moon = CelestialLightSource("moon")
 
 
 class Map(Actor):

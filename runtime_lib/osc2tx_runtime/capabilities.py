@@ -10,13 +10,26 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from osc2tx_runtime.actors import PhysicalObject
+from osc2tx_runtime.actors import (
+    Animal,
+    Environment,
+    Map,
+    MovableObject,
+    Orientation,
+    Person,
+    PhysicalObject,
+    Point,
+    Pose,
+    StationaryObject,
+    TrafficLightController,
+    Vehicle,
+)
 from osc2tx_runtime.initializer import PLACEMENT_MODIFIERS
 from osc2tx_runtime.measures import RoutePosition
 from osc2tx_runtime.modifiers import MODIFIERS, Modifier
 from osc2tx_runtime.registry import Method, methods
 
-__all__ = ["FIELDS", "METHODS", "capabilities"]
+__all__ = ["FIELDS", "METHODS", "OBJECTS", "capabilities"]
 
 METHODS: Mapping[str, Callable[..., float]] = {
     "physical_object.object_distance": PhysicalObject.object_distance,
@@ -28,19 +41,42 @@ METHODS: Mapping[str, Callable[..., float]] = {
     "traffic_participant.space_headway": PhysicalObject.space_headway,
     "traffic_participant.time_headway": PhysicalObject.time_headway,
     "traffic_participant.time_to_collision": PhysicalObject.time_to_collision,
-    "route_position.ahead_of": RoutePosition.ahead_of,
-    "route_position.behind": RoutePosition.behind,
+    "carla_position.ahead_of": RoutePosition.ahead_of,
+    "carla_position.behind": RoutePosition.behind,
 }
 """Methods of the domain model that can be read in expressions."""
 
 FIELDS: Mapping[str, str] = {
-    "physical_object.position": "route_position",
+    "physical_object.position": "carla_position",
     "physical_object.orientation": "orientation_3d",
     "physical_object.pose": "pose_3d",
     "movable_object.speed": "speed",
     "movable_object.acceleration": "acceleration",
+    "environment.sun": "celestial_light_source",
+    "environment.moon": "celestial_light_source",
 }
-"""State variables that can be read in expressions, with their types."""
+"""Members that can be read in expressions, with their types."""
+
+OBJECTS: Mapping[str, Callable[..., Any]] = {
+    **{
+        kind.kinds[0]: kind
+        for kind in (
+            Animal,
+            Environment,
+            Map,
+            MovableObject,
+            Person,
+            PhysicalObject,
+            StationaryObject,
+            TrafficLightController,
+            Vehicle,
+        )
+    },
+    "orientation_3d": Orientation,
+    "pose_3d": Pose,
+    "position_3d": Point,
+}
+"""Classes of actors and values, by their names in the domain model."""
 
 
 def capabilities() -> dict[str, dict[str, Any]]:
@@ -49,7 +85,8 @@ def capabilities() -> dict[str, dict[str, Any]]:
     Returns:
         `actions`: `vehicle.drive` to its `arguments`, `modifiers`, `slots` and how it `ends`;
         `modifiers`: name to parameters; `placement`: the same for those an actor can start with;
-        `methods`: `physical_object.object_distance` to parameters; `fields`: name to type.
+        `methods`: `physical_object.object_distance` to parameters; `fields`: name to type;
+        `objects`: actor or value type to what its constructor takes.
     """
     return {
         "actions": {f"{m.kind}.{m.name}": _action(m) for m in methods.all()},
@@ -60,6 +97,7 @@ def capabilities() -> dict[str, dict[str, Any]]:
         },
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
         "fields": dict(sorted(FIELDS.items())),
+        "objects": {name: _keywords(OBJECTS[name]) for name in sorted(OBJECTS)},
     }
 
 
@@ -81,6 +119,10 @@ def _arguments(function: Callable[..., Any]) -> list[str]:
         if parameter.name not in ("actor", "duration", "label")
         and parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
     ]
+
+
+def _keywords(kind: Callable[..., Any]) -> list[str]:
+    return list(inspect.signature(kind).parameters)
 
 
 def _parameters(kind: type[Modifier]) -> list[str]:

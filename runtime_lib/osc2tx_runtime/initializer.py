@@ -10,6 +10,7 @@ from osc2tx_runtime.errors import PlacementError, ScenarioError, SettingsError
 from osc2tx_runtime.modifiers import (
     Lane,
     Lateral,
+    Location,
     Modifier,
     Orient,
     Position,
@@ -17,7 +18,8 @@ from osc2tx_runtime.modifiers import (
     Yaw,
 )
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
-from osc2tx_runtime.places import Placer, Spot, one_of_kind
+from osc2tx_runtime.places import Placer, Spot
+from osc2tx_runtime.poses import one_of_kind
 from osc2tx_runtime.world.collision import Box, box_of, overlapping
 from osc2tx_runtime.world.state import ActorState
 
@@ -27,7 +29,15 @@ if TYPE_CHECKING:
 
 __all__ = ["PLACEMENT_MODIFIERS", "ScenarioInitializer"]
 
-PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (Position, Lane, Lateral, Speed, Yaw, Orient)
+PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
+    Position,
+    Location,
+    Lane,
+    Lateral,
+    Speed,
+    Yaw,
+    Orient,
+)
 """Modifiers that say where and how an actor starts."""
 
 
@@ -60,6 +70,7 @@ class _Start:
                 self.references.append(reference)
         position = one_of_kind(modifiers, Position)
         absolute = position is not None and position.absolute
+        absolute = absolute or one_of_kind(modifiers, Location) is not None
         self.rank = 0 if absolute else 1 if self.references else 2
 
 

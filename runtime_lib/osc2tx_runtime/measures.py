@@ -121,8 +121,9 @@ class Measures:
         if direction == "longitudinal":
             return time_to_cover(gap, reference.speed if gap > 0.0 else self.speed)
         me, other = self.state, reference.state
-        across = [s.v * math.sin(s.h - me.h) for s in (me, other)]
-        to_left = me.lateral_speed + across[0] - other.lateral_speed - across[1]
+        place = me.lane_position
+        along = me.h if place is None else self.context.world.map.pose(place).h
+        to_left = me.v * math.sin(me.h - along) - other.v * math.sin(other.h - along)
         return time_to_cover(gap, -to_left if gap > 0.0 else to_left)
 
     def space_headway(self, reference: Measures) -> float:
@@ -140,6 +141,8 @@ class Measures:
 
     def get_s_coord(self, route_type: RouteType = "on_road") -> float:
         """Own s (m) on the road."""
+        if route_type == "on_lane":
+            raise UnsupportedError("get_s_coord with route_type on_lane is not there yet")
         return self._road_coordinates(route_type)[0]
 
     def get_t_coord(self, route_type: RouteType = "on_road") -> float:
@@ -163,7 +166,8 @@ class Measures:
 
     def _along(self, reference: Measures) -> float:
         """Route distance (m) to the reference, positive if it is ahead."""
-        along = route_between(self.context.world.map, self.state, reference.state)
+        world = self.context.world
+        along = route_between(world.map, world.state(self.id), world.state(reference.id))
         if along is None:
             raise self._no_way(reference)
         return along

@@ -10,11 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
-    from osc2tx_runtime.values import Point
+    from osc2tx_runtime.values import Point, Pose
     from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = [
@@ -30,6 +30,7 @@ __all__ = [
     "keep_speed",
     "lane",
     "lateral",
+    "location",
     "orientation",
     "physical_movement",
     "position",
@@ -51,6 +52,11 @@ def value_of(value: Value) -> float:
 def _at_most_one(what: str, *given: object) -> None:
     if sum(value is not None for value in given) > 1:
         raise ScenarioError(f"{what}: give at most one of them")
+
+
+def _upright(what: str, pitch: float | None, roll: float | None) -> None:
+    if pitch or roll:
+        raise UnsupportedError(f"{what}: pitch and roll are not there yet")
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +153,8 @@ class Position(Modifier):
         y: World y (m).
         z: World z (m).
         h: Heading (rad).
+        project_on_route: `at_point` only says how far along the road and on which lane; False:
+            the actor is at the point itself.
         frame: `carla`: left-handed, y and heading with the opposite sign, box centre.
         at: When it holds.
     """
@@ -157,6 +165,7 @@ class Position(Modifier):
     ahead_of: PhysicalObject | None = None
     behind: PhysicalObject | None = None
     at_point: Point | None = None
+    project_on_route: bool = True
     x: float | None = None
     y: float | None = None
     z: float | None = None
@@ -274,11 +283,36 @@ class Yaw(Modifier):
 
 @dataclass(frozen=True, slots=True)
 class Orient(Modifier):
-    """Heading (rad) in the world, or against another actor."""
+    """Heading (rad) in the world, or against another actor.
+
+    Attributes:
+        yaw: Counter-clockwise.
+        pitch: Only 0: actors stand upright on the road.
+        roll: Only 0.
+        relative_to: Reference; None: the world.
+    """
 
     name = "orientation"
-    yaw: Value
+    yaw: Value | None = None
+    pitch: float | None = None
+    roll: float | None = None
     relative_to: PhysicalObject | None = None
+
+    def __post_init__(self) -> None:
+        _upright("orientation", self.pitch, self.roll)
+        if self.yaw is None:
+            raise ScenarioError("orientation: give a yaw")
+
+
+@dataclass(frozen=True, slots=True)
+class Location(Modifier):
+    """A fixed pose of the reference point, for objects that never move."""
+
+    name = "location"
+    pose: Pose
+
+    def __post_init__(self) -> None:
+        _upright("location", self.pose.pitch, self.pose.roll)
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,6 +336,7 @@ change_lane = ChangeLane
 keep_lane = KeepLane
 yaw = Yaw
 orientation = Orient
+location = Location
 physical_movement = PhysicalMovement
 
 MODIFIERS: dict[str, type[Modifier]] = {
@@ -318,6 +353,7 @@ MODIFIERS: dict[str, type[Modifier]] = {
         KeepLane,
         Yaw,
         Orient,
+        Location,
         PhysicalMovement,
     )
 }

@@ -192,14 +192,22 @@ def run_tree(
         outcome = Outcome("error", text, context.step)
         raise
     finally:
-        try:
-            if root.status is RUNNING:
-                root.stop(INVALID)
-        finally:
-            context.clear()
-            context.trace.end_instant(context.time, states(context))
-            context.trace.result(outcome.status, outcome.reason, outcome.steps)
+        close(root, context, outcome)
     return outcome
+
+
+def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
+    """Leave the tree, free the slots, and write the end of the trace."""
+    try:
+        if root.status is RUNNING:
+            root.stop(INVALID)
+    finally:
+        for node in root.iterate():  # what a broken `on_stop` kept from being left
+            if node.status is RUNNING:
+                node.status = INVALID
+        context.clear()
+        context.trace.end_instant(context.time, states(context))
+        context.trace.result(outcome.status, outcome.reason, outcome.steps)
 
 
 def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | None) -> Outcome:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
-__all__ = ["OdrPoint", "Orientation", "Point", "Pose"]
+__all__ = ["CelestialLightSource", "OdrPoint", "Orientation", "Point", "Pose"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,17 @@ class Pose:
     def orientation(self) -> Orientation:
         """How it is turned."""
         return Orientation(self.roll, self.pitch, self.yaw)
+
+
+@dataclass(frozen=True, slots=True)
+class CelestialLightSource:
+    """The sun or the moon.
+
+    Attributes:
+        name: `sun` or `moon`.
+    """
+
+    name: Literal["sun", "moon"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "inputs": set[str](),
     "imports": {"syntax"} | LEAVES,
     "driver": {"imports", "syntax", "semantics", "lowering", "ir", "backends"} | LEAVES,
-    "build": {"config", "driver", "inputs"},
+    "build": {"config", "diagnostics", "driver", "inputs"},
     "cli": {"", "build", "config", "driver", "inputs"} | LEAVES,
     "run_command": {"build", "cli", "config", "driver", "inputs"},
     "__main__": {"cli"},

@@ -100,7 +100,17 @@ def test_an_avalanche_is_cut(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> N
     shell.write("a.osc", "scenario top:\n" + fields)
     ended = shell("check", "a.osc")
     assert ended.err.count("error[") == 2
-    assert "a.osc: 3 more not shown" in ended.err
+    assert "/a.osc: 3 more not shown" in ended.err
+
+
+def test_a_mistake_in_an_imported_file_counts_once(shell: Shell) -> None:
+    shell.write("lib.osc", "struct place:\n  x: nothing\n")
+    for name in ("a.osc", "b.osc"):
+        shell.write(name, 'import "lib.osc"\n')
+    ended = shell("check", ".")
+    assert ended.code == 3
+    assert ended.out == "checked 3 files: 1 error, 0 warnings\n"
+    assert ended.err.count("error[OSC202]") == 1
 
 
 def test_missing_folder_and_file(shell: Shell) -> None:
@@ -288,7 +298,7 @@ def test_which_scenario_runs() -> None:
     assert choose_scenario(scenarios("a", "main"), None, path).name == "main"
     assert choose_scenario(scenarios("a"), None, path).name == "a"
     assert choose_scenario(scenarios("a", "top"), "a", path).name == "a"
-    with pytest.raises(click.UsageError, match="choose with --scenario: a, b"):
+    with pytest.raises(click.UsageError, match="choose one with --scenario: a, b"):
         choose_scenario(scenarios("a", "b"), None, path)
     with pytest.raises(click.UsageError, match="no scenario `c`; it has: a, b"):
         choose_scenario(scenarios("a", "b"), "c", path)

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx import ir
 from osc2tx.build import build
 from osc2tx.config import ConfigError, GivenOptions
-from osc2tx.diagnostics import SourceFile
+from osc2tx.diagnostics import InternalCompilerError, SourceFile
 from osc2tx.driver import Compilation
 from osc2tx.inputs import InputError, find_inputs
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
@@ -242,6 +243,21 @@ def test_one_broken_file_does_not_stop_the_others(tmp_path: Path) -> None:
     result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
     assert listing(tmp_path / "out") == ["good.map.json", "good.py"]
     assert [c.sink.has_errors for c in result.compilations] == [True, True, False]
+
+
+def test_a_bug_that_one_file_shows_does_not_stop_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(module: ir.Module) -> None:
+        if module.source == "bad.osc":
+            raise InternalCompilerError("a tree without root")
+
+    monkeypatch.setattr(ir, "verify", fail)
+    drive(tmp_path / "in/bad.osc")
+    drive(tmp_path / "in/good.osc")
+    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
+    assert result.bugs == (f"{tmp_path / 'in/bad.osc'}: internal error: a tree without root",)
+    assert listing(tmp_path / "out") == ["good.map.json", "good.py"]
 
 
 def test_two_sources_of_one_output_write_neither(tmp_path: Path) -> None:

@@ -1,12 +1,14 @@
 """Backend for py_trees: IR in, readable Python modules out.
 
-`emitter` is the entry. `scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the
-view models of `view`, with names from `naming` and fragments from `code` that scenario text
-cannot break out of; `uses` collects imports, `runtime_api` is what is known of the runtime.
-The templates (`environment`) only place view models; `formatting` lets black have the last
-word. `source_map` holds the lines that the module does not cite itself.
+`support` refuses what the runtime cannot carry out; `emitter` is the entry for the rest.
+`scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of `view`,
+with names from `naming` and fragments from `code` that scenario text cannot break out of; `uses`
+collects imports, `runtime_api` is what is known of the runtime. The templates (`environment`)
+only place view models; `formatting` lets black have the last word. `source_map` holds the lines
+that the module does not cite itself.
 """
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
+from osc2tx.backends.py_trees.support import check_support
 
-__all__ = ["GeneratedModule", "emit"]
+__all__ = ["GeneratedModule", "check_support", "emit"]

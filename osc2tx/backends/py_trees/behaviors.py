@@ -81,7 +81,8 @@ class TreeWriter:
         self._source_map.nodes.append((node.span.line, node.name))
         call = self._call(node, depth=depth)
         if until:
-            arguments = (ArgumentView(call=call), *self._calls.triggers(until))
+            triggers = self._calls.triggers(until)
+            arguments = (ArgumentView(call=call), *triggers, *self._label(node.label))
             call = replace(self._calls.runtime_call("Until", *arguments), exploded=True)
         return ArgumentView(call=call, comments=comments(node.comments))
 
@@ -97,7 +98,7 @@ class TreeWriter:
             case ir.Emit(event=event):
                 target = code(self._calls.expressions.field(event.name))
                 keywords = self._calls.keywords(node.arguments)
-                return self._calls.runtime_call("Emit", target, *keywords, *self._label(node.label))
+                return self._calls.runtime_call("Emit", target, *keywords)
             case _:
                 assert_never(node)
 
@@ -126,7 +127,7 @@ class TreeWriter:
             *(self._calls.modifier(modifier) for modifier in node.modifiers),
             *self._calls.keywords(node.arguments),
             *self._calls.duration(node.duration),
-            *self._label(node.label),
+            *(() if node.until else self._label(node.label)),
         )
         return CallView(action, arguments)
 

@@ -6,7 +6,14 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import Level, PyComment, PyExpr, PyName, name_expression
+from osc2tx.backends.py_trees.code import (
+    Level,
+    PyComment,
+    PyExpr,
+    PyName,
+    literal,
+    name_expression,
+)
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
@@ -52,6 +59,8 @@ class CallWriter:
             self._modifier_argument(argument, is_first=index == 0)
             for index, argument in enumerate(call.arguments)
         )
+        if call.at == "end":
+            arguments += (code(literal(call.at), "at"),)
         function = name_expression(self._use_modifier(identifier(call.name)))
         return ArgumentView(call=CallView(function, arguments), comments=comments(call.comments))
 

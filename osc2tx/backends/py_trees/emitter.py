@@ -64,7 +64,8 @@ def emit(module: ir.Module) -> GeneratedModule:
         api_level=API_LEVEL,
         units=uses.units(),
         scenarios=scenarios,
-        main=classes[main_scenario(module)],
+        mains=tuple(classes[scenario.name] for scenario in module.scenarios),
+        shown=classes[shown_scenario(module)],
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
@@ -76,8 +77,8 @@ def module_stem(source: str) -> str:
     return PyName(identifier(PurePosixPath(source).stem)).text
 
 
-def main_scenario(module: ir.Module) -> str:
-    """Return the scenario that the module runs as a script: `top`, `main`, else the last."""
+def shown_scenario(module: ir.Module) -> str:
+    """Return the scenario whose tree viewers get: `top`, `main`, else the last."""
     names = [scenario.name for scenario in module.scenarios]
     return next((name for name in ("top", "main") if name in names), names[-1])
 
@@ -85,8 +86,10 @@ def main_scenario(module: ir.Module) -> str:
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
     names = ", ".join(f"`{scenario.name}`" for scenario in module.scenarios)
     word = "Scenario" if len(module.scenarios) == 1 else "Scenarios"
+    about = ("", *module.comments) if module.comments else ()
     lines = (
         f"{word} {names}.",
+        *about,
         "",
         f"Made by osc2tx from {module.source}: edit the scenario, not this module.",
         f"OpenSCENARIO DSL {module.standard}, dialect {module.dialect}; "

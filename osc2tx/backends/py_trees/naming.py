@@ -11,17 +11,23 @@ from osc2tx.backends.py_trees.code import PyName
 # What `Scenario` of the runtime library uses itself; a test compares with the real class.
 SCENARIO_ATTRIBUTES = frozenset(
     {
+        "actors",
         "arguments",
         "behavior",
         "create_tree",
         "declare",
         "ended",
+        "events",
         "failed",
+        "label_events",
+        "map_file",
         "name",
         "one_of",
         "parameter",
+        "parameters",
         "place",
         "placement",
+        "placements",
         "settings",
         "source",
         "started",

@@ -15,7 +15,11 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
-from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, STRUCT_CLASSES
+from osc2tx.backends.py_trees.runtime_api import (
+    ACTOR_CLASSES,
+    STRUCT_CLASSES,
+    constructor_keyword,
+)
 from osc2tx.backends.py_trees.source_map import ScenarioMap, scenario_map
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ArgumentView, CallView, ScenarioView, StatementView
@@ -114,7 +118,7 @@ class ScenarioWriter:
         arguments = tuple(
             ArgumentView(
                 code=self._calls.expressions.write(value.value),
-                keyword=PyName(identifier(value.path[-1])),
+                keyword=PyName(constructor_keyword(value.path)),
                 comments=comments(value.comments),
             )
             for value in values

@@ -77,11 +77,22 @@ class ScenarioView:
 
 @dataclass(frozen=True, slots=True)
 class ModuleView:
-    """A module."""
+    """A module.
+
+    Attributes:
+        docstring: Lines of its docstring.
+        imports: What it takes from the runtime.
+        api_level: Level of the runtime it is made for.
+        units: Units it defines.
+        scenarios: Its classes.
+        mains: The classes that it can run as a script.
+        shown: The class whose tree viewers get.
+    """
 
     docstring: tuple[PyDocLine, ...]
     imports: tuple[ImportView, ...]
     api_level: int
     units: tuple[UnitView, ...]
     scenarios: tuple[ScenarioView, ...]
-    main: PyName
+    mains: tuple[PyName, ...]
+    shown: PyName

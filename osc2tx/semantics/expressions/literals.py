@@ -5,6 +5,7 @@ from __future__ import annotations
 from osc2tx.semantics.conversions import common_type, is_numeric
 from osc2tx.semantics.resolution import Environment, Resolution, did_you_mean
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
+from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
 
@@ -12,17 +13,14 @@ def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
     """Type a number with a unit; unit names form one table (§7.3.4)."""
     unit = r.scope.unit_named(node.unit.text)
     if unit is None:
-        known = [u.name for u in r.scope.all_units()]
-        r.report(
-            "OSC209",
-            node.unit.span,
-            f"no unit `{node.unit}`",
-            help=(
-                did_you_mean(node.unit.text, known)
-                if known
-                else "the standard library is not imported: `import osc.standard.all`"
-            ),
-        )
+        if not report_unimported(r, node.unit):
+            known = [u.name for u in r.scope.all_units()]
+            r.report(
+                "OSC209",
+                node.unit.span,
+                f"no unit `{node.unit}`",
+                help=did_you_mean(node.unit.text, known),
+            )
         return ERROR
     r.units[node] = unit
     r.references[node.unit] = unit

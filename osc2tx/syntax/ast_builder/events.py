@@ -66,7 +66,7 @@ class EventBuilder(StatementBuilder):
             for word, node in _CONDITIONS.items():
                 if is_named(expression.callee, word):
                     return self._edge(expression, word, node)
-        return ast.LevelCondition(span=expression.span, expression=expression)
+        return ast.LevelCondition(span=self._tree_span(tree), expression=expression)
 
     def _edge(
         self,

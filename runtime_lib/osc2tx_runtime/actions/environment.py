@@ -7,7 +7,7 @@ ever; here they take no time and their effect stays.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Literal, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.action import Action, ActionOptions
 from osc2tx_runtime.behaviour.base import Status
@@ -19,6 +19,7 @@ from .support import note_lights
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Environment
+    from osc2tx_runtime.values import CelestialLightSource
 
 __all__ = ["Air", "AssignCelestialPosition", "Clouds", "Fog", "Rain", "Snow", "Wind"]
 
@@ -150,16 +151,26 @@ class Clouds(_Weather):
 
 @action("environment", "assign_celestial_position", ends="instant")
 class AssignCelestialPosition(_Weather):
-    """Set azimuth (rad from +y, clockwise) and elevation (rad) of the sun or the moon."""
+    """Set azimuth (rad from +y, clockwise) and elevation (rad) of the sun or the moon.
+
+    Args:
+        actor: The environment.
+        *modifiers: None are taken.
+        light_source: `env.sun` (default) or `env.moon`.
+        azimuth: rad from +y, clockwise.
+        elevation: rad above the horizon.
+        **options: Duration and label.
+    """
 
     def __init__(
         self,
         actor: Environment,
         *modifiers: Modifier,
-        light_source: Literal["sun", "moon"] = "sun",
+        light_source: CelestialLightSource | None = None,
         azimuth: float | None = None,
         elevation: float | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
-        values = {f"{light_source}_azimuth": azimuth, f"{light_source}_elevation": elevation}
+        name = "sun" if light_source is None else light_source.name
+        values = {f"{name}_azimuth": azimuth, f"{name}_elevation": elevation}
         super().__init__(actor, modifiers, values, options)

@@ -23,7 +23,7 @@ from osc2tx_runtime.modifiers import (
     Yaw,
     value_of,
 )
-from osc2tx_runtime.places import heading_of
+from osc2tx_runtime.poses import heading_of
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import (
     Accelerate,
@@ -47,6 +47,9 @@ __all__ = ["Drive", "Move", "Walk"]
 
 _SPEED_MODIFIERS = (Speed, ChangeSpeed, KeepSpeed, Acceleration, Position)
 _SIDE_MODIFIERS = (Lane, Lateral, ChangeLane, KeepLane, Yaw, Orient)
+_AT_START = (
+    "a speed at the start together with another one is not there yet; put assign_speed before it"
+)
 ModifierT = TypeVar("ModifierT", bound=Modifier)
 
 
@@ -96,9 +99,13 @@ class _Movement(MotionAction):
                 f"{self.action_name}: {' and '.join(found)} speak of the same thing; give one"
             )
 
+    def _all(self, kind: type[ModifierT]) -> list[ModifierT]:
+        """The modifiers of a kind."""
+        return [modifier for modifier in self.modifiers if isinstance(modifier, kind)]
+
     def _the(self, kind: type[ModifierT]) -> ModifierT | None:
         """The one modifier of a kind."""
-        found = [modifier for modifier in self.modifiers if isinstance(modifier, kind)]
+        found = self._all(kind)
         if len(found) > 1:
             raise ScenarioError(
                 f"{self.action_name} has {len(found)} modifiers {found[0].name}", self.source
@@ -116,6 +123,8 @@ class _Movement(MotionAction):
         if change is not None:
             return SpeedChange(self.here.v + value_of(change.speed))
         speed = self._speed()
+        if rate is not None and any(m.at == "start" for m in self._all(Speed)):
+            raise UnsupportedError(f"{self.action_name}: {_AT_START}", self.source)
         if speed is None:
             return None if rate is None else Accelerate(value_of(rate.acceleration))
         if speed.reference is not None:
@@ -130,7 +139,7 @@ class _Movement(MotionAction):
 
     def _speed(self) -> Speed | None:
         """The speed to reach; one that holds at the start is assigned."""
-        wanted = [modifier for modifier in self.modifiers if isinstance(modifier, Speed)]
+        wanted = self._all(Speed)
         for modifier in wanted:
             if modifier.at == "start":
                 value = modifier.difference()
@@ -141,11 +150,7 @@ class _Movement(MotionAction):
         if len(lasting) > 1:
             raise ScenarioError(f"{self.action_name} has two speeds for one time", self.source)
         if lasting and len(wanted) > len(lasting):
-            raise UnsupportedError(
-                f"{self.action_name}: speeds at start and at end together are not there yet;"
-                " put assign_speed before it",
-                self.source,
-            )
+            raise UnsupportedError(f"{self.action_name}: {_AT_START}", self.source)
         return lasting[0] if lasting else None
 
     def _assign_speed(self, value: float) -> None:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
-from osc2tx_runtime.places import Placer, place_of_odr
+from osc2tx_runtime.places import Placer
+from osc2tx_runtime.poses import place_of_odr
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.values import OdrPoint, Orientation, Point
 
@@ -57,7 +58,7 @@ class AssignPosition(OneStepAction):
         else:
             modifiers = self.modifiers
             if self.position is not None:
-                modifiers = (Position(at_point=self.position),)
+                modifiers = (Position(at_point=self.position, project_on_route=False),)
             spot = placer.spot(self.movable, modifiers, self.here)
             at, speed, heading = spot.at, spot.speed, spot.heading
         actor_id = self.actor.id

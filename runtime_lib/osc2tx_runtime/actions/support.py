@@ -45,9 +45,9 @@ class MotionAction(Action):
         """Ends with the goal in all slots, fails as soon as one cannot be reached."""
         if self.elapsed_steps == 0:
             return Status.RUNNING  # the commands act from now on
-        done = True
+        done, progress_of, actor_id = True, self.context.world.progress, self.actor.id
         for slot in self.slots or ():
-            progress = self.world.progress(self.actor.id, slot)
+            progress = progress_of(actor_id, slot)
             if progress.failed is not None:
                 return self.fail(progress.failed)
             done = done and progress.done

@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx_runtime.behaviour.base import Behaviour, Leaf, Node, Status
 from osc2tx_runtime.behaviour.compositions import OneOf, Parallel, Serial
 from osc2tx_runtime.behaviour.conditions import Condition, elapsed, every, fall, rise
-from osc2tx_runtime.behaviour.directives import Call, Emit, Until, Wait
+from osc2tx_runtime.behaviour.directives import Call, Emit, On, Until, Wait
 from osc2tx_runtime.behaviour.events import Event, Trigger
 from osc2tx_runtime.behaviour.limits import Duration
 
@@ -18,6 +18,7 @@ __all__ = [
     "Event",
     "Leaf",
     "Node",
+    "On",
     "OneOf",
     "Parallel",
     "Serial",

@@ -1,10 +1,11 @@
-"""The directives of the language: wait, emit, call, until."""
+"""The directives of the language: wait, emit, call, until, on."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
+from py_trees.composites import Sequence
 from py_trees.decorators import Decorator
 
 from osc2tx_runtime.behaviour.base import RUNNING, SUCCESS, Behaviour, Leaf, Node, Status, pulse_of
@@ -12,7 +13,7 @@ from osc2tx_runtime.behaviour.conditions import Watch
 from osc2tx_runtime.behaviour.events import Event, Trigger, describe, watch
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["Call", "Emit", "Until", "Wait"]
+__all__ = ["Call", "Emit", "On", "Until", "Wait"]
 
 
 class Wait(Leaf):
@@ -142,3 +143,59 @@ class Until(Node, Decorator):
         except ScenarioError as error:
             error.source = error.source or self.source or None
             raise
+
+
+class On(Node, Sequence):
+    """Reacts whenever something happens, for as long as the composition around it runs.
+
+    Stands beside the behavior in a `Parallel`, which it does not keep from ending. At one instant
+    it reacts once, however often the event is emitted then.
+
+    Args:
+        trigger: An event, a condition or a boolean function (once per step while it is true).
+        *reactions: `Emit` and `Call`, in order.
+        condition: With an event: only an occurrence at which this is true counts.
+    """
+
+    open_ended = True
+
+    def __init__(
+        self,
+        trigger: Trigger,
+        *reactions: Behaviour,
+        condition: Callable[[], bool] | None = None,
+    ) -> None:
+        super().__init__(f"on {describe(trigger)}", memory=True, children=reactions)
+        self.trigger = trigger
+        self.condition = condition
+        self._happened: Watch = lambda: False
+        self._pulses: list[Callable[[], Status]] = []
+        self._next: int | None = None  # reaction that comes next; None between reactions
+        self._reacted = -1  # step of the last reaction
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the context; find out how to tick the reactions."""
+        super().setup(**kwargs)
+        self._pulses = [pulse_of(reaction) for reaction in self.children]
+
+    def initialise(self) -> None:
+        """Start watching."""
+        self._happened = watch(self.trigger, self.condition, self.context)
+        self._next, self._reacted = None, -1
+
+    def pulse(self) -> Status:
+        """React if it happened."""
+        if self.status is not RUNNING:
+            self._begin()
+        happened = self._happened()  # asked in every pass: what comes in between is used up
+        if happened and self._next is None and self._reacted != self.context.step:
+            self._next, self._reacted = 0, self.context.step
+        while self._next is not None:
+            status = self._pulses[self._next]()
+            if status is RUNNING:
+                break
+            if status is not SUCCESS:
+                self.stop(status)
+                return status
+            self._next = self._next + 1 if self._next + 1 < len(self._pulses) else None
+        return RUNNING

@@ -109,14 +109,22 @@ def watch_event(
 def watch_occurrences(
     event: Event, only_if: Callable[[], bool] | None, context: ExecutionContext
 ) -> Watch:
-    """Watch what is posted: by emit, by a label, from outside."""
-    started = context.tick
+    """Watch what is posted: by emit, by a label, from outside. Each occurrence counts once."""
+    seen = context.tick
+
+    def occurred() -> bool:
+        nonlocal seen
+        if event.occurred > seen:
+            seen = event.occurred
+            return True
+        return False
+
     if only_if is None:
-        return lambda: event.occurred > started
+        return occurred
     condition = only_if
 
     def happened() -> bool:
-        if event.occurred != context.tick or event.occurred <= started:
+        if not occurred() or event.occurred != context.tick:
             return False
         for arguments in event.occurrences:
             event.arguments = arguments

@@ -14,6 +14,7 @@ __all__ = [
     "COMFORT",
     "MODELS",
     "RATE_CAP",
+    "VEHICLE_CATEGORIES",
     "Limits",
     "Shape",
     "limits_of",
@@ -108,6 +109,11 @@ CATEGORIES: dict[str, tuple[Shape, Limits]] = {
     "tram": (_vehicle(30.0, 2.5, 3.5), Limits(1.2, 2.5)),
     "land_vehicle": (_vehicle(4.6, 1.9, 1.5), CAR_LIMITS),
     "other": (_vehicle(4.6, 1.9, 1.5), CAR_LIMITS),
+}
+VEHICLE_CATEGORIES: tuple[str, ...] = (*CATEGORIES, "truck", "vru_vehicle")
+"""Names of `vehicle_category` (DSL 8.7.16) that have a default size and limits."""
+
+CATEGORIES |= {
     "person": (_box(0.5, 0.5, 1.75), PERSON_LIMITS),
     "animal": (_box(1.0, 0.4, 0.8), Limits(3.0, 5.0)),
     "stationary_object": (_box(1.0, 1.0, 1.0), Limits(1.0, 1.0)),
@@ -152,7 +158,7 @@ def _category(kind: str, category: str | None, model: str | None) -> str:
         return category
     if model in MODELS:
         return MODELS[model][0]
-    return kind if kind in CATEGORIES else "trailer" if kind == "trailer" else "car"
+    return kind if kind in CATEGORIES else "car"
 
 
 def shape_of(kind: str, category: str | None = None, model: str | None = None) -> Shape:

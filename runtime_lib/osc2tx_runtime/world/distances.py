@@ -107,6 +107,12 @@ def _corner_distance(a: Box, b: Box) -> float:
 
 def along_lanes(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
     """Route distance (m) between reference points, positive if b is ahead; None without a way."""
+    place_a, place_b = a.lane_position, b.lane_position
+    if place_a is not None and place_b is not None:
+        along = road_map.route_distance(place_a, place_b)
+        if along is not None:
+            return along
+    # One is beside the driving lanes (a person on a sidewalk): its nearest driving lane counts.
     place_a, place_b = _on_lane(road_map, a), _on_lane(road_map, b)
     if place_a is None or place_b is None:
         return None

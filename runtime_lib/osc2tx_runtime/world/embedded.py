@@ -190,11 +190,14 @@ class EmbeddedWorld:
         """Goes from step k to k+1."""
         bodies = tuple(self._bodies.values())
         # All read the snapshot; none is replaced before every actor has moved.
+        jumped = {actor for actor, wishes in self._assigned.items() if "at" in wishes}
         states = [self._next_state(body) for body in bodies]
         boxes = []
-        for body, state, box in zip(bodies, states, self._boxes, strict=True):
-            boxes.append(box if state is body.state else box_of(state))
+        for i, (body, state) in enumerate(zip(bodies, states, strict=True)):
+            boxes.append(self._boxes[i] if state is body.state else box_of(state))
             body.state = state
+            if body.spec.id in jumped:
+                self._boxes[i] = boxes[i]  # a jump touches nothing on its way
         self._find_collisions(boxes)
         self._boxes = boxes
         self._lights.update(self._next_lights)

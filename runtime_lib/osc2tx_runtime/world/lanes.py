@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 __all__ = ["lane_with_number", "lanes_to_left", "number_of_lane"]
@@ -35,5 +36,12 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
     """How many driving lanes `lane` is to the left of `place`; negative: to the right.
 
     On different roads both are counted from the right edge.
+
+    Raises:
+        ScenarioError: One of them is no driving lane.
     """
-    return number_of_lane(road_map, lane, "right") - number_of_lane(road_map, place, "right")
+    numbers = [number_of_lane(road_map, each, "right") for each in (lane, place)]
+    for each, number in zip((lane, place), numbers, strict=True):
+        if number == 0:
+            raise ScenarioError(f"lane {each.lane} of road {each.road} is no driving lane")
+    return numbers[0] - numbers[1]

@@ -17,7 +17,7 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from .catalogue import Limits
 from .commands import Command, KeepLane, LaneChange, LaneOffset
 from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
-from .protocol import Progress
+from .protocol import PENDING, REACHED, Progress
 
 __all__ = [
     "HEADING_LIMIT",
@@ -73,7 +73,7 @@ class HoldOffset:
 
     def progress(self) -> Progress:
         """Always reached."""
-        return Progress(True)
+        return REACHED
 
 
 class Impossible(HoldOffset):
@@ -120,7 +120,7 @@ class Shift:
 
     def progress(self) -> Progress:
         """Done when the profile has ended."""
-        return Progress(self._time >= self._profile.duration - 1e-9)
+        return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING
 
 
 def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:

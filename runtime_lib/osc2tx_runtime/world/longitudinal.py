@@ -18,7 +18,7 @@ from .commands import (
 )
 from .distances import gap_between, headway_between
 from .profiles import Linear, Profile, Quintic, SCurve, quintic_duration
-from .protocol import Progress
+from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 
 __all__ = ["Longitudinal", "Senses", "longitudinal_of", "speed_profile"]
@@ -70,7 +70,7 @@ class _ProfileRun:
 
     def progress(self) -> Progress:
         """Done when the profile has ended."""
-        return Progress(self._time >= self._profile.duration - 1e-9)
+        return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING
 
 
 class _Acceleration:
@@ -91,7 +91,7 @@ class _Acceleration:
 
     def progress(self) -> Progress:
         """Never done: there is no goal."""
-        return Progress()
+        return PENDING
 
 
 class _Following:
@@ -114,7 +114,7 @@ class _Following:
 
     def progress(self) -> Progress:
         """Done while the speeds agree."""
-        return Progress(self._done)
+        return REACHED if self._done else PENDING
 
 
 def _towards(speed: float, wanted: float, limits: Limits, share: float, dt: float) -> float:

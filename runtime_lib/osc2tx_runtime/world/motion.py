@@ -11,7 +11,7 @@ from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
 from .commands import Command, KeepLane, Turn
 from .lateral import SIDEWAYS, HoldOffset, Lateral, lateral_of, offset_from
 from .longitudinal import Longitudinal, Senses, longitudinal_of
-from .protocol import ActorSpec, Progress
+from .protocol import PENDING, REACHED, ActorSpec, Progress
 from .state import ActorState
 
 __all__ = ["ANY_LANE", "TURN_RATE", "Body"]
@@ -89,7 +89,7 @@ class Body:
         """Progress of the longitudinal command."""
         if self.blocked is not None:
             return Progress(False, self.blocked)
-        return Progress(True) if self._speed is None else self._speed.progress()
+        return REACHED if self._speed is None else self._speed.progress()
 
     def side_progress(self) -> Progress:
         """Progress of the lateral command."""
@@ -97,7 +97,8 @@ class Body:
             return Progress(False, self.blocked)
         if self.bound is not None:
             return self._side.progress()
-        return Progress(self._heading is None or abs(_turn(self.state.h, self._heading)) < 1e-9)
+        turned = self._heading is None or abs(_turn(self.state.h, self._heading)) < 1e-9
+        return REACHED if turned else PENDING
 
     # --- motion -------------------------------------------------------------------------------
 

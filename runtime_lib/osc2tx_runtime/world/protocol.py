@@ -16,6 +16,8 @@ __all__ = [
     "LATERAL",
     "LONGITUDINAL",
     "LOW_BEAM_SUN_ELEVATION",
+    "PENDING",
+    "REACHED",
     "ActorSpec",
     "LightMode",
     "LightState",
@@ -69,6 +71,10 @@ class Progress:
 
     done: bool = False
     failed: str | None = None
+
+
+PENDING = Progress()
+REACHED = Progress(True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -237,6 +237,18 @@ def test_exception_in_a_leaf_leaves_nothing_running() -> None:
     assert '"status":"error","reason":"RuntimeError(' in made.lines[-1]
 
 
+def test_exception_in_on_stop_leaves_nothing_running() -> None:
+    class Broken(Drive):
+        def on_stop(self) -> None:
+            raise RuntimeError("no connection")
+
+    made = Run(Parallel("p", Broken(HERO), Drive(NPC)), ids=IDS, max_time=0.1)
+    with pytest.raises(RuntimeError, match="no connection"):
+        made.go()
+    assert all(node.status is not Status.RUNNING for node in made.root.iterate())
+    assert not made.context.slots.live()
+
+
 def test_exception_in_on_start_leaves_nothing_running() -> None:
     class Broken(Drive):
         def on_start(self) -> None:

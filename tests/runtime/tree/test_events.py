@@ -10,8 +10,10 @@ import pytest
 
 from osc2tx_runtime.behaviour import (
     Behaviour,
+    Call,
     Emit,
     Event,
+    On,
     OneOf,
     Parallel,
     Serial,
@@ -19,6 +21,7 @@ from osc2tx_runtime.behaviour import (
     Until,
     Wait,
     elapsed,
+    every,
     fall,
     rise,
 )
@@ -218,3 +221,42 @@ def test_division_by_zero_in_a_condition_names_the_node() -> None:
         run.go()
     assert str(caught.value) == "x.osc:7: the condition has no value: division by zero"
     assert run.lines[-1].startswith('{"kind":"result","status":"error","reason":"x.osc:7:')
+
+
+def all_events(run: Run) -> list[tuple[float, str]]:
+    lines = [json.loads(line) for line in run.lines]
+    return [(line["t"], line["name"]) for line in lines if line["kind"] == "event"]
+
+
+@pytest.mark.parametrize("on_first", [True, False])
+def test_on_reacts_to_every_occurrence_and_ends_with_its_surroundings(on_first: bool) -> None:
+    a, b, c = event("a"), event("b"), event("c")
+    calls: list[str] = []
+    on = On(a, Call(lambda: calls.append("x")), Emit(b))
+    emits = Serial("e", Emit(a), Wait(elapsed(0.1)), Emit(a), Emit(a), Wait(elapsed(0.1)))
+    chain = On(b, Emit(c))
+    run = Run(Parallel("p", *((on, chain, emits) if on_first else (emits, chain, on)))).go()
+    assert (run.outcome.status, run.outcome.steps) == ("success", 4)
+    assert all_events(run) == [(t, name) for t in (0.0, 0.1) for name in "abc"]
+    assert calls == ["x", "x"]
+
+
+def test_on_its_own_event_does_not_react_for_ever() -> None:
+    a = event("a")
+    run = Run(Parallel("p", On(a, Emit(a)), Serial("e", Emit(a), Wait(elapsed(0.3))))).go()
+    assert all_events(run) == [(0.0, "a")]
+
+
+def test_on_conditions() -> None:
+    tick, far = event("tick"), event("far")
+    run = Run(lambda: Wait(elapsed(0.1)), ids=("hero",))
+    world = run.world
+    world.v["hero"] = 10.0
+    run.root = Parallel(
+        "p",
+        On(every(0.1), Emit(tick)),
+        On(rise(lambda: world.x["hero"] > 1.2), Emit(far)),
+        Wait(elapsed(0.25)),
+    )
+    run.go()
+    assert all_events(run) == [(0.0, "tick"), (0.1, "tick"), (0.15, "far"), (0.2, "tick")]

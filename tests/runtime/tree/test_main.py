@@ -52,7 +52,7 @@ def fake(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_success(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     trace = tmp_path / "new" / "t.jsonl"
-    assert main(Waits, ["--signal", "go@1s", "--trace", str(trace), "--set", "time=1"]) == 0
+    assert main(Waits, argv=["--signal", "go@1s", "--trace", str(trace), "--set", "time=1"]) == 0
     out = capsys.readouterr()
     assert out.out == "waits: success after 2.00 s\n  collision at 0.15 s: hero, npc\n"
     assert out.err == ""
@@ -68,12 +68,12 @@ def test_success(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
 
 def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
     for name in ("a", "b"):
-        main(Waits, ["--trace", str(tmp_path / name)])
+        main(Waits, argv=["--trace", str(tmp_path / name)])
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
 
 def test_failure(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(Waits, ["--set", "bad=true"]) == 5
+    assert main(Waits, argv=["--set", "bad=true"]) == 5
     assert capsys.readouterr().out.startswith(
         "waits: failure after 2.00 s: hero change_lane (waits.osc) failed at 2.000 s:"
         " no lane to the right\n"
@@ -81,7 +81,7 @@ def test_failure(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_timeout(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(Waits, ["--max-time", "1"]) == 5
+    assert main(Waits, argv=["--max-time", "1"]) == 5
     assert capsys.readouterr().out.startswith(
         "waits: timeout after 1.00 s: not finished at 1 s; still running:"
         " wait @go (waits.osc), wait elapsed 2 s (waits.osc)\n"
@@ -99,7 +99,7 @@ def test_timeout(capsys: pytest.CaptureFixture[str]) -> None:
 def test_errors(
     argv: list[str], code: int, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(Waits, argv) == code
+    assert main(Waits, argv=argv) == code
     err = capsys.readouterr().err
     assert message in err
     assert "Traceback" not in err
@@ -111,7 +111,7 @@ def test_missing_map(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixt
             return "Town77"
 
     monkeypatch.undo()
-    assert main(NoMap, []) == 4
+    assert main(NoMap, argv=[]) == 4
     assert "waits.osc: error: map `Town77` not found" in capsys.readouterr().err
 
 
@@ -120,14 +120,14 @@ def test_error_of_the_scenario_keeps_its_place(capsys: pytest.CaptureFixture[str
         def behavior(self) -> Behaviour:
             raise ScenarioError("nothing to do", "waits.osc:9")
 
-    assert main(Broken, []) == 5
+    assert main(Broken, argv=[]) == 5
     assert capsys.readouterr().err == "waits.osc:9: error: nothing to do\n"
 
 
 def test_usage_is_for_argparse(capsys: pytest.CaptureFixture[str]) -> None:
     for argv, code in ((["--help"], 0), (["--nope"], 2)):
         with pytest.raises(SystemExit) as caught:
-            main(Waits, argv)
+            main(Waits, argv=argv)
         assert caught.value.code == code
     assert "--max-time SECONDS" in capsys.readouterr().out
 
@@ -144,7 +144,7 @@ def test_an_error_still_writes_the_trace(tmp_path: Path) -> None:
             return Serial("s", Wait(elapsed(0.1)), Wait(lambda: 1 / 0 > 0))
 
     trace = tmp_path / "t.jsonl"
-    assert main(Broken, ["--trace", str(trace)]) == 5
+    assert main(Broken, argv=["--trace", str(trace)]) == 5
     assert '"status":"error"' in trace.read_text().splitlines()[-1]
 
 

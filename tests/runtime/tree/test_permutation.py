@@ -12,6 +12,7 @@ from osc2tx_runtime.behaviour import (
     Behaviour,
     Emit,
     Event,
+    On,
     OneOf,
     Parallel,
     Serial,
@@ -42,6 +43,7 @@ durations = st.none() | st.sampled_from([0.0, 0.1, 0.2, (0.1, 0.3), (0.0, 0.2)])
 leaves = st.one_of(
     st.builds(Spec, st.just("wait"), st.sampled_from(NAMES)),
     st.builds(Spec, st.just("emit"), st.sampled_from(NAMES)),
+    st.builds(Spec, st.just("on"), st.tuples(st.sampled_from(NAMES), st.sampled_from(NAMES))),
     st.builds(Spec, st.just("elapsed"), st.sampled_from([0.0, 0.05, 0.1, 0.3])),
     st.builds(Spec, st.just("level"), st.sampled_from([0.0, 0.4, 1.0])),
     st.builds(Spec, st.just("rise"), st.sampled_from([0.4, 1.0])),
@@ -100,6 +102,9 @@ class Builder:
             return Wait(self.events[value])  # type: ignore[index]
         if spec.kind == "emit":
             return Emit(self.events[value])  # type: ignore[index]
+        if spec.kind == "on":
+            heard, told = value  # type: ignore[misc]
+            return On(self.events[heard], Emit(self.events[told]))
         if spec.kind == "elapsed":
             return Wait(elapsed(value))  # type: ignore[arg-type]
         if spec.kind == "level":

@@ -243,7 +243,9 @@ def test_lights_follow_the_sun(run: Run) -> None:
         return Serial(
             "dusk",
             s.a.set_lights(mode="auto"),
-            s.sky.assign_celestial_position(azimuth=1.0, elevation=math.radians(30)),
+            s.sky.assign_celestial_position(
+                light_source=s.sky.sun, azimuth=1.0, elevation=math.radians(30)
+            ),
             Wait(elapsed(1.0)),
             s.sky.assign_celestial_position(elevation=math.radians(12)),
             Wait(elapsed(1.0)),
@@ -270,7 +272,11 @@ def test_person_walks_across(run: Run) -> None:
             self.walker = Person()
 
         def placement(self) -> None:
-            self.place(self.walker, position(at_point=Point(250.0, -6.0)), yaw(math.pi / 2))
+            self.place(
+                self.walker,
+                position(at_point=Point(250.0, -6.0), project_on_route=False),
+                yaw(math.pi / 2),
+            )
 
         def behavior(self) -> Behaviour:
             return self.walker.walk(speed(1.4), duration=8.0)

@@ -11,11 +11,11 @@ import pytest
 
 import osc2tx_runtime
 from osc2tx_runtime import RunSettings
-from osc2tx_runtime.actors import Person, PhysicalObject, Point, StationaryObject, Vehicle
+from osc2tx_runtime.actors import Person, PhysicalObject, Point, Pose, StationaryObject, Vehicle
 from osc2tx_runtime.context import ExecutionContext
-from osc2tx_runtime.errors import PlacementError, SettingsError
+from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.initializer import ScenarioInitializer
-from osc2tx_runtime.modifiers import Modifier, keep_lane, lane, position, speed, yaw
+from osc2tx_runtime.modifiers import Modifier, keep_lane, lane, location, position, speed, yaw
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.scenario import Placement
 from osc2tx_runtime.world import EmbeddedWorld
@@ -114,10 +114,27 @@ def test_person_at_a_point_faces_along_the_road_or_by_yaw(
     load_map: Callable[[str], RoadMap],
 ) -> None:
     walker = Person(name="walker")
-    at = position(at_point=Point(200.0, -1.75))
+    at = position(at_point=Point(200.0, -9.0), project_on_route=False)
     along = place(load_map("crossing"), (walker, [at])).state("walker").h
     across = place(load_map("crossing"), (walker, [at, yaw(math.pi / 2)])).state("walker").h
     assert across - along == pytest.approx(math.pi / 2)
+
+
+def test_point_is_projected_unless_told_otherwise(load_map: Callable[[str], RoadMap]) -> None:
+    walker, point = Person(name="walker"), Point(200.0, -9.0)
+    road_map = load_map("crossing")
+    projected = place(road_map, (walker, [position(at_point=point)])).state("walker")
+    exact = position(at_point=point, project_on_route=False)
+    there = place(road_map, (walker, [exact])).state("walker")
+    assert (projected.lane, projected.s, projected.offset) == (-1, 200.0, 0.0)
+    assert (there.x, there.y) == (200.0, -9.0)
+
+
+def test_location_is_for_stationary_objects(highway: RoadMap, a: Vehicle) -> None:
+    cone, at = StationaryObject(name="cone"), location(Pose(x=60.0, y=-2.0, yaw=0.3))
+    state = place(highway, (cone, [at])).state("cone")
+    assert (state.x, state.y, state.h) == (60.0, -2.0, 0.3)
+    assert "location is for stationary objects" in failure(highway, (a, [at]))
 
 
 def test_spawn_is_the_position(highway: RoadMap, a: Vehicle) -> None:
@@ -127,7 +144,7 @@ def test_spawn_is_the_position(highway: RoadMap, a: Vehicle) -> None:
 
 
 def failure(road_map: RoadMap, *wishes: Wish, **settings: Any) -> str:
-    with pytest.raises(PlacementError) as caught:
+    with pytest.raises(ScenarioError) as caught:
         place(road_map, *wishes, **settings)
     return str(caught.value)
 
@@ -157,8 +174,11 @@ def test_cycle(highway: RoadMap, a: Vehicle, b: Vehicle) -> None:
         ([lane(9)], "map highway has no free place on a road with a lane 9 from the right"),
         ([keep_lane()], "b cannot start with keep_lane"),
         ([speed(3.0, at="end")], "speed at the end is no start"),
+        ([speed(3.0, rate_profile="smooth")], "a speed at the start takes no rate_profile"),
+        ([lane(1), yaw(0.5)], "b follows its lane, so it cannot start at an angle to it"),
+        ([position(x=9.0, y=-2.0), lane(1)], "b: its point is not on lane 1 from the right"),
+        ([position(x=9.0, y=-2.0), lane(same_as="a")], "no room for a lane relative to a"),
     ],
-    ids=["missing lane", "overlap", "too far", "off map", "lane number", "modifier", "end"],
 )
 def test_mistakes(
     highway: RoadMap, a: Vehicle, b: Vehicle, modifiers: list[Any], message: str

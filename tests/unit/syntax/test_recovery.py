@@ -97,12 +97,16 @@ def nested(levels: int) -> str:
     ],
 )
 def test_deep_nesting_is_refused(line: str) -> None:
-    text = f"scenario s:\n    {line}\nscenario t:\n    keep(x = 3)\n"
-    assert reports(text) == [(2, "OSC105"), (4, "OSC100")]
+    text = f"struct r:\n    x: int\nscenario s:\n    {line}\nscenario t:\n    keep(x = 3)\n"
+    assert reports(text) == [(4, "OSC105"), (6, "OSC100")]
+    assert isinstance(parsed(text)[0].statements[0], ast.StructDeclaration)
 
 
 def test_deep_blocks_are_refused() -> None:
-    assert [code for _, code in reports(nested(1000) + "struct t\nx y\n")] == ["OSC105", "OSC100"]
+    assert [code for _, code in reports(GOOD + nested(1000) + "struct t\nx y\n")] == [
+        "OSC105",
+        "OSC100",
+    ]
 
 
 def test_nesting_up_to_the_limit() -> None:

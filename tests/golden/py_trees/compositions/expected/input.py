@@ -76,6 +76,7 @@ class Compositions(Scenario):
                 duration=(3 * s, 5 * s),
             ),
             elapsed(4 * s),
+            label="with_limit",
         )
 
 

@@ -74,10 +74,11 @@ class Conditions(Scenario):
             Wait(self.started("first")),
             Emit(self.help_needed),
             Until(
-                self.other.drive(speed(20 * kph), duration=(1 * s, 4 * s), label="second"),
+                self.other.drive(speed(20 * kph), duration=(1 * s, 4 * s)),
                 # whatever comes first
                 self.help_needed,
                 lambda: 10 * kph <= self.ego.speed <= 20 * kph,
+                label="second",
             ),
         )
 

@@ -78,4 +78,4 @@ def create_root() -> Behaviour:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main(Quoting))
+    raise SystemExit(main(EventScenario, Quoting))

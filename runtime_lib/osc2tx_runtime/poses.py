@@ -1,0 +1,116 @@
+"""Small steps of placing: a modifier's pose, its heading, the begin of a lane on its road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeVar
+
+from osc2tx_runtime import opendrive
+from osc2tx_runtime.errors import PlacementError, UnsupportedError
+from osc2tx_runtime.modifiers import Modifier, Orient, Position, Yaw, value_of
+from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+from osc2tx_runtime.values import OdrPoint
+from osc2tx_runtime.world.motion import ANY_LANE
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.actors import PhysicalObject
+    from osc2tx_runtime.world.protocol import World
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["heading_of", "one_of_kind", "place_of_odr", "pose_of", "road_entry", "road_heading"]
+
+ModifierT = TypeVar("ModifierT", bound=Modifier)
+
+
+def one_of_kind(modifiers: Sequence[Modifier], kind: type[ModifierT]) -> ModifierT | None:
+    """The only modifier of a kind; None without one."""
+    found = [modifier for modifier in modifiers if isinstance(modifier, kind)]
+    if len(found) > 1:
+        raise PlacementError(f"{found[0].name} is given {len(found)} times")
+    return found[0] if found else None
+
+
+def heading_of(
+    world: World,
+    actor: PhysicalObject,
+    modifiers: Sequence[Modifier],
+    at: opendrive.Pose | ActorState,
+) -> float | None:
+    """Heading (rad) that yaw or orientation ask for; None if they are not given.
+
+    Args:
+        world: The world.
+        actor: Who is to turn.
+        modifiers: Those of an action or a placement.
+        at: Where the actor is.
+    """
+    turned = one_of_kind(modifiers, Yaw) or one_of_kind(modifiers, Orient)
+    if turned is None:
+        return None
+    if isinstance(turned, Orient):
+        angle, base = value_of(turned.yaw or 0.0), 0.0
+    else:
+        angle, base = value_of(turned.angle), road_heading(world.map, at)
+        if turned.measure_by == "relative_to_north":
+            base = 0.5 * math.pi
+    if turned.relative_to is not None:
+        base = world.state(turned.relative_to.id).h
+    if actor.lane_bound and not isinstance(at, opendrive.Pose) and at.lane_position is not None:
+        raise UnsupportedError(f"{actor.id} follows its lane, so it takes no {turned.name}")
+    return base + angle
+
+
+def road_heading(road_map: RoadMap, at: opendrive.Pose | ActorState) -> float:
+    """Direction of travel (rad) of the lane under a point, else of the nearest driving lane."""
+    on = road_map.locate(at.x, at.y, at.z, lane_types=ANY_LANE, max_distance=1e-3)
+    if on is None:
+        on = road_map.locate(at.x, at.y, at.z)
+    return 0.0 if on is None else road_map.pose(on).h
+
+
+def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
+    """Where the lane of a place begins on its road, in direction of travel."""
+    length = road_map.roads[place.road].length
+    back = place.s if road_map.travel_direction(place.road, place.lane) > 0 else length - place.s
+    lane = place
+    while back > 0.0:
+        step = road_map.advance(lane, -back)
+        if step.position.road != place.road or abs(step.travelled) < 1e-9:
+            break
+        lane = step.position
+        rest = lane.s if road_map.travel_direction(place.road, place.lane) > 0 else length - lane.s
+        if rest < 1e-6 or rest >= back:
+            break
+        back = rest
+    return LanePosition(lane.road, lane.lane, lane.s)
+
+
+def pose_of(actor: PhysicalObject, position: Position) -> tuple[opendrive.Pose, float | None]:
+    """Pose of the reference point, and the heading if one is given."""
+    if position.at_point is not None:
+        point = position.at_point
+        heading = None if position.h is None else float(position.h)
+        return opendrive.Pose(point.x, point.y, point.z, heading or 0.0), heading
+    x, y, z = position.x or 0.0, position.y or 0.0, position.z or 0.0
+    heading = None if position.h is None else float(position.h)
+    if position.frame == "world":
+        return opendrive.Pose(x, y, z, heading or 0.0), heading
+    heading = None if heading is None else -heading
+    h = heading or 0.0
+    back = actor.shape.centre  # CARLA places the box centre
+    return opendrive.Pose(x - back * math.cos(h), -y - back * math.sin(h), z, h), heading
+
+
+def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:
+    """Place of a point in road coordinates."""
+    try:
+        if point.lane_id is None:
+            return road_map.road_pose(point.road_id, point.s, point.t)
+        lane = int(point.lane_id)
+        place = LanePosition(point.road_id, lane, point.s)
+        road_map.pose(place)
+        left = point.t * road_map.travel_direction(point.road_id, lane)
+        return LanePosition(point.road_id, lane, point.s, left)
+    except MapError as error:
+        raise PlacementError(error.message) from error

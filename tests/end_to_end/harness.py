@@ -1,0 +1,87 @@
+"""Compile, load and run scenarios as a user would, and look at the trace."""
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from osc2tx import ir
+from osc2tx.backends.py_trees import GeneratedModule, emit
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.driver import Compilation
+from osc2tx.options import CompileOptions
+from osc2tx_runtime import RunSettings, Scenario, run_scenario
+
+REPOSITORY = Path(__file__).parent.parent.parent
+SCENARIOS = REPOSITORY / "scenarios"
+
+Line = dict[str, Any]
+
+
+@dataclass
+class Trace:
+    """A trace, with the questions that tests ask."""
+
+    text: str
+    status: str
+
+    @property
+    def lines(self) -> list[Line]:
+        return [json.loads(line) for line in self.text.splitlines()]
+
+    def of_kind(self, kind: str) -> list[Line]:
+        return [line for line in self.lines if line["kind"] == kind]
+
+    def states(self, actor: str) -> list[Line]:
+        return [line for line in self.of_kind("state") if line["actor"] == actor]
+
+    def state(self, actor: str, t: float) -> Line:
+        return min(self.states(actor), key=lambda line: abs(line["t"] - t))
+
+    def event(self, name: str) -> float:
+        (time,) = [line["t"] for line in self.of_kind("event") if line["name"] == name]
+        return float(time)
+
+    def action(self, source: str, status: str) -> float:
+        (time,) = [
+            line["t"]
+            for line in self.of_kind("action")
+            if line["source"] == source and line["status"] == status
+        ]
+        return float(time)
+
+
+def compile_scenario(path: Path) -> ir.Module:
+    options = ConfigFiles().for_source(path).options_for(path, GivenOptions())
+    compilation = Compilation(path, path.name, options)
+    assert compilation.ir is not None, compilation.diagnostics
+    return compilation.ir
+
+
+def run(scenario: type[Scenario], settings: RunSettings | None = None) -> Trace:
+    result = run_scenario(scenario, settings or RunSettings())
+    return Trace("\n".join(result.trace_lines) + "\n", result.status)
+
+
+def permuted(node: ir.Behavior) -> ir.Behavior:
+    """Return the tree with the members of every `parallel` in reverse order."""
+    if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+        return node
+    members = tuple(permuted(member) for member in node.members)
+    if isinstance(node, ir.Parallel):
+        members = members[::-1]
+    return replace(node, members=members)
+
+
+def permuted_module(module: ir.Module) -> GeneratedModule:
+    scenarios = tuple(replace(s, body=permuted(s.body)) for s in module.scenarios)
+    return emit(replace(module, scenarios=scenarios))
+
+
+def asam(text: str, folder: Path) -> ir.Module:
+    """Compile a text in dialect `asam`."""
+    path = folder / "case.osc"
+    path.write_text(text, encoding="utf-8")
+    compilation = Compilation(path, path.name, CompileOptions())
+    assert compilation.ir is not None, compilation.diagnostics
+    return compilation.ir
