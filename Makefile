@@ -7,7 +7,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: demo test test-all lint goldens parser maps clean
+.PHONY: demo test test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/
@@ -17,8 +17,8 @@ demo: $(STAMP)
 test: lint
 	$(BIN)/pytest -q -m "not slow"
 
-test-all: lint
-	$(BIN)/pytest -q
+test-slow: $(STAMP)
+	$(BIN)/pytest -q -m slow
 
 lint: $(STAMP)
 	$(BIN)/ruff check .
@@ -31,8 +31,12 @@ goldens: $(STAMP)
 parser: $(STAMP)
 	sh tools/make_parser.sh
 
-maps: $(STAMP)
+# Everything that is written by a script of ours from something else in the repository.
+tables: $(STAMP)
 	$(BIN)/python tools/make_maps.py
+	$(BIN)/python tools/make_runtime_api.py
+	$(BIN)/osc2tx build scenarios/ -o generated/
+	$(BIN)/python tools/make_readme_example.py
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)

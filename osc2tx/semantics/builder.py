@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections import ChainMap
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
 from osc2tx.semantics.dialects import Dialect, Relaxations
@@ -18,6 +21,8 @@ from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
 from osc2tx.syntax import ast
+
+RECURSION_LIMIT = 5_000
 
 
 @dataclass(slots=True, eq=False)
@@ -38,6 +43,15 @@ class ModelBuilder:
 
     def build(self, root: ast.File) -> SemanticModel:
         """Check the program that starts at a file."""
+        with _room_for_nesting():
+            try:
+                return self._build(root)
+            except RecursionError:
+                start = Span(root.span.source, 0, 0)
+                self.sink.report("OSC105", start, "the text nests too deeply to be checked")
+                return SemanticModel(root=root, files=(root,), scenarios=())
+
+    def _build(self, root: ast.File) -> SemanticModel:
         relaxations = Relaxations(self.dialect)
         walk = ImportWalk(self.load, self.sink, relaxations)
         walk.visit(root)
@@ -70,6 +84,17 @@ class ModelBuilder:
         unprefixed = walk.is_legacy or self.dialect.unprefixed_library
         uses = LIBRARY_NAMESPACES if unprefixed else ()
         return resolution, Collector(scope, self.sink, relaxations, null_uses=uses)
+
+
+@contextmanager
+def _room_for_nesting() -> Iterator[None]:
+    """Allow for the deepest nesting that the syntax does: about ten calls for each level."""
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(limit, RECURSION_LIMIT))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(limit)
 
 
 def _is_extension(statement: ast.FileStatement) -> bool:

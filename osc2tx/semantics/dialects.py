@@ -49,19 +49,23 @@ class PreludeHint:
 PRELUDE_MEMBERS: Mapping[str, PreludeHint] = {
     "name": PreludeHint("carla", "the name of the field itself names the object"),
     "model": PreludeHint("carla", "use `geometry_reference` for a 3D model"),
-    "position": PreludeHint("carla", "use `pose.position`, or `object_distance(…)` for a distance"),
-    "ahead_of": PreludeHint("carla", "use `road_distance(…, longitudinal)`"),
+    "position": PreludeHint(
+        "carla", "`pose.position` is the place, `road_distance(…)` a distance along the road"
+    ),
 }
 PRELUDE_PARAMETERS: Mapping[tuple[str, str], PreludeHint] = {
     ("speed", "rate_profile"): PreludeHint("carla", "use `shape:` with a `common_speed_shape`"),
     ("speed", "rate_peak"): PreludeHint("carla", "use `shape:` with a `common_speed_shape`"),
     **{
         ("position", axis): PreludeHint("carla", "use `at_point:` with a `position_3d`")
-        for axis in ("x", "y", "z", "h")
+        for axis in ("x", "y", "z", "h", "frame")
     },
 }
-PRELUDE_BEHAVIORS: Mapping[str, PreludeHint] = {
-    "set_lights": PreludeHint("carla", "the standard library has no action for lights"),
+PRELUDE_BEHAVIORS: Mapping[tuple[str, str], PreludeHint] = {
+    ("vehicle", "set_lights"): PreludeHint("carla", "it has no action for lights"),
+    ("stationary_object", "assign_position"): PreludeHint(
+        "carla", "place the object with the modifier `location()`"
+    ),
 }
 
 

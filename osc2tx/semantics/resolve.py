@@ -49,7 +49,7 @@ __all__ = ["resolve_declarations"]
 def resolve_declarations(r: Resolution, collector: Collector) -> None:
     """Complete the symbols of the layer that the collector filled."""
     resolve_exports(r)
-    for check in (_resolve_actor, _resolve_base, _resolve_unit):
+    for check in (_resolve_type_base, _resolve_actor, _resolve_behavior_base, _resolve_unit):
         _for_each_symbol(r, check)
     _check_behaviors_unique(r)
     _for_each_symbol(r, check_inheritance)
@@ -75,7 +75,7 @@ def _resolve_actor(r: Resolution, symbol: Symbol, context: Context) -> None:
             symbol.actor = resolve_actor_name(r, actor, context)
 
 
-def _resolve_base(r: Resolution, symbol: Symbol, context: Context) -> None:
+def _resolve_type_base(r: Resolution, symbol: Symbol, context: Context) -> None:
     match symbol, r.scope.nodes[symbol]:
         case StructSymbol(), ast.StructDeclaration(base=ast.Name() as name):
             struct = resolve_type_name(r, name, context)
@@ -89,19 +89,25 @@ def _resolve_base(r: Resolution, symbol: Symbol, context: Context) -> None:
                 symbol.base = actor
             elif actor is not None:
                 _report_kind(r, name, "actor")
-        case ScenarioSymbol(node=ast.ScenarioDeclaration(base=ast.BehaviorName() as base)), _:
+        case _:
+            return
+
+
+def _resolve_behavior_base(r: Resolution, symbol: Symbol, context: Context) -> None:
+    match symbol:
+        case ScenarioSymbol(node=ast.ScenarioDeclaration(base=ast.BehaviorName() as base)):
             scenario = resolve_behavior_name(r, base, context)
             if isinstance(scenario, ScenarioSymbol):
                 symbol.base = scenario
             elif scenario is not None:
                 _report_kind(r, base, "scenario")
-        case ActionSymbol(node=ast.ActionDeclaration(base=ast.BehaviorName() as base)), _:
+        case ActionSymbol(node=ast.ActionDeclaration(base=ast.BehaviorName() as base)):
             action = resolve_behavior_name(r, base, context)
             if isinstance(action, ActionSymbol):
                 symbol.base = action
             elif action is not None:
                 _report_kind(r, base, "action")
-        case ModifierSymbol(node=ast.ModifierDeclaration(behavior=ast.BehaviorName() as name)), _:
+        case ModifierSymbol(node=ast.ModifierDeclaration(behavior=ast.BehaviorName() as name)):
             symbol.target = resolve_behavior_name(r, name, context)
         case _:
             return

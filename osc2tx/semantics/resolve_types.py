@@ -7,7 +7,7 @@ from typing import TypeVar, assert_never
 
 from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS
 from osc2tx.semantics.resolution import Resolution, declared_here, did_you_mean
-from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype
+from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype, supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
@@ -231,8 +231,18 @@ def _is_nearer(behavior: CallableBehavior, other: CallableBehavior) -> bool:
 def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -> None:
     """Report that an actor type has no behavior of that name, with what comes near."""
     elsewhere = [b for b in r.scope.behaviors_named(name.text) if b.actor is not None]
-    hint = PRELUDE_BEHAVIORS.get(name.text)
-    if elsewhere:
+    ancestry = [(s.name, name.text) for s in supertypes(actor)]
+    hint = next((PRELUDE_BEHAVIORS[key] for key in ancestry if key in PRELUDE_BEHAVIORS), None)
+    if hint is not None:
+        r.report(
+            "OSC211",
+            name.span,
+            f"`{actor.name}` has no action `{name}` in the standard library",
+            notes=[f"{hint.instead}; dialect `{hint.dialect}` has it"],
+            help=f"check with `--dialect {hint.dialect}`",
+            labels=declared_here(elsewhere[0], "for other actors") if elsewhere else (),
+        )
+    elif elsewhere:
         owner = elsewhere[0].actor
         kind = "action" if isinstance(elsewhere[0], ActionSymbol) else "scenario"
         r.report(
@@ -240,14 +250,6 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             name.span,
             f"`{actor.name}` has no {kind} `{name}`; it belongs to `{owner.name if owner else ''}`",
             labels=declared_here(elsewhere[0]),
-        )
-    elif hint is not None:
-        r.report(
-            "OSC211",
-            name.span,
-            f"`{actor.name}` has no action `{name}` in the standard library",
-            notes=[f"{hint.instead}; dialect `{hint.dialect}` has it"],
-            help=f"check with `--dialect {hint.dialect}`",
         )
     else:
         known = {

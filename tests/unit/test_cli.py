@@ -300,7 +300,7 @@ def test_which_scenario_runs() -> None:
     assert choose_scenario(scenarios("a", "top"), "a", path).name == "a"
     with pytest.raises(click.UsageError, match="choose one with --scenario: a, b"):
         choose_scenario(scenarios("a", "b"), None, path)
-    with pytest.raises(click.UsageError, match="no scenario `c`; it has: a, b"):
+    with pytest.raises(click.UsageError, match="no scenario `c`; there is: a, b"):
         choose_scenario(scenarios("a", "b"), "c", path)
 
 

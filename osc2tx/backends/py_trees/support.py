@@ -169,8 +169,8 @@ class _SupportCheck:
 
     def expression(self, part: ir.Expression) -> None:
         match part:
-            case ir.Attribute(owner=owner, name=name):
-                if owner not in STRUCT_CLASSES and f"{owner}.{name}" not in self.runtime.fields:
+            case ir.Attribute(base=base, owner=owner, name=name):
+                if not self.is_readable(part) and self.is_readable(base):
                     self.unreadable(part.span, f"member `{name}` of `{owner}`")
             case ir.MethodCall(owner=owner, method=method, arguments=arguments):
                 key = f"{owner}.{method}"
@@ -185,6 +185,11 @@ class _SupportCheck:
                             )
             case _:
                 pass  # everything else is plain Python
+
+    def is_readable(self, part: ir.Expression) -> bool:
+        if not isinstance(part, ir.Attribute):
+            return True
+        return part.owner in STRUCT_CLASSES or f"{part.owner}.{part.name}" in self.runtime.fields
 
     def unreadable(self, span: Span, what: str) -> None:
         self.sink.report("OSC503", span, f"{what} is not supported by the runtime yet")

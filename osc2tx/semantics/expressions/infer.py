@@ -17,7 +17,7 @@ def infer(
 ) -> Type:
     """Return the type of an expression; `expected` decides what a bare enum member means.
 
-    Long chains (`a + b + …`, `a => b => …`) are typed from their far end in a loop, so that their
+    Long chains (`a + b + …`, `not not …`) are typed from their far end in a loop, so that their
     length does not matter to the Python stack.
     """
     known = r.types.get(expression)
@@ -45,14 +45,20 @@ def _next_in_chain(expression: ast.Expression) -> ast.Expression | None:
             following: ast.Expression = expression.right
         case ast.Binary():
             following = expression.left
+        case ast.Unary():
+            following = expression.operand
         case ast.MemberAccess() | ast.Cast() | ast.TypeTest() | ast.Index():
             following = expression.base
         case ast.Call(callee=ast.MemberAccess() as callee):
             following = callee.base
         case _:
             return None
-    chained = ast.Binary | ast.MemberAccess | ast.Cast | ast.TypeTest | ast.Index | ast.Call
-    return following if isinstance(following, chained) else None
+    return following if isinstance(following, _CHAINED) else None
+
+
+_CHAINED = (
+    ast.Binary | ast.Unary | ast.MemberAccess | ast.Cast | ast.TypeTest | ast.Index | ast.Call
+)
 
 
 def _infer_one(

@@ -53,6 +53,25 @@ def test_long_chains(operator: str) -> None:
     assert dump_model(model)
 
 
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "not " * 150 + "a",
+        "(" * 150 + "a" + ")" * 150,
+        "f(" * 150 + "a" + ")" * 150,
+        "a[" * 150 + "0" + "]" * 150,
+        "[" * 150 + "a" + "]" * 150,
+        "a" + ".as(bool)" * 2000,
+    ],
+)
+def test_deep_expressions(expression: str) -> None:
+    """What the syntax lets through does not end in a `RecursionError`."""
+    head = "struct s:\n    a: bool\n    def f(x: bool) -> bool is undefined\n"
+    model, sink = build_text(f"{head}    b: bool = {expression}\n")
+    assert "OSC105" not in codes(sink)
+    assert dump_model(model)
+
+
 def test_long_paths() -> None:
     model, sink = build_text(f"struct s:\n    a: s\n    b: s = a{'.a' * 3000}\n")
     assert codes(sink) == []

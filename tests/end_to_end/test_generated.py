@@ -1,0 +1,73 @@
+"""The committed modules: fresh, clean by every tool, and running by themselves."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.end_to_end.harness import REPOSITORY, SCENARIOS
+
+GENERATED = REPOSITORY / "generated"
+MODULES = sorted(GENERATED.glob("*.py"))
+OWN_MAPS = [path for path in MODULES if path.stem != "hello_world"]
+
+
+def tool(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", *arguments], capture_output=True, text=True, cwd=REPOSITORY
+    )
+
+
+def test_there_is_a_module_for_each_scenario() -> None:
+    assert {path.stem for path in MODULES} == {path.stem for path in SCENARIOS.glob("*.osc")}
+
+
+def test_they_are_what_the_compiler_makes() -> None:
+    result = tool("osc2tx", "build", "scenarios", "-o", "generated", "--check")
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_black_leaves_them_alone() -> None:
+    result = tool("black", "--check", "--line-length", "100", *map(str, MODULES))
+    assert result.returncode == 0, result.stderr
+
+
+def test_ruff_has_nothing_to_say_with_its_own_defaults() -> None:
+    result = tool("ruff", "check", "--isolated", "--line-length", "100", *map(str, MODULES))
+    assert result.returncode == 0, result.stdout
+
+
+@pytest.mark.slow
+def test_they_pass_strict_mypy() -> None:
+    result = tool("mypy", "--strict", *map(str, MODULES))
+    assert result.returncode == 0, result.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("module", OWN_MAPS, ids=lambda path: path.stem)
+def test_they_run_by_themselves(module: Path, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    report = tmp_path / "report.html"
+    result = subprocess.run(
+        [sys.executable, str(module), "--trace", str(trace), "--report", str(report)],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
+    assert result.returncode == 0, result.stderr
+    assert f"{module.stem}: success" in result.stdout
+    assert f'"source":"{module.stem}.osc:' in trace.read_text(encoding="utf-8")
+    assert report.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda path: path.stem)
+def test_viewers_get_a_tree(module: Path) -> None:
+    code = (
+        "import runpy, py_trees;"
+        f"root = runpy.run_path({str(module)!r})['create_root']();"
+        "print(py_trees.display.ascii_tree(root))"
+    )
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert module.stem in result.stdout

@@ -1,0 +1,116 @@
+"""What must hold for every text: diagnostics or a module, never an exception."""
+
+from __future__ import annotations
+
+import ast
+import os
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from traceback import extract_tb, format_exception
+
+from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.diagnostics.render import render_all
+from osc2tx.driver import Compilation
+from osc2tx.options import PRODUCT_NAMES, CompileOptions
+
+SECONDS = 5.0
+SECONDS_OF_A_LINE = 0.05
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Something that must not happen.
+
+    Attributes:
+        key: What tells it from other findings: kind and place.
+        report: For people.
+    """
+
+    key: str
+    report: str
+
+
+class Refuted(AssertionError):
+    """A promise of the compiler that does not hold."""
+
+
+def try_text(text: str, options: CompileOptions, *, execute: bool = False) -> Finding | None:
+    """Compile a text through all stages and return what went wrong.
+
+    Args:
+        text: The program, or anything; lone surrogates stand for bytes that are no UTF-8.
+        options: How to compile it.
+        execute: Import the module, if there is one, and make its tree.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "fuzzed.osc")
+        path.write_bytes(text.encode("utf-8", "surrogateescape"))
+        start = time.perf_counter()
+        try:
+            module = _compile(path, options)
+            if module is not None and execute:
+                _execute(module)
+        except Exception as error:  # any exception is a finding
+            return Finding(_key(error), "".join(format_exception(error)))
+        seconds = time.perf_counter() - start
+    limit = SECONDS + SECONDS_OF_A_LINE * text.count("\n")
+    return Finding("slow", f"took {seconds:.1f} s") if seconds > limit else None
+
+
+def is_built(text: str, options: CompileOptions) -> bool:
+    """Whether a text gives a module; to see how far random programs get."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "fuzzed.osc")
+        path.write_text(text, encoding="utf-8")
+        return Compilation(path, path.name, options).module is not None
+
+
+def _compile(path: Path, options: CompileOptions) -> str | None:
+    compilation = Compilation(path, path.name, options)
+    for product in PRODUCT_NAMES:
+        compilation.dump(product)
+    diagnostics = compilation.diagnostics
+    render_all(diagnostics, color=False, folder=path.parent)
+    for diagnostic in diagnostics:
+        span = diagnostic.primary
+        if span and not 0 <= span.start <= span.end <= len(span.source.text):
+            raise Refuted(f"{diagnostic.code} points outside of its source")
+    module = compilation.module
+    if module is None:
+        return None
+    if compilation.sink.has_errors:
+        raise Refuted("a module although there are errors")
+    ast.parse(module.python)
+    compile(module.python, "fuzzed.py", "exec")
+    again = Compilation(path, path.name, options).module
+    if again is None or again.python != module.python:
+        raise Refuted("another module the second time")
+    return module.python
+
+
+def _execute(python: str) -> None:
+    variables: dict[str, object] = {"__name__": "fuzzed"}
+    exec(compile(python, "fuzzed.py", "exec"), variables)
+    create_root = variables.get("create_root")
+    if not callable(create_root):
+        raise Refuted("the module has no create_root()")
+    create_root()
+
+
+def _key(error: Exception) -> str:
+    frames = extract_tb(error.__traceback__)
+    ours = [f for f in frames if f"{os.sep}osc2tx" in f.filename and "_antlr" not in f.filename]
+    frame = (ours or frames)[-1]
+    place = f"{Path(frame.filename).name}:{frame.name}"
+    if isinstance(error, InternalCompilerError | Refuted):
+        message = str(error).partition("'")[0].split(": ")[-1]
+        return f"{type(error).__name__} {message} {place}"
+    return f"{type(error).__name__} {place}"
+
+
+def settle_recursion() -> None:
+    """Take the recursion limit of a fresh process; test tools raise it or stand on its stack."""
+    sys.setrecursionlimit(1000)
