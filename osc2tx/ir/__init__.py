@@ -5,6 +5,31 @@ Modules, in reading order: `expressions`, `behaviors`, `nodes`; then `verify` (t
 and `dump` (the printable form).
 """
 
+from osc2tx.ir.expressions import (
+    ActorSelf,
+    Argument,
+    Attribute,
+    Binary,
+    Conditional,
+    EnumValue,
+    Expression,
+    ExpressionBase,
+    FieldRef,
+    Kind,
+    ListValue,
+    Literal,
+    MethodCall,
+    ParameterRef,
+    Quantity,
+    RangeValue,
+    ScenarioSelf,
+    Unary,
+    Unit,
+    ValueType,
+    children,
+    is_live,
+    walk,
+)
 from osc2tx.ir.behaviors import (
     Behavior,
     BehaviorBase,
@@ -21,35 +46,12 @@ from osc2tx.ir.behaviors import (
     Level,
     ModifierCall,
     Moment,
+    On,
     OneOf,
     Parallel,
     Serial,
     Trigger,
     Wait,
-)
-from osc2tx.ir.dump import dump_ir
-from osc2tx.ir.expressions import (
-    ActorSelf,
-    Argument,
-    Attribute,
-    Binary,
-    Conditional,
-    EnumValue,
-    Expression,
-    ExpressionBase,
-    FieldRef,
-    Kind,
-    ListValue,
-    Literal,
-    MethodCall,
-    Quantity,
-    RangeValue,
-    Unary,
-    Unit,
-    ValueType,
-    children,
-    is_live,
-    walk,
 )
 from osc2tx.ir.nodes import (
     Actor,
@@ -57,6 +59,8 @@ from osc2tx.ir.nodes import (
     DeclarationBase,
     Event,
     FieldValue,
+    Method,
+    MethodParameter,
     Module,
     Parameter,
     Placement,
@@ -64,6 +68,7 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
+from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -97,17 +102,22 @@ __all__ = [
     "Level",
     "ListValue",
     "Literal",
+    "Method",
     "MethodCall",
+    "MethodParameter",
     "ModifierCall",
     "Module",
     "Moment",
+    "On",
     "OneOf",
     "Parallel",
     "Parameter",
+    "ParameterRef",
     "Placement",
     "Quantity",
     "RangeValue",
     "Scenario",
+    "ScenarioSelf",
     "Serial",
     "Struct",
     "Trigger",

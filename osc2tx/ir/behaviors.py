@@ -186,8 +186,16 @@ class Emit(BehaviorBase):
     arguments: tuple[Argument, ...]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class On(BehaviorBase):
+    """Reacts at each occurrence of the trigger, for as long as what stands beside it runs."""
+
+    trigger: Trigger
+    reactions: tuple[Emit, ...]
+
+
 Composition: TypeAlias = Serial | Parallel | OneOf
-Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | Wait | Emit
+Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | Wait | Emit | On
 
 __all__ = [
     "Behavior",
@@ -203,6 +211,7 @@ __all__ = [
     "Level",
     "ModifierCall",
     "Moment",
+    "On",
     "OneOf",
     "Parallel",
     "RangeValue",

@@ -17,6 +17,7 @@ from osc2tx.ir.behaviors import (
     LabelEvent,
     Level,
     ModifierCall,
+    On,
     OneOf,
     Parallel,
     Serial,
@@ -35,8 +36,10 @@ from osc2tx.ir.expressions import (
     ListValue,
     Literal,
     MethodCall,
+    ParameterRef,
     Quantity,
     RangeValue,
+    ScenarioSelf,
     Unary,
 )
 from osc2tx.ir.nodes import (
@@ -74,6 +77,10 @@ def _scenario(scenario: Scenario) -> Iterator[str]:
     yield f"scenario {scenario.name} @{scenario.span.line}"
     for declaration in scenario.declarations:
         yield from _indented(_declaration(declaration))
+    for method in scenario.methods:
+        parameters = ", ".join(f"{p.name}: {p.type}" for p in method.parameters)
+        signature = f"{method.name}({parameters}) -> {method.result}"
+        yield f"{INDENT}method {signature} = {show(method.expression)} @{method.span.line}"
     for placement in scenario.placements:
         yield from _indented(_placement(placement))
     yield from _indented(_behavior(scenario.body))
@@ -136,6 +143,10 @@ def _behavior(node: Behavior) -> Iterator[str]:
             yield f"Wait {_trigger(trigger)}{place}"
         case Emit(event=event, arguments=arguments):
             yield f"Emit {event.name}({_arguments(arguments)}){place}"
+        case On(trigger=trigger, reactions=reactions):
+            yield f"On {_trigger(trigger)}{place}"
+            for reaction in reactions:
+                yield from _indented(_behavior(reaction))
         case _:
             assert_never(node)
 
@@ -195,6 +206,10 @@ def show(expression: Expression) -> str:
             return f"{type_.name}!{member}"
         case FieldRef(name=name):
             return name
+        case ParameterRef(name=name):
+            return name
+        case ScenarioSelf():
+            return "it"
         case ActorSelf():
             return "actor"
         case Attribute(base=base, name=name):

@@ -90,6 +90,18 @@ class FieldRef(ExpressionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ParameterRef(ExpressionBase):
+    """A parameter of the method that the expression is the body of."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ScenarioSelf(ExpressionBase):
+    """The scenario itself, as the object of a call of its own method."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActorSelf(ExpressionBase):
     """`actor` of an actor-associated scenario."""
 
@@ -123,7 +135,7 @@ class Argument:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MethodCall(ExpressionBase):
-    """A method of an actor or struct; `owner` is the type that declares it."""
+    """A method of an actor, a struct or the scenario; `owner` is the type that declares it."""
 
     base: Expression
     owner: str
@@ -177,6 +189,8 @@ Expression: TypeAlias = (
     | Quantity
     | EnumValue
     | FieldRef
+    | ParameterRef
+    | ScenarioSelf
     | ActorSelf
     | Attribute
     | MethodCall
@@ -191,7 +205,15 @@ Expression: TypeAlias = (
 def children(expression: Expression) -> tuple[Expression, ...]:
     """Return the direct sub-expressions, left to right."""
     match expression:
-        case Literal() | Quantity() | EnumValue() | FieldRef() | ActorSelf():
+        case (
+            Literal()
+            | Quantity()
+            | EnumValue()
+            | FieldRef()
+            | ParameterRef()
+            | ScenarioSelf()
+            | ActorSelf()
+        ):
             return ()
         case Attribute(base=base):
             return (base,)

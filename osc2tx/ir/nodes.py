@@ -85,6 +85,27 @@ class Event(DeclarationBase):
     is_implicit: bool
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MethodParameter:
+    """A parameter of a method."""
+
+    name: str
+    type: ValueType
+    default: Expression | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Method:
+    """A method of the scenario whose body is an expression."""
+
+    name: str
+    span: Span
+    parameters: tuple[MethodParameter, ...]
+    result: ValueType
+    expression: Expression
+    comments: tuple[str, ...] = ()
+
+
 Declaration: TypeAlias = Actor | Struct | Parameter | Variable | Event
 
 
@@ -106,6 +127,7 @@ class Scenario:
         name: As in the source.
         comments: The comment lines above it.
         declarations: Cast, values and events in source order.
+        methods: Its methods, in source order.
         placements: Initial placement, in source order.
         body: Its `do` tree.
         end_comments: Comment lines below its last member.
@@ -115,6 +137,7 @@ class Scenario:
     span: Span
     comments: tuple[str, ...]
     declarations: tuple[Declaration, ...]
+    methods: tuple[Method, ...]
     placements: tuple[Placement, ...]
     body: Behavior
     end_comments: tuple[str, ...] = ()

@@ -17,13 +17,14 @@ from osc2tx.ir.behaviors import (
     LabelEvent,
     Level,
     ModifierCall,
+    On,
     OneOf,
     Parallel,
     Serial,
     Trigger,
     Wait,
 )
-from osc2tx.ir.expressions import Expression, FieldRef, Kind, walk
+from osc2tx.ir.expressions import Expression, FieldRef, Kind, ParameterRef, walk
 from osc2tx.ir.nodes import (
     Actor,
     Event,
@@ -71,6 +72,7 @@ class _ScenarioVerifier:
                 self.labels.append(member.label)
         _require_unique(iter(self.labels), f"labels of {scenario.name}")
         self.check_declarations()
+        self.check_methods()
         for placement in scenario.placements:
             self.require(placement.actor in self.actors, f"placement of {placement.actor!r}")
             for modifier in placement.modifiers:
@@ -104,6 +106,16 @@ class _ScenarioVerifier:
                         self.check_trigger(trigger)
             declared.add(declaration.name)
 
+    def check_methods(self) -> None:
+        methods = self.scenario.methods
+        _require_unique((m.name for m in methods), f"methods of {self.scenario.name}")
+        for method in methods:
+            known = {parameter.name for parameter in method.parameters}
+            for part in walk(method.expression):
+                if isinstance(part, ParameterRef):
+                    self.require(part.name in known, f"parameter {part.name!r} of {method.name!r}")
+            self.check_expression(method.expression)
+
     def check_behavior(self, node: Behavior) -> None:
         match node:
             case Serial() | Parallel() | OneOf():
@@ -121,6 +133,10 @@ class _ScenarioVerifier:
                 self.check_trigger(trigger)
             case Emit(event=event):
                 self.check_event(event)
+            case On(trigger=trigger, reactions=reactions):
+                self.check_trigger(trigger)
+                for reaction in reactions:
+                    self.check_event(reaction.event)
 
     def check_limits(self, duration: Expression | None, until: tuple[Trigger, ...]) -> None:
         if duration is not None:

@@ -8,10 +8,16 @@ from typing import TypedDict, assert_never
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.constraints import lower_constraints
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.dialects import dialect_defaults
 from osc2tx.lowering.expressions import lower_arguments, lower_expression
-from osc2tx.lowering.names import composition_name, invocation_name, statement_name
+from osc2tx.lowering.names import (
+    composition_name,
+    condensed,
+    invocation_name,
+    statement_name,
+)
 from osc2tx.lowering.triggers import declares_event, lower_trigger
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -46,6 +52,26 @@ class BehaviorLowering:
             return self._composition(member, comments, is_phase=is_phase, is_root=True)
         body = self.lower(member)
         return None if body is None else replace(body, comments=comments)
+
+    def lower_on(self, node: ast.OnDirective) -> ir.On | None:
+        """Lower an `on` directive; its reactions take no time."""
+        trigger = lower_trigger(self._ctx, node.event)
+        reactions: list[ir.Emit | None] = []
+        for member in node.members:
+            if isinstance(member, ast.EmitDirective):
+                reactions.append(self._emit(member, statement_comments(member)))
+            else:
+                self._ctx.unsupported("OSC506", member.span, "`call` is not supported yet")
+        if trigger is None or not present(reactions):
+            return None
+        return ir.On(
+            span=node.span,
+            label=None,
+            name=f"on {condensed(node.event.span)}",
+            comments=statement_comments(node),
+            trigger=trigger,
+            reactions=present(reactions),
+        )
 
     def lower(self, node: ast.BehaviorMember, *, below_root: bool = False) -> ir.Behavior | None:
         """Lower a member; `None` if it was refused."""
@@ -163,6 +189,7 @@ class BehaviorLowering:
         if actor is None:
             return None
         arguments = lower_arguments(self._ctx, binding, node.arguments)
+        arguments += self._kept_arguments(node.with_members)
         written = [member for member in node.with_members if not _is_until(member)]
         return ir.Invoke(
             span=node.span,
@@ -182,17 +209,42 @@ class BehaviorLowering:
             until=self._until(node.with_members),
         )
 
+    def _kept_arguments(self, members: Sequence[ast.WithMember]) -> tuple[ir.Argument, ...]:
+        """Return what `keep(it.parameter == value)` says: the same as an argument (§6)."""
+        keeps = tuple(member for member in members if isinstance(member, ast.KeepConstraint))
+        arguments = []
+        for bound in lower_constraints(self._ctx, keeps):
+            is_range = isinstance(bound.value, ir.RangeValue)
+            if bound.root is not None or len(bound.path) != 1:
+                self._ctx.unsupported(
+                    "OSC502", bound.span, "only parameters of the invocation can be kept here yet"
+                )
+            elif is_range and bound.path[0] != "duration":
+                self._ctx.unsupported(
+                    "OSC502", bound.span, "a range for this parameter is not supported yet"
+                )
+            else:
+                arguments.append(
+                    ir.Argument(
+                        parameter=bound.path[0],
+                        value=bound.value,
+                        is_positional=False,
+                        span=bound.span,
+                    )
+                )
+        return tuple(arguments)
+
     def _modifiers(self, members: Sequence[ast.WithMember]) -> tuple[ir.ModifierCall, ...]:
         modifiers = []
         for member in members:
             match member:
                 case ast.ModifierApplication():
                     modifiers.append(lower_modifier(self._ctx, member))
-                case ast.KeepConstraint() | ast.RemoveDefault():
+                case ast.RemoveDefault():
                     self._ctx.unsupported(
-                        "OSC502", member.span, "a constraint of an invocation is not supported yet"
+                        "OSC502", member.span, "`remove_default` is not supported"
                     )
-                case ast.UntilDirective():
+                case ast.KeepConstraint() | ast.UntilDirective():
                     pass
         return tuple(modifiers)
 

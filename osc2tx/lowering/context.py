@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.semantics import SemanticModel
+from osc2tx.semantics.symbols import FieldSymbol
 from osc2tx.syntax import ast
 
 Part = TypeVar("Part")
@@ -15,10 +16,17 @@ Part = TypeVar("Part")
 
 @dataclass(frozen=True, slots=True)
 class LoweringContext:
-    """The checked program and the place for complaints."""
+    """The checked program and the place for complaints, while one scenario is lowered.
+
+    Attributes:
+        model: The program.
+        sink: Where complaints go.
+        globals: The global parameters that the scenario uses, in order of use.
+    """
 
     model: SemanticModel
     sink: DiagnosticSink
+    globals: dict[str, FieldSymbol] = field(default_factory=dict)
 
     def unsupported(self, code: str, span: Span, what: str, help: str | None = None) -> None:
         """Report what cannot be lowered."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
+from osc2tx.diagnostics import Span
 from osc2tx.lowering.constraints import Bound, lower_constraints
-from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression, lower_type
 from osc2tx.lowering.triggers import lower_trigger
 from osc2tx.semantics import symbols as sym
@@ -35,6 +36,26 @@ class DeclarationLowering:
         self._statements = statements
         own = tuple(s for s in statements if isinstance(s, ast.KeepConstraint))
         self._scenario_bounds = lower_constraints(ctx, own)
+
+    def lower_methods(self) -> tuple[ir.Method, ...]:
+        """Return the methods whose body is an expression; others are refused where called."""
+        declared = [s for s in self._statements if isinstance(s, ast.MethodDeclaration)]
+        last = {node.name.text: node for node in declared}
+        return present([self._method(node) for node in last.values()])
+
+    def lower_globals(self) -> tuple[ir.Parameter, ...]:
+        """Return the global parameters that were used so far, as parameters of the scenario."""
+        lowered: dict[str, ir.Parameter | None] = {}
+        while missing := [name for name in self._ctx.globals if name not in lowered]:
+            for name in missing:  # one global may be defined by another
+                symbol = self._ctx.globals[name]
+                lowered[name] = self._parameter(symbol, symbol.span, self._global_comments(symbol))
+        return present(list(reversed(lowered.values())))
+
+    def _global_comments(self, symbol: sym.FieldSymbol) -> tuple[str, ...]:
+        statements = (s for file in self._ctx.model.files for s in file.statements)
+        shared = (s for s in statements if isinstance(s, ast.GlobalParameter))
+        return next((statement_comments(s) for s in shared if s.parameter is symbol.node), ())
 
     def lower(self) -> tuple[ir.Declaration, ...]:
         """Return the declarations in source order, implicit events last."""
@@ -92,7 +113,7 @@ class DeclarationLowering:
                     values=self._values(symbol),
                 )
             case types.PrimitiveType() | types.PhysicalType() | types.EnumType():
-                return self._parameter(symbol, name, comments)
+                return self._parameter(symbol, name.span, comments)
             case _:
                 self._ctx.unsupported(
                     "OSC501", name.span, f"a field of type `{symbol.type}` is not supported yet"
@@ -133,7 +154,7 @@ class DeclarationLowering:
         return tuple(values.values())
 
     def _parameter(
-        self, field: sym.FieldSymbol, name: ast.Name, comments: tuple[str, ...]
+        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
     ) -> ir.Parameter | None:
         """Apply default and constraints in the order of the text (§7.3.11)."""
         value: ir.Expression | None = None
@@ -154,14 +175,14 @@ class DeclarationLowering:
         if value is None and domain is None:
             self._ctx.unsupported(
                 "OSC501",
-                name.span,
+                span,
                 f"parameter `{field.name}` has neither value nor range",
                 help="give it a default, `= value`, or a range, `with: keep(it in [low..high])`",
             )
             return None
         return ir.Parameter(
             name=field.name,
-            span=name.span,
+            span=span,
             comments=comments,
             type=lower_type(field.type),
             value=value,
@@ -192,6 +213,32 @@ class DeclarationLowering:
             comments=comments,
             type=lower_type(field.type),
             value=value,
+        )
+
+    def _method(self, node: ast.MethodDeclaration) -> ir.Method | None:
+        symbol = self._scenario_member(node.name.text)
+        if not isinstance(symbol, sym.MethodSymbol) or not isinstance(
+            node.body, ast.ExpressionBody
+        ):
+            return None
+        expression = lower_expression(self._ctx, node.body.expression)
+        if expression is None:
+            return None
+        return ir.Method(
+            name=symbol.name,
+            span=node.span,
+            parameters=tuple(self._method_parameter(p) for p in symbol.parameters),
+            result=lower_type(symbol.result),
+            expression=expression,
+            comments=statement_comments(node),
+        )
+
+    def _method_parameter(self, parameter: sym.ParameterSymbol) -> ir.MethodParameter:
+        default = parameter.default
+        return ir.MethodParameter(
+            name=parameter.name,
+            type=lower_type(parameter.type),
+            default=None if default is None else lower_expression(self._ctx, default),
         )
 
     def _event(self, node: ast.EventDeclaration) -> ir.Event | None:

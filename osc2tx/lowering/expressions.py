@@ -97,6 +97,11 @@ def _lower_name(
             return ir.ActorSelf(span=node.span, type=type_)
         case sym.FieldSymbol(owner=sym.ScenarioSymbol(), name=name):
             return ir.FieldRef(span=node.span, type=type_, name=name)
+        case sym.FieldSymbol(owner=None, name=name) as shared if shared.node is not None:
+            ctx.globals.setdefault(name, shared)
+            return ir.FieldRef(span=node.span, type=type_, name=name)
+        case sym.ParameterSymbol(name=name):
+            return ir.ParameterRef(span=node.span, type=type_, name=name)
         case _:
             ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
             return None
@@ -129,15 +134,18 @@ def _lower_member(
 def _lower_call(ctx: LoweringContext, node: ast.Call, type_: ir.ValueType) -> ir.Expression | None:
     binding = ctx.model.bindings.get(node)
     callee = binding.callee if binding else None
-    if binding is None or not isinstance(callee, sym.MethodSymbol) or binding.receiver is None:
-        ctx.unsupported("OSC503", node.span, "a method without object is not supported yet")
+    if binding is None or not isinstance(callee, sym.MethodSymbol) or callee.owner is None:
+        ctx.unsupported("OSC503", node.span, f"`{node.callee.span.text}` is not supported here yet")
         return None
-    if callee.origin == "user" or callee.owner is None:
+    if callee.origin == "user" and not is_own_method(callee):
         ctx.unsupported(
-            "OSC503", node.span, f"method `{callee.name}` has no implementation in the runtime yet"
+            "OSC503",
+            node.span,
+            f"method `{callee.name}` cannot be called yet",
+            help="only methods of the scenario itself, with an expression as body, are supported",
         )
         return None
-    base = lower_expression(ctx, binding.receiver)
+    base = _lower_receiver(ctx, node, binding.receiver)
     if base is None:
         return None
     return ir.MethodCall(
@@ -148,6 +156,23 @@ def _lower_call(ctx: LoweringContext, node: ast.Call, type_: ir.ValueType) -> ir
         method=callee.name,
         arguments=lower_arguments(ctx, binding, node.arguments),
     )
+
+
+def is_own_method(method: sym.MethodSymbol) -> bool:
+    """Whether a method belongs to a scenario and is an expression."""
+    return (
+        isinstance(method.owner, sym.ScenarioSymbol)
+        and method.node is not None
+        and isinstance(method.node.body, ast.ExpressionBody)
+    )
+
+
+def _lower_receiver(
+    ctx: LoweringContext, node: ast.Call, receiver: ast.Expression | None
+) -> ir.Expression | None:
+    if receiver is None or isinstance(receiver, ast.ItExpression):
+        return ir.ScenarioSelf(span=node.span, type=ir.ValueType(ir.Kind.STRUCT, "scenario"))
+    return lower_expression(ctx, receiver)
 
 
 def lower_arguments(

@@ -18,7 +18,12 @@ MAX_WORDS = 3
 
 def statement_name(span: Span) -> str:
     """Return the text of a statement on one line."""
-    return shorten(re.sub(r"\s+", " ", span.text))
+    return shorten(condensed(span))
+
+
+def condensed(span: Span) -> str:
+    """Return the text of a span with its white space reduced to single blanks."""
+    return re.sub(r"\s+", " ", span.text)
 
 
 def invocation_name(actor: str, action: str, details: Iterable[str]) -> str:
@@ -66,5 +71,5 @@ def _verb(node: ir.Behavior) -> str | None:
             return "wait"
         case ir.Emit():
             return "emit"
-        case _:
+        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.On():
             return None

@@ -18,13 +18,13 @@ from osc2tx.syntax import ast
 
 def lower(model: SemanticModel, options: CompileOptions, sink: DiagnosticSink) -> ir.Module:
     """Lower the scenarios of the root file; what is refused is reported and left out."""
-    ctx = LoweringContext(model, sink)
+    lowered = [_lower_scenario(LoweringContext(model, sink), s) for s in model.scenarios]
     return ir.Module(
         source=model.root.span.source.name,
         standard=options.standard,
         dialect=options.dialect,
         one_of=options.one_of,
-        scenarios=present([_lower_scenario(ctx, scenario) for scenario in model.scenarios]),
+        scenarios=present(lowered),
         comments=_head_comments(model.root),
     )
 
@@ -47,7 +47,9 @@ def _lower_scenario(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ir.Sc
         )
         return None
     statements = _statements(scenario)
-    declarations = DeclarationLowering(ctx, scenario, statements).lower()
+    lowering = DeclarationLowering(ctx, scenario, statements)
+    declarations = lowering.lower()
+    methods = lowering.lower_methods()
     tree = _lower_body(ctx, scenario, statements)
     if tree is None:
         return None
@@ -58,7 +60,8 @@ def _lower_scenario(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ir.Sc
         name=scenario.name,
         span=node.name.span,
         comments=statement_comments(node),
-        declarations=declarations,
+        declarations=(*lowering.lower_globals(), *declarations),
+        methods=methods,
         placements=(*_member_placements(ctx, statements), *placements),
         body=body,
         end_comments=node.end_comments,
@@ -79,17 +82,31 @@ def _lower_body(
     ctx: LoweringContext, scenario: sym.ScenarioSymbol, statements: tuple[ast.Statement, ...]
 ) -> ir.Behavior | None:
     """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
-    for statement in statements:
-        if isinstance(statement, ast.OnDirective):
-            ctx.unsupported("OSC506", statement.span, "`on` is not supported yet")
     directives = [s for s in statements if isinstance(s, ast.DoDirective)]
     if not directives:
         ctx.sink.report(
             "OSC510", scenario.node.name.span, f"scenario `{scenario.name}` has no `do`"
         )
         return None
-    several = len(directives) > 1
     lowering = BehaviorLowering(ctx)
+    body = _lower_directives(lowering, scenario, directives)
+    reactions = present(
+        [lowering.lower_on(s) for s in statements if isinstance(s, ast.OnDirective)]
+    )
+    if body is None or not reactions:
+        return body
+    return ir.Parallel(
+        span=body.span,
+        label=None,
+        name=scenario.name,
+        members=(_named_as_do(body), *reactions),
+    )
+
+
+def _lower_directives(
+    lowering: BehaviorLowering, scenario: sym.ScenarioSymbol, directives: list[ast.DoDirective]
+) -> ir.Behavior | None:
+    several = len(directives) > 1
     lowered = [lowering.lower_do(do, is_phase=several) for do in directives]
     bodies: tuple[ir.Behavior, ...] = present(lowered)
     if not bodies:
@@ -108,7 +125,8 @@ def _named_as_do(body: ir.Behavior) -> ir.Behavior:
     """Name one of several `do` after its operator: it is a phase of its own."""
     match body:
         case ir.Serial() | ir.Parallel() | ir.OneOf():
-            return replace(body, name=f"do {type(body).__name__.lower()}")
+            name = f"do {type(body).__name__.lower()}"
+            return replace(body, name=name, is_phase=True)
         case _:
             return body
 

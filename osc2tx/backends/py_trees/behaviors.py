@@ -31,7 +31,7 @@ MAX_INLINE_DEPTH = 6
 CLASSES = {ir.Serial: "Serial", ir.Parallel: "Parallel", ir.OneOf: "OneOf"}
 
 
-class TreeWriter:
+class BehaviorTreeBuilder:
     """Writes the methods of one scenario.
 
     Args:
@@ -75,7 +75,7 @@ class TreeWriter:
         return ArgumentView(call=CallView(self_attribute(name)))
 
     def _node(self, node: ir.Behavior, *, depth: int) -> ArgumentView:
-        until = () if isinstance(node, ir.Wait | ir.Emit) else node.until
+        until = () if isinstance(node, ir.Wait | ir.Emit | ir.On) else node.until
         if until:
             self._source_map.nodes.append((until[0].span.line, f"until, {node.name}"))
         self._source_map.nodes.append((node.span.line, node.name))
@@ -99,6 +99,11 @@ class TreeWriter:
                 target = code(self._calls.expressions.field(event.name))
                 keywords = self._calls.keywords(node.arguments)
                 return self._calls.runtime_call("Emit", target, *keywords)
+            case ir.On(trigger=trigger, reactions=reactions):
+                written = tuple(self._node(reaction, depth=depth + 1) for reaction in reactions)
+                occurrence = self._calls.occurrence(trigger)
+                call = self._calls.runtime_call("On", occurrence, *written)
+                return replace(call, exploded=True)
             case _:
                 assert_never(node)
 

@@ -93,7 +93,15 @@ class CallWriter:
 
     def triggers(self, triggers: tuple[ir.Trigger, ...]) -> tuple[ArgumentView, ...]:
         """Write triggers as arguments of `Until`."""
-        return tuple(argument for trigger in triggers for argument in self.trigger(trigger))
+        return tuple(self.occurrence(trigger) for trigger in triggers)
+
+    def occurrence(self, trigger: ir.Trigger) -> ArgumentView:
+        """Write an event specification as one argument; `@e if c` becomes an event of its own."""
+        arguments = self.trigger(trigger)
+        if len(arguments) == 1:
+            return arguments[0]
+        call = self.runtime_call("Event", *(replace(a, comments=()) for a in arguments))
+        return ArgumentView(call=call, comments=arguments[0].comments)
 
     def trigger(self, trigger: ir.Trigger) -> tuple[ArgumentView, ...]:
         """Write an event specification: an event, a condition, or both."""

@@ -7,7 +7,14 @@ from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, self_attribute
+from osc2tx.backends.py_trees.code import (
+    Level,
+    PyExpr,
+    PyName,
+    literal,
+    name_expression,
+    self_attribute,
+)
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 
 COMPARISONS = {"==": "==", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
@@ -60,6 +67,10 @@ class ExpressionWriter:
                 return literal(member)
             case ir.FieldRef(name=name):
                 return self.field(name)
+            case ir.ParameterRef(name=name):
+                return name_expression(PyName(identifier(name)))
+            case ir.ScenarioSelf():
+                return PyExpr("self", Level.ATOM)
             case ir.ActorSelf():
                 return PyExpr("self.actor", Level.ATOM)
             case ir.Attribute(base=base, name=name):
@@ -93,7 +104,8 @@ class ExpressionWriter:
 
     def _method_call(self, call: ir.MethodCall) -> PyExpr:
         arguments = ", ".join(self._argument(argument) for argument in call.arguments)
-        method = PyName(identifier(call.method))
+        own = isinstance(call.base, ir.ScenarioSelf)
+        method = self._fields[call.method] if own else PyName(identifier(call.method))
         return PyExpr(f"{self._atom(call.base)}.{method}({arguments})", Level.ATOM)
 
     def _argument(self, argument: ir.Argument) -> str:

@@ -46,6 +46,12 @@ CONSTRUCTOR_KEYWORDS: Mapping[tuple[str, ...], str] = {
     ("position", "z"): "z",
 }
 
+# Python types of plain values, by what sort of value they are.
+ANNOTATIONS = {"bool": "bool", "int": "int", "float": "float", "quantity": "float"} | {
+    "enum": "str",
+    "string": "str",
+}
+
 
 def constructor_keyword(path: tuple[str, ...]) -> str:
     """Return the constructor's keyword for a member below an object."""

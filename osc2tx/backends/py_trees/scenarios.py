@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.behaviors import TreeWriter
+from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
 from osc2tx.backends.py_trees.calls import CallWriter, code, comments
 from osc2tx.backends.py_trees.code import (
+    PyComment,
     PyDocLine,
     PyExpr,
     PyName,
@@ -17,12 +18,20 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
+    ANNOTATIONS,
     STRUCT_CLASSES,
     constructor_keyword,
 )
 from osc2tx.backends.py_trees.source_map import ScenarioMap, scenario_map
 from osc2tx.backends.py_trees.uses import Uses
-from osc2tx.backends.py_trees.view import ArgumentView, CallView, ScenarioView, StatementView
+from osc2tx.backends.py_trees.view import (
+    ArgumentView,
+    CallView,
+    FunctionParameterView,
+    FunctionView,
+    ScenarioView,
+    StatementView,
+)
 
 
 class ScenarioWriter:
@@ -41,8 +50,8 @@ class ScenarioWriter:
         self._one_of = one_of
         self._class_name = class_name
         self._names = NameTable(SCENARIO_ATTRIBUTES)
-        for declaration in scenario.declarations:
-            self._names.add(declaration.name, identifier(declaration.name))
+        for member in (*scenario.declarations, *scenario.methods):
+            self._names.add(member.name, identifier(member.name))
         self._uses = uses
         expressions = ExpressionWriter(self._names, uses.unit, uses.name)
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
@@ -54,13 +63,17 @@ class ScenarioWriter:
             self._declaration(declaration, is_first=index == 0)
             for index, declaration in enumerate(self._scenario.declarations)
         )
+        functions = tuple(self._function(method) for method in self._scenario.methods)
         placements = tuple(self._placement(placement) for placement in self._scenario.placements)
-        methods = TreeWriter(self._calls, self._names, self.source_map).write(self._scenario.body)
+        methods = BehaviorTreeBuilder(self._calls, self._names, self.source_map).write(
+            self._scenario.body
+        )
         return ScenarioView(
             class_name=self._class_name,
             docstring=self._docstring(),
             attributes=self._attributes(),
             declarations=declarations,
+            functions=functions,
             placements=placements,
             methods=methods,
         )
@@ -133,6 +146,30 @@ class ScenarioWriter:
         arguments = [code(literal(parameter.name))]
         arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
         return ArgumentView(call=CallView(_self("parameter"), tuple(arguments)))
+
+    def _function(self, method: ir.Method) -> FunctionView:
+        write = self._calls.expressions.write
+        return FunctionView(
+            name=self._names[method.name],
+            parameters=tuple(
+                FunctionParameterView(
+                    PyName(identifier(parameter.name)),
+                    self._annotation(parameter.type),
+                    None if parameter.default is None else write(parameter.default),
+                )
+                for parameter in method.parameters
+            ),
+            result=self._annotation(method.result),
+            value=write(method.expression),
+            location=PyComment.of(str(method.span)),
+            comments=comments(method.comments),
+        )
+
+    def _annotation(self, type_: ir.ValueType) -> PyName:
+        plain = ANNOTATIONS.get(type_.kind.value)
+        if plain is not None:
+            return PyName(plain)
+        return self._calls.use_name(ACTOR_CLASSES[type_.name])
 
     def _placement(self, placement: ir.Placement) -> StatementView:
         self.source_map.placements.append(placement.span.line)

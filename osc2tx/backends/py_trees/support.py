@@ -9,6 +9,7 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
+    ANNOTATIONS,
     STRUCT_CLASSES,
     constructor_keyword,
     runtime_support,
@@ -33,6 +34,8 @@ class _SupportCheck:
     def run(self) -> None:
         for declaration in self.scenario.declarations:
             self.declaration(declaration)
+        for method in self.scenario.methods:
+            self.method(method)
         for placement in self.scenario.placements:
             for modifier in placement.modifiers:
                 self.placing(modifier)
@@ -53,6 +56,14 @@ class _SupportCheck:
             case ir.Event(trigger=trigger):
                 if trigger is not None:
                     self.trigger(trigger)
+
+    def method(self, method: ir.Method) -> None:
+        for type_ in (method.result, *(parameter.type for parameter in method.parameters)):
+            if type_.kind.value not in ANNOTATIONS and type_.name not in ACTOR_CLASSES:
+                self.sink.report(
+                    "OSC501", method.span, f"a method over `{type_}` is not supported yet"
+                )
+        self.expressions((method.expression,))
 
     def object(self, declaration: ir.Actor | ir.Struct, kind: str | None) -> None:
         if kind is None or kind not in self.runtime.objects:
@@ -90,6 +101,10 @@ class _SupportCheck:
                 self.trigger(trigger)
             case ir.Emit(arguments=arguments):
                 self.expressions(argument.value for argument in arguments)
+            case ir.On(trigger=trigger, reactions=reactions):
+                self.trigger(trigger)
+                for reaction in reactions:
+                    self.behavior(reaction)
             case ir.Parallel():
                 self.overlap(node)
                 self.limits(node.duration, node.until)
@@ -159,6 +174,12 @@ class _SupportCheck:
             self.expressions((argument.value,))
 
     def trigger(self, trigger: ir.Trigger) -> None:
+        if trigger.event is not None and not isinstance(trigger.condition, ir.Level | None):
+            self.sink.report(
+                "OSC506",
+                trigger.span,
+                "an event can only be combined with a plain condition yet",
+            )
         if trigger.condition is not None:
             self.expressions(ir.condition_expressions(trigger.condition))
 
@@ -172,6 +193,8 @@ class _SupportCheck:
             case ir.Attribute(base=base, owner=owner, name=name):
                 if not self.is_readable(part) and self.is_readable(base):
                     self.unreadable(part.span, f"member `{name}` of `{owner}`")
+            case ir.MethodCall(base=ir.ScenarioSelf()):
+                pass  # checked where it is declared
             case ir.MethodCall(owner=owner, method=method, arguments=arguments):
                 key = f"{owner}.{method}"
                 if key not in self.runtime.methods:

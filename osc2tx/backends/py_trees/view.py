@@ -38,6 +38,27 @@ class StatementView:
 
 
 @dataclass(frozen=True, slots=True)
+class FunctionParameterView:
+    """A parameter of a function: name, type and default."""
+
+    name: PyName
+    annotation: PyName
+    default: PyExpr | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionView:
+    """A method of the scenario that computes a value."""
+
+    name: PyName
+    parameters: tuple[FunctionParameterView, ...]
+    result: PyName
+    value: PyExpr
+    location: PyComment
+    comments: tuple[PyComment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class MethodView:
     """A method that returns one piece of the behavior tree."""
 
@@ -71,6 +92,7 @@ class ScenarioView:
     docstring: tuple[PyDocLine, ...]
     attributes: tuple[StatementView, ...]
     declarations: tuple[StatementView, ...]
+    functions: tuple[FunctionView, ...]
     placements: tuple[StatementView, ...]
     methods: tuple[MethodView, ...]
 

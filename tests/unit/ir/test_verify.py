@@ -48,6 +48,7 @@ def module(*declarations: ir.Declaration, body: ir.Behavior) -> ir.Module:
         span=SPAN,
         comments=(),
         declarations=declarations,
+        methods=(),
         placements=(),
         body=body,
     )

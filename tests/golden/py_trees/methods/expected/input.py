@@ -1,0 +1,56 @@
+"""Scenario `methods`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import kph, s
+
+require_api(1)
+
+
+class Methods(Scenario):
+    """Scenario `methods` (input.osc:8)."""
+
+    name = "methods"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        # Holds in all scenarios of a run
+        self.limit = self.parameter("limit", 50 * kph)
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, speed(lambda: self.share(self.limit)))
+
+    # A method of the scenario becomes a method of its class.
+    def share(self, v: float, part: float = 0.5) -> float:  # input.osc:14
+        return v * part
+
+    def is_faster(self, a: Vehicle, b: Vehicle) -> bool:  # input.osc:15
+        return a.speed > b.speed
+
+    def behavior(self) -> Behaviour:  # input.osc:17
+        return Serial(
+            "methods",
+            self.ego.drive(speed(lambda: self.share(self.limit)), duration=2 * s),
+            Wait(
+                lambda: self.is_faster(self.ego, self.other)
+                or self.ego.speed >= self.share(self.limit, part=0.4)
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Methods().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Methods))

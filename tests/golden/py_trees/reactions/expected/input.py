@@ -1,0 +1,78 @@
+"""Scenario `reactions`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Emit,
+    Event,
+    Map,
+    On,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    elapsed,
+    main,
+    require_api,
+    rise,
+)
+from osc2tx_runtime.units import kph, m, s
+
+require_api(1)
+
+
+class Reactions(Scenario):
+    """Scenario `reactions` (input.osc:5)."""
+
+    name = "reactions"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+        self.seen = Event()
+        self.reported = Event()
+
+    def behavior(self) -> Behaviour:  # input.osc:19
+        return Parallel(
+            "reactions",
+            self.do_serial(),
+            # As soon as the other one is near, whatever else happens
+            On(
+                rise(
+                    lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
+                    < 20 * m
+                ),
+                Emit(self.seen),
+            ),
+            On(
+                Event(self.seen, lambda: self.ego.speed > 10 * kph),
+                # once more
+                Emit(self.reported),
+            ),
+        )
+
+    def do_serial(self) -> Behaviour:  # input.osc:19
+        return Serial(
+            "do serial",
+            Until(
+                self.ego.drive(),
+                Event(self.reported, lambda: self.other.speed > 1 * kph),
+                elapsed(9 * s),
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Reactions().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Reactions))
