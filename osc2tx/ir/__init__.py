@@ -5,6 +5,30 @@ Modules, in reading order: `expressions`, `behaviors`, `nodes`; then `verify` (t
 and `dump` (the printable form).
 """
 
+from osc2tx.ir.behaviors import (
+    Behavior,
+    BehaviorBase,
+    Composition,
+    CompositionBase,
+    Condition,
+    Edge,
+    Elapsed,
+    Emit,
+    EventRef,
+    Every,
+    Invoke,
+    LabelEvent,
+    Level,
+    ModifierCall,
+    Moment,
+    On,
+    OneOf,
+    Parallel,
+    Serial,
+    Trigger,
+    Wait,
+)
+from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.expressions import (
     ActorSelf,
     Argument,
@@ -30,29 +54,6 @@ from osc2tx.ir.expressions import (
     is_live,
     walk,
 )
-from osc2tx.ir.behaviors import (
-    Behavior,
-    BehaviorBase,
-    Composition,
-    CompositionBase,
-    Condition,
-    Edge,
-    Elapsed,
-    Emit,
-    EventRef,
-    Every,
-    Invoke,
-    LabelEvent,
-    Level,
-    ModifierCall,
-    Moment,
-    On,
-    OneOf,
-    Parallel,
-    Serial,
-    Trigger,
-    Wait,
-)
 from osc2tx.ir.nodes import (
     Actor,
     Declaration,
@@ -68,7 +69,6 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
-from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [

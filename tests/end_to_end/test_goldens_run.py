@@ -4,11 +4,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 
 from osc2tx.backends.py_trees import GeneratedModule, emit
 from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
+from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 
 CASES = sorted((Path(__file__).parents[1] / "golden" / "py_trees").iterdir())
 # What a case says about itself in the file `expected/verdict.txt`, so that changes show.
