@@ -7,7 +7,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: demo test test-slow lint goldens parser tables clean
+.PHONY: docs-diagnostics demo test test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/
@@ -27,6 +27,9 @@ lint: $(STAMP)
 
 goldens: $(STAMP)
 	$(BIN)/pytest -q --update-golden
+
+docs-diagnostics: $(STAMP)
+	$(BIN)/python tools/make_diagnostics_doc.py
 
 parser: $(STAMP)
 	sh tools/make_parser.sh

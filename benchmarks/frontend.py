@@ -1,35 +1,65 @@
-"""How fast the front end is: lines per second of each stage, and whether time grows linearly.
+"""How fast the front end is, and whether time and memory grow linearly.
 
-    python benchmarks/frontend.py [lines ...]
+    python benchmarks/frontend.py [--huge] [--no-start] [lines ...]
 
-Times are CPU seconds, best of a few runs. Ratios count, not seconds: the last column compares the
-whole front end with a trivial loop over the characters of the same text.
+Prints, for generated files of 1,000, 10,000 and 100,000 lines (`--huge`: 200,000 too):
+
+- lines per second of lexing, parsing, AST and model, and of all from text to AST;
+- the growth exponent of each stage, 1.00 being linear;
+- the highest memory of a process that parses the text, in KB a line.
+
+Then what it costs to start: the library from its snapshot against parsing it, and `osc2tx check` of
+one scenario in a new process against `python -c "import antlr4"`.
+
+Times are CPU seconds, the least of a few runs. Ratios count, not seconds: the column `x loop`
+compares all with a loop over the characters of the same text.
 """
 
+import argparse
 import gc
 import math
+import os
+import subprocess
 import sys
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+from pathlib import Path
 
+from osc2tx import stdlib
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.semantics import ASAM, ModelBuilder
+from osc2tx.stack import room_for_trees
+from osc2tx.stdlib import snapshot
 from osc2tx.syntax import parse
 from osc2tx.syntax.ast_transformer import ASTTransformer
-from osc2tx.syntax.parser import parse_tokens, room_for_trees
+from osc2tx.syntax.parser import parse_tokens
 from osc2tx.syntax.token_source import TokenSource
 
+ROOT = Path(__file__).resolve().parents[1]
+STANDARD = "2.2"
+STAGES = ("lexing", "parsing", "AST", "model", "text to AST")
+
+HEADER = """\
+import osc.standard
+
+actor approach_base:
+    ready: bool
+
+"""
 SCENARIO = """\
 # Approach number {n}
-scenario vehicle.approach_{n} inherits vehicle.base_approach:
+scenario vehicle.approach_{n}:
     lead_{n}: vehicle with:
         keep(it.vehicle_category == car)
-        keep(it.model == "vehicle.tesla.model3")
+        keep(default it.rear_overhang <= 1.2m)
     gap: length with:
         keep(it in [10m..30m])
     v_max: speed = 60kph
-    var closest: length = sample(actor.object_distance(lead_{n}, longitudinal), @gap.end)
+    var closest: length = sample(actor.object_distance(lead_{n}, longitudinal), @near)
     event near is rise(actor.object_distance(lead_{n}, longitudinal) < 12m)
-    event far(distance: length = 5m)
+    event far(distance: length)
     def half(x: float, y: float) -> float is expression (x + y) / 2.0 - 3 * x
     keep(default v_max <= 120kph and gap > 5m or not gap == 8m)
 
@@ -55,7 +85,7 @@ scenario vehicle.approach_{n} inherits vehicle.base_approach:
 
 def scenario_text(lines: int) -> str:
     block = SCENARIO.count("\n")
-    return "".join(SCENARIO.format(n=n) for n in range(math.ceil(lines / block)))
+    return HEADER + "".join(SCENARIO.format(n=n) for n in range(math.ceil(lines / block)))
 
 
 def best(work: Callable[[], object], runs: int) -> float:
@@ -76,35 +106,151 @@ def trivial(text: str) -> int:
     return count
 
 
-def measure(lines: int) -> float:
-    """Print one row; return the seconds of the whole front end."""
-    source = SourceFile("bench.osc", scenario_text(lines))
-    lines = source.text.count("\n")
-    runs = 5 if lines <= 10_000 else 1
-    sink = DiagnosticSink()
+# --- Stages ---------------------------------------------------------------------------------------
+
+
+def stages_to_ast(source: SourceFile, sink: DiagnosticSink, runs: int) -> dict[str, float]:
+    times = {}
     with room_for_trees():
         table = TokenSource(source, sink).scan()
-        lexing = best(lambda: TokenSource(source, sink).scan(), runs)
-        parsing = best(lambda: parse_tokens(table, sink), runs)
+        times["lexing"] = best(lambda: TokenSource(source, sink).scan(), runs)
+        times["parsing"] = best(lambda: parse_tokens(table, sink), runs)
         tree = parse_tokens(table, sink)
-        building = best(lambda: ASTTransformer(table, sink, ()).transform(tree), runs)
-    whole = best(lambda: parse(source, sink), runs)
+        times["AST"] = best(lambda: ASTTransformer(table, sink, ()).transform(tree), runs)
+    return times
+
+
+def measure(wanted: int) -> tuple[int, dict[str, float]]:
+    """Print one row; return the number of lines and the seconds of each stage."""
+    source = SourceFile("bench.osc", scenario_text(wanted))
+    lines = source.text.count("\n")
+    runs = 5 if lines <= 11_000 else 2
+    sink = DiagnosticSink()
+    times = stages_to_ast(source, sink, runs)
+    times["text to AST"] = best(lambda: parse(source, sink), runs)
+    file = parse(source, sink)
+    assert not sink.has_errors, sink.sorted()[0]
+
+    def model() -> None:
+        reports = DiagnosticSink()
+        builder = ModelBuilder(
+            reports, standard=STANDARD, dialect=ASAM, load=lambda statement, source: None
+        )
+        builder.build(file)
+        assert not reports.has_errors, reports.sorted()[0]
+
+    times["model"] = best(model, runs)
     loop = best(lambda: trivial(source.text), runs)
-    assert not sink.sorted(), sink.sorted()[0]
-    rates = [f"{lines / seconds:>12,.0f}" for seconds in (lexing, parsing, building, whole)]
-    print(f"{lines:>8,}", *rates, f"{whole / loop:>14.0f}")
-    return whole
+    rates = [f"{lines / times[stage]:>12,.0f}" for stage in STAGES]
+    print(f"{lines:>8,}", *rates, f"{times['text to AST'] / loop:>8.0f}", flush=True)
+    return lines, times
+
+
+def print_growth(rows: list[tuple[int, dict[str, float]]]) -> None:
+    for (small, before), (large, after) in pairwise(rows):
+        exponents = [
+            f"{stage} {math.log(after[stage] / before[stage]) / math.log(large / small):.2f}"
+            for stage in STAGES
+        ]
+        print(f"growth exponents from {small:,} to {large:,} lines: {', '.join(exponents)}")
+
+
+PEAK = """\
+import re, sys
+sys.path.insert(0, sys.argv[2])
+from benchmarks.frontend import DiagnosticSink, SourceFile, parse, scenario_text
+
+def peak():
+    status = open("/proc/self/status", encoding="ascii").read()
+    return int(re.search(r"VmHWM:\\s*(\\d+) kB", status)[1])
+
+text = scenario_text(int(sys.argv[1]))
+parse(SourceFile("warm.osc", scenario_text(100)), DiagnosticSink())
+before = peak()
+file = parse(SourceFile("bench.osc", text), DiagnosticSink())
+print((peak() - before) / text.count("\\n"))
+"""
+
+
+def print_memory(sizes: list[int]) -> None:
+    """The memory of a new process each, beyond what it has before it parses; on Linux."""
+    for size in sizes:
+        command = [sys.executable, "-c", PEAK, str(size), str(ROOT)]
+        peak = float(subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout)
+        print(f"peak memory of parsing {size:,} lines: {peak:.1f} KB a line", flush=True)
+
+
+# --- Start ----------------------------------------------------------------------------------------
+
+
+def print_snapshot() -> None:
+    """The library as `check` reads it: from the snapshot, and without one."""
+    sources = [stdlib.library_source(name, STANDARD) for name in (stdlib.TYPES, stdlib.DOMAIN)]
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
+            os.environ[name] = folder
+        for source in sources:
+            snapshot.save_snapshot(stdlib.parse_library_file(source), STANDARD)
+        assert all(snapshot.load_snapshot(source, STANDARD) for source in sources)
+        load = best(lambda: [snapshot.load_snapshot(s, STANDARD) for s in sources], 20)
+        parsing = best(lambda: [stdlib.parse_library_file(s) for s in sources], 5)
+    print(
+        f"library from its snapshot: {load * 1000:.1f} ms, "
+        f"parsing it takes {parsing / load:.1f} times as long"
+    )
+
+
+def cpu_of(command: list[str], environment: Mapping[str, str]) -> float:
+    import resource
+
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, env=environment, capture_output=True, check=True, cwd=ROOT)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def print_start() -> None:
+    """A new process for each; compiled modules are cached, wherever the shell says otherwise."""
+    check = ["-m", "osc2tx", "check", "scenarios/cut_in_and_evade.osc"]
+    commands = {
+        "bare Python": ["-c", "pass"],
+        "import antlr4": ["-c", "import antlr4"],
+        "import click": ["-c", "import click"],
+        "check without snapshot": check,
+        "check": check,
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "PYTHONPYCACHEPREFIX": folder, "XDG_CACHE_HOME": folder}
+        environment["PYTHONPATH"] = os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")])
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)
+        environment.pop("OSC2TX_NO_CACHE", None)
+        times: dict[str, list[float]] = {name: [] for name in commands}
+        for _ in range(8):
+            for name, arguments in commands.items():
+                own = {**environment, "OSC2TX_NO_CACHE": "1" if "without" in name else ""}
+                times[name].append(cpu_of([sys.executable, *arguments], own))
+    least = {name: min(values) for name, values in times.items()}
+    for name, seconds in least.items():
+        ratio = seconds / least["import antlr4"]
+        print(f"{name:<24} {seconds * 1000:>6.0f} ms  {ratio:.2f} x `import antlr4`")
 
 
 def main() -> None:
-    sizes = [int(argument) for argument in sys.argv[1:]] or [1_000, 10_000, 100_000]
-    print("   lines   lexing l/s  parsing l/s      AST l/s      all l/s   x trivial loop")
-    times = [measure(size) for size in sizes]
-    for (small, fast), (large, slow) in zip(
-        zip(sizes, times, strict=True), list(zip(sizes, times, strict=True))[1:], strict=False
-    ):
-        exponent = math.log(slow / fast) / math.log(large / small)
-        print(f"growth from {small:,} to {large:,} lines: exponent {exponent:.2f}")
+    parser = argparse.ArgumentParser(description="Speed of the front end.")
+    parser.add_argument("lines", type=int, nargs="*", help="sizes of the generated files")
+    parser.add_argument("--huge", action="store_true", help="200,000 lines too")
+    parser.add_argument("--no-start", action="store_true", help="leave out the cost of a start")
+    arguments = parser.parse_args()
+    sizes = arguments.lines or [1_000, 10_000, 100_000]
+    sizes += [200_000] if arguments.huge else []
+    heads = " ".join(f"{stage + ' l/s':>12}" for stage in STAGES[:-1])
+    print(f"   lines {heads}  text to AST   x loop")
+    print_growth([measure(size) for size in sizes])
+    if sys.platform == "linux":
+        print_memory(sizes)
+    print_snapshot()
+    if sys.platform != "win32" and not arguments.no_start:
+        print_start()
 
 
 if __name__ == "__main__":

@@ -12,9 +12,21 @@ from typing import Any
 import py_trees
 from py_trees.common import ParallelPolicy, Status
 
-from osc2tx_runtime.behaviour import Behaviour, Event, OneOf, Parallel, Serial, Until, Wait, elapsed
+from osc2tx_runtime.behaviour import (
+    Behaviour,
+    Emit,
+    Event,
+    On,
+    OneOf,
+    Parallel,
+    Serial,
+    Until,
+    Wait,
+    elapsed,
+)
 from osc2tx_runtime.context import ExecutionContext
 from osc2tx_runtime.runner import settle, setup_tree
+from osc2tx_runtime.scenario import Scenario
 
 
 def best(call: Callable[[], object], repeat: int = 7) -> float:
@@ -95,6 +107,34 @@ def mixed(branches: int) -> Behaviour:
     )
 
 
+class Inner(Scenario):
+    """Has a variable and a phase that waits."""
+
+    name, source = "inner", "inner.osc"
+
+    def declare(self) -> None:
+        self.go = Event()
+        self.gap = self.parameter("gap", 10.0)
+        self.x = self.sample(lambda: self.gap, self.go, 0.0)
+
+    def behavior(self) -> Behaviour:
+        return Serial("inner", Wait(self.go))
+
+
+class Invoking(Scenario):
+    """Invokes many scenarios at once."""
+
+    name, source = "invoking", "invoking.osc"
+
+    def __init__(self, invoked: int) -> None:
+        self.invoked_scenarios = invoked
+        super().__init__()
+
+    def behavior(self) -> Behaviour:
+        calls = (self.invoke(Inner, label=f"p{i}") for i in range(self.invoked_scenarios))
+        return Parallel("invoking", *calls)
+
+
 def main() -> None:
     """Print the table."""
     u = unit()
@@ -123,6 +163,16 @@ def main() -> None:
     row("20 Wait(event), a whole instant of the runner", best(next_step), 20)
     _, tree = ours(mixed(20))
     row("20 branches of serial/one_of/until, 40 leaves", best(tree.tick_once), 40)
+    tree = Parallel("p", *(Wait(Event()) for _ in range(100)), overlap="inside")
+    _, tree = ours(tree)
+    row("parallel(overlap: inside), 100 Wait(event)", best(tree.tick_once), 100)
+    _, tree = ours(Parallel("p", *(On(Event(), Emit(Event())) for _ in range(100)), Wait(Event())))
+    row("100 on beside a Wait(event)", best(tree.tick_once), 101)
+    for invoked in (1, 100):
+        tree = Invoking(invoked).create_tree()
+        _, tree = ours(tree)
+        row(f"{invoked} invoked scenarios, a variable each", best(tree.tick_once), 2 * invoked)
+    row("create_tree of 100 invoked scenarios", best(lambda: Invoking(100).create_tree(), 3), 100)
     for depth in (10, 50, 200):
         tree = chain(depth, foreign_serial, py_trees.behaviours.Running("leaf"))
         tree.tick_once()

@@ -1,7 +1,8 @@
 """The command line: arguments, messages, exit codes.
 
-Exit codes: 0 ok (warnings included), 1 outputs are stale, 2 wrong usage or settings, 3 errors in
-a source, 4 unreadable input or unwritable output, 5 the scenario ran and failed, 70 a bug of ours.
+Exit codes: 0 ok (warnings included), 1 outputs are stale, or warnings under --strict, 2 wrong usage
+or settings, 3 errors in a source, 4 unreadable input or unwritable output, 5 the scenario ran and
+failed, 70 a bug of ours.
 """
 
 from __future__ import annotations
@@ -9,10 +10,7 @@ from __future__ import annotations
 import os
 import sys
 import traceback
-from collections import Counter
 from collections.abc import Callable, Sequence
-from difflib import get_close_matches
-from enum import IntEnum
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
@@ -21,16 +19,22 @@ import click
 
 from osc2tx import __version__
 from osc2tx.config import ConfigError, GivenOptions
-from osc2tx.diagnostics import CODES, Code, Diagnostic, Severity
-from osc2tx.diagnostics.render import render_all
+from osc2tx.diagnostics.lookup import find_code, meant_code
+from osc2tx.diagnostics.render import render_explanation
 from osc2tx.inputs import InputError
 from osc2tx.options import DIALECTS, ONE_OF_POLICIES, PRODUCT_NAMES, STANDARDS, ProductName
+from osc2tx.reporting import (
+    BUG_REPORT,
+    Exit,
+    Reporter,
+    complain,
+    count_of,
+    found,
+    report_options,
+)
 
 if TYPE_CHECKING:
     from osc2tx.driver import Compilation
-
-MOST_SHOWN = 100  # diagnostics of one file
-BUG_REPORT = "osc2tx: this is a bug of osc2tx; please report it with the lines above"
 
 COMMANDS = {
     "check": "Report what is wrong with scenario files.",
@@ -40,18 +44,6 @@ COMMANDS = {
 }
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-
-
-class Exit(IntEnum):
-    """What the process returns."""
-
-    OK = 0
-    STALE = 1
-    USAGE = 2
-    ERRORS = 3
-    UNREADABLE = 4
-    FAILED = 5
-    BUG = 70
 
 
 class Commands(click.Group):
@@ -95,14 +87,24 @@ def compile_options(command: Command) -> Command:
 @cli.command()
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
 @compile_options
-def check(paths: tuple[str, ...], std: str | None, dialect: str | None, one_of: str | None) -> Exit:
+@report_options
+def check(
+    paths: tuple[str, ...],
+    std: str | None,
+    dialect: str | None,
+    one_of: str | None,
+    reporter: Reporter,
+) -> Exit:
     """Report what is wrong with scenario files; folders are searched for .osc files."""
     from osc2tx.build import compile_all, run_all
 
     compilations = compile_all(paths, GivenOptions(std, dialect, one_of))
     bugs = run_all(compilations, lambda compilation: compilation.check())
-    code = report(compilations, bugs)
-    click.echo(f"checked {_count(len(compilations), 'file')}: {_found(compilations)}")
+    code, report = reporter.report(compilations, bugs)
+    for compilation in compilations:
+        for level in compilation.levels:
+            reporter.say(f"{compilation.name}: {level}")
+    reporter.say(f"checked {count_of(len(compilations), 'file')}: {found(report)}")
     return code
 
 
@@ -117,6 +119,7 @@ def check(paths: tuple[str, ...], std: str | None, dialect: str | None, one_of: 
     help="Print this product of the compiler and write nothing.",
 )
 @click.option("--check", "check_only", is_flag=True, help="Write nothing; fail if outputs differ.")
+@report_options
 def build(
     paths: tuple[str, ...],
     out_dir: Path | None,
@@ -126,32 +129,37 @@ def build(
     target: str,
     emit: ProductName | None,
     check_only: bool,
+    reporter: Reporter,
 ) -> Exit:
     """Write a py_trees module for every scenario file."""
     given = GivenOptions(std, dialect, one_of)
     if emit is not None:
         if out_dir is not None or check_only:
             raise click.UsageError("--emit prints to the terminal: leave out -o and --check")
-        return _print_product(paths, given, emit)
+        if reporter.form != "text":
+            raise click.UsageError("--emit and --output-format both print to standard output")
+        return _print_product(paths, given, emit, reporter)
     if out_dir is None:
         raise click.UsageError("say where the modules go, as in `-o generated`")
-    return _build(paths, out_dir, given, check_only)
+    return _build(paths, out_dir, given, check_only, reporter)
 
 
-def _build(paths: Sequence[str], out_dir: Path, given: GivenOptions, check_only: bool) -> Exit:
+def _build(
+    paths: Sequence[str], out_dir: Path, given: GivenOptions, check_only: bool, reporter: Reporter
+) -> Exit:
     from osc2tx.build import build as build_files
 
     result = build_files(paths, out_dir, given, check_only=check_only)
-    code = report(result.compilations, result.bugs)
+    code, report = reporter.report(result.compilations, result.bugs)
     if check_only:
         for state, path in result.changed:
             complain(f"{path}: is {state}")
     for problem in (*result.collisions, *result.failures):
         complain(problem)
-    changed = _count(len(result.changed), "file")
+    changed = count_of(len(result.changed), "file")
     done = f"{changed} would change" if check_only else f"{changed} written"
-    modules = _count(result.modules, "module")
-    click.echo(f"{modules} in {out_dir}: {done}; {_found(result.compilations)}")
+    modules = count_of(result.modules, "module")
+    reporter.say(f"{modules} in {out_dir}: {done}; {found(report)}")
     if check_only and result.changed:
         code = max(code, Exit.STALE)
     if result.collisions:
@@ -159,7 +167,9 @@ def _build(paths: Sequence[str], out_dir: Path, given: GivenOptions, check_only:
     return max(code, Exit.UNREADABLE) if result.failures else code
 
 
-def _print_product(paths: Sequence[str], given: GivenOptions, emit: ProductName) -> Exit:
+def _print_product(
+    paths: Sequence[str], given: GivenOptions, emit: ProductName, reporter: Reporter
+) -> Exit:
     from osc2tx.build import compile_all, run_all
 
     compilations = compile_all(paths, given)
@@ -174,92 +184,18 @@ def _print_product(paths: Sequence[str], given: GivenOptions, emit: ProductName)
     bugs = run_all(compilations, dump)
     for text in texts:
         click.echo(text, nl=not text.endswith("\n"))
-    return report(compilations, bugs)
+    return reporter.report(compilations, bugs)[0]
 
 
 @cli.command()
 @click.argument("code")
 def explain(code: str) -> None:
     """Say what a diagnostic code means."""
-    slugs = {entry.slug: name for name, entry in CODES.items()}
-    wanted = slugs.get(code.lower(), code.upper())
-    if wanted not in CODES:
-        near = get_close_matches(wanted, CODES, 1) or get_close_matches(code.lower(), slugs, 1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        raise click.UsageError(f"there is no code {code}{hint}")
-    click.echo(_explanation(CODES[wanted]))
-
-
-def _explanation(entry: Code) -> str:
-    lines = [f"{entry.code} {entry.slug} ({entry.severity.value})", "", entry.summary]
-    if entry.section:
-        lines.append(f"See OpenSCENARIO DSL 2.2, section {entry.section}.")
-    if entry.example:
-        lines += ["", "For example:", ""]
-        lines += [f"    {line}" for line in entry.example.splitlines()]
-    return "\n".join(lines)
-
-
-def report(compilations: Sequence[Compilation], bugs: Sequence[str] = ()) -> Exit:
-    """Print all diagnostics, and bugs of ours, and return the exit code they call for."""
-    found = _distinct(compilations)
-    counts: Counter[Path | str] = Counter()
-    shown = []
-    for diagnostic in found:
-        file = _file_of(diagnostic)
-        counts[file] += 1
-        if counts[file] <= MOST_SHOWN:
-            shown.append(diagnostic)
-    if shown:
-        color = sys.stderr.isatty() and "NO_COLOR" not in os.environ
-        click.echo(render_all(shown, color=color, folder=Path.cwd()), err=True, color=color)
-        for file, count in counts.items():
-            if count > MOST_SHOWN:
-                complain(f"{file}: {count - MOST_SHOWN} more not shown")
-        click.echo(f"`osc2tx explain {shown[0].code}` says more about a code.", err=True)
-    for bug in bugs:
-        complain(bug)
-    if bugs:
-        complain(BUG_REPORT)
-        return Exit.BUG
-    if not all(compilation.is_readable for compilation in compilations):
-        return Exit.UNREADABLE
-    failed = any(compilation.sink.has_errors for compilation in compilations)
-    return Exit.ERRORS if failed else Exit.OK
-
-
-def _distinct(compilations: Sequence[Compilation]) -> list[Diagnostic]:
-    """Return all diagnostics; one in a file that several others import counts once."""
-    found: dict[tuple[object, ...], Diagnostic] = {}
-    for compilation in compilations:
-        for diagnostic in compilation.diagnostics:
-            start = diagnostic.primary.start if diagnostic.primary else None
-            key = (_file_of(diagnostic), start, diagnostic.code, diagnostic.message)
-            found.setdefault(key, diagnostic)
-    return list(found.values())
-
-
-def _file_of(diagnostic: Diagnostic) -> Path | str:
-    if diagnostic.primary is None:
-        return ""
-    source = diagnostic.primary.source
-    return source.path.resolve() if source.path else source.name
-
-
-def complain(message: str) -> None:
-    """Print a message that belongs to no place in a source."""
-    click.echo(message, err=True)
-
-
-def _found(compilations: Sequence[Compilation]) -> str:
-    severities = [diagnostic.severity for diagnostic in _distinct(compilations)]
-    errors = severities.count(Severity.ERROR)
-    warnings = severities.count(Severity.WARNING)
-    return f"{_count(errors, 'error')}, {_count(warnings, 'warning')}"
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+    entry = find_code(code)
+    if entry is None:
+        meant = meant_code(code)
+        raise click.UsageError(f"there is no code `{code}`" + (f"; {meant}" if meant else ""))
+    click.echo(render_explanation(entry))
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

@@ -15,10 +15,10 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.options import DIALECTS, ONE_OF_POLICIES, STANDARDS, CompileOptions
 
 COMPILE_KEYS: Mapping[str, Sequence[str]] = {
@@ -200,9 +200,9 @@ class _Reader:
             raise self._error(where[:-1], f"`{(where or ('osc2tx',))[-1]}` is not a table")
         for key in value:
             if keys is not None and key not in keys:
-                near = get_close_matches(key.replace("_", "-"), keys, 1)
-                near = near or get_close_matches(key.replace("-", "_"), keys, 1)
-                remedy = f"did you mean `{near[0]}`?" if near else f"known keys: {', '.join(keys)}"
+                meant = did_you_mean(key.replace("_", "-"), keys)
+                meant = meant or did_you_mean(key.replace("-", "_"), keys)
+                remedy = meant or f"known keys: {', '.join(keys)}"
                 raise self._error(where, f"unknown key `{key}`; {remedy}")
         return value
 

@@ -1,6 +1,6 @@
 """Runs the stages on one source file and keeps what they make.
 
-    source ─ ast ─ model ─ ir ─ module
+    source ─ ast ─ model ─ analysis ─ ir ─ module
 
 Each product is made when it is first asked for, from the one before it. A product is `None` when
 the source has errors that stand in the way; the sink says which.
@@ -9,19 +9,23 @@ the source has errors that stand in the way; the sink says which.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from osc2tx.diagnostics import Diagnostic, DiagnosticSink
+from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
+from osc2tx.diagnostics.suppressions import Settled, settle
 from osc2tx.imports import ImportLoader
 from osc2tx.options import CompileOptions, ProductName
+from osc2tx.stack import room_for_trees
 from osc2tx.syntax import dump_ast, parse, read_source
+from osc2tx.syntax.suppressions import find_suppressions
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from osc2tx.analysis import Analysis, ScenarioLevel
     from osc2tx.backends.py_trees import GeneratedModule
-    from osc2tx.diagnostics import SourceFile
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
     from osc2tx.syntax.ast import File
@@ -35,6 +39,7 @@ class Compilation:
         name: How diagnostics and generated files call it; relative, forward slashes.
         options: How to compile it.
         sink: What the stages had to say so far.
+        is_complete: Whether all stages that can report something ran and found no error.
     """
 
     def __init__(
@@ -52,6 +57,7 @@ class Compilation:
         self.name = name
         self.options = options
         self.sink = DiagnosticSink()
+        self.is_complete = False
         self._roots = (path.parent, *roots)
 
     @cached_property
@@ -79,20 +85,39 @@ class Compilation:
             dialect=DIALECTS[self.options.dialect],
             load=ImportLoader(self.path, self.name, self._roots, self.sink, self._relaxed),
         )
-        return builder.build(self.ast)
+        with room_for_trees():
+            return builder.build(self.ast)
+
+    @cached_property
+    def analysis(self) -> Analysis | None:
+        """What constraints allow, and how far the scenarios are worked out."""
+        if self.model is None or self._failed():
+            return None
+        from osc2tx.analysis import analyse
+
+        with room_for_trees():
+            return analyse(self.model, self.sink)
+
+    @property
+    def levels(self) -> Sequence[ScenarioLevel]:
+        """How far each scenario is worked out; nothing if the constraints have no solution."""
+        if "analysis" not in self.__dict__ or self.analysis is None:
+            return ()  # nobody has asked for it
+        return () if self._failed() else self.analysis.levels
 
     @cached_property
     def ir(self) -> Module | None:
         """What the scenarios mean, verified; an `ir.Module` without scenarios for a library."""
-        if self.model is None or self._failed():
+        if self.model is None or self.analysis is None or self._failed():
             return None
         from osc2tx.ir import verify
         from osc2tx.lowering import lower
 
-        module = lower(self.model, self.options, self.sink)
-        if self._failed():
-            return None
-        verify(module)
+        with room_for_trees():
+            module = lower(self.model, self.options, self.sink)
+            if self._failed():
+                return None
+            verify(module)
         return module
 
     @cached_property
@@ -103,16 +128,18 @@ class Compilation:
         from osc2tx.backends.py_trees import check_support
 
         check_support(self.ir, self.sink)
-        return not self._failed()
+        self.is_complete = not self._failed()
+        return self.is_complete
 
     @cached_property
     def module(self) -> GeneratedModule | None:
         """The Python module; `None` also for a file that declares no scenario."""
-        if self.ir is None or not self.ir.scenarios or not self.is_supported:
+        if self.ir is None or not self.is_supported or not self.ir.scenarios:
             return None
         from osc2tx.backends.py_trees import emit
 
-        return emit(self.ir)
+        with room_for_trees():
+            return emit(self.ir)
 
     @property
     def is_readable(self) -> bool:
@@ -120,9 +147,14 @@ class Compilation:
         return self.source is not None
 
     @property
+    def start(self) -> Span:
+        """The place of what concerns the file as a whole, even if there is no text."""
+        return Span(self.source or SourceFile(self.name, "", self.path), 0, 0)
+
+    @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """All that was reported, in order of place."""
-        return self.sink.sorted()
+        """All that was reported and no comment suppresses, in order of place."""
+        return settle_all([self]).shown
 
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""
@@ -168,3 +200,24 @@ _DUMPS: Mapping[ProductName, Callable[[Compilation], str | None]] = {
     "ir": _dump_ir,
     "py": _dump_module,
 }
+
+
+def settle_all(compilations: Sequence[Compilation]) -> Settled:
+    """Return what was reported on several files, each report once, and what comments suppress.
+
+    A report in a file that several others import counts once; a suppression there is used if it
+    is of use to one of them.
+    """
+    found: dict[tuple[object, ...], Diagnostic] = {}
+    for compilation in compilations:
+        for reported in compilation.sink.sorted():
+            span = reported.primary or compilation.start
+            diagnostic = replace(reported, primary=span)
+            place = (span.source.identity, span.start, span.end)
+            found.setdefault((diagnostic.code, diagnostic.message, *place), diagnostic)
+    judged = {
+        compilation.source: compilation.is_complete
+        for compilation in compilations
+        if compilation.source is not None
+    }
+    return settle(found.values(), judged, find_suppressions)

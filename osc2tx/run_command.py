@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from osc2tx.build import compile_all, run_all
-from osc2tx.cli import Exit, compile_options, complain, report
+from osc2tx.cli import compile_options
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.inputs import InputError, find_inputs
+from osc2tx.reporting import Exit, Reporter, complain, report_options
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.main import choose_scenario as choose
@@ -46,6 +47,7 @@ def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.argument("file", metavar="FILE")
 @click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
 @compile_options
+@report_options
 @run_options
 def run(
     file: str,
@@ -53,6 +55,7 @@ def run(
     std: str | None,
     dialect: str | None,
     one_of: str | None,
+    reporter: Reporter,
     **run_texts: str | tuple[str, ...] | None,
 ) -> Exit:
     """Run a scenario file, or a module made from one, in the embedded world."""
@@ -66,14 +69,17 @@ def run(
     except SettingsError as error:
         raise click.UsageError(error.message) from None
     if path.suffix == ".py":
-        return _run_written(path, scenario, settings)
+        reporter.report_nothing()
+        return _run_written(path, scenario, settings, reporter)
     (compilation,) = compile_all([path], GivenOptions(std, dialect, one_of))
-    return _run_source(compilation, scenario, settings)
+    return _run_source(compilation, scenario, settings, reporter)
 
 
-def _run_source(compilation: Compilation, wanted: str | None, settings: RunSettings) -> Exit:
+def _run_source(
+    compilation: Compilation, wanted: str | None, settings: RunSettings, reporter: Reporter
+) -> Exit:
     bugs = run_all([compilation], lambda item: item.module)
-    code = report([compilation], bugs)
+    code, _ = reporter.report([compilation], bugs)
     if code is not Exit.OK:
         return code
     module = compilation.module
@@ -85,10 +91,10 @@ def _run_source(compilation: Compilation, wanted: str | None, settings: RunSetti
         place.write_text(module.python, encoding="utf-8")
         place.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")
         with _imported(place, Path(folder).name) as imported:
-            return _run_one_of(_scenarios_of(imported), path, wanted, settings)
+            return _run_one_of(_scenarios_of(imported), path, wanted, settings, reporter)
 
 
-def _run_written(path: Path, wanted: str | None, settings: RunSettings) -> Exit:
+def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
     """Run a module that somebody gives us: it may be anything."""
     imported = ExitStack()
     try:
@@ -96,11 +102,15 @@ def _run_written(path: Path, wanted: str | None, settings: RunSettings) -> Exit:
     except (ImportError, SyntaxError, ValueError, OSError) as error:
         raise InputError(f"{path}: cannot be imported: {error}") from error
     with imported:
-        return _run_one_of(_scenarios_of(module), path, wanted, settings)
+        return _run_one_of(_scenarios_of(module), path, wanted, settings, reporter)
 
 
 def _run_one_of(
-    scenarios: Mapping[str, type[Scenario]], path: Path, wanted: str | None, settings: RunSettings
+    scenarios: Mapping[str, type[Scenario]],
+    path: Path,
+    wanted: str | None,
+    settings: RunSettings,
+    reporter: Reporter,
 ) -> Exit:
     scenario = choose_scenario(scenarios, wanted, path)
     try:
@@ -108,7 +118,10 @@ def _run_one_of(
     except ScenarioError as error:
         complain(f"{error.source or scenario.source}: error: {error.message}")
         return Exit(error.exit_code)
-    click.echo(verdict(scenario.name, result))
+    except KeyboardInterrupt:
+        complain(f"{scenario.name}: interrupted")
+        return Exit.INTERRUPTED
+    reporter.say(verdict(scenario.name, result))
     return Exit.OK if result.status == "success" else Exit.FAILED
 
 

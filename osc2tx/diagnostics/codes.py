@@ -1,7 +1,8 @@
 """The registry of diagnostic codes.
 
 Families: 1xx text and syntax, 2xx names and imports, 3xx types and units, 4xx behaviors,
-modifiers and constraints, 5xx not supported by a backend, 6xx relaxations of a dialect.
+modifiers and constraints, 5xx not supported by a backend, 6xx relaxations of a dialect, 7xx
+suppressions.
 A code is permanent; a retired one is not used again.
 """
 
@@ -9,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from osc2tx.diagnostics.explanations import Explanation, explanation_of
 from osc2tx.diagnostics.model import Severity
 
 ERROR, WARNING = Severity.ERROR, Severity.WARNING
@@ -24,7 +26,6 @@ class Code:
         severity: What it does to the run.
         summary: One sentence for the reference.
         section: Section of OpenSCENARIO DSL 2.2 that states the rule, where there is one.
-        example: A faulty line.
     """
 
     code: str
@@ -32,7 +33,16 @@ class Code:
     severity: Severity
     summary: str
     section: str = ""
-    example: str = ""
+
+    @property
+    def explanation(self) -> Explanation | None:
+        """An example and how to mend it."""
+        return explanation_of(self.code)
+
+    @property
+    def can_be_suppressed(self) -> bool:
+        """Whether a comment `#! allow` can keep it back."""
+        return self.severity is WARNING and not self.code.startswith("OSC7")
 
 
 def _table(*rows: Code) -> dict[str, Code]:
@@ -52,7 +62,7 @@ CODES = _table(
     Code("OSC106", "unclosed-bracket", ERROR, "A bracket is not closed.", "7.2.1.3"),
     Code("OSC107", "literal-out-of-range", ERROR, "A number does not fit its type.", "7.2.1.5.2"),
     Code("OSC108", "invalid-member", ERROR, "A member does not belong here.", "7.2.2"),
-    Code("OSC109", "positional-after-named", ERROR, "A positional argument follows a named one."),
+    Code("OSC109", "positional-after-named", ERROR, "Named arguments come last.", "7.3.5.1.3"),
     Code("OSC110", "use-statement", ERROR, "`use` is a clause of `namespace`.", "7.7.3"),
     Code("OSC111", "foreign-comment", ERROR, "Comments begin with `#`.", "7.2.1.2"),
     Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
@@ -69,6 +79,7 @@ CODES = _table(
     Code("OSC508", "no-such-runtime-modifier", ERROR, "The action cannot honour this modifier."),
     Code("OSC509", "no-such-runtime-argument", ERROR, "The runtime cannot honour this argument."),
     Code("OSC510", "nothing-to-do", WARNING, "The scenario has no `do`."),
+    Code("OSC511", "circular-value", ERROR, "A value is defined by itself.", "7.3.6"),
     # --- 2xx names and imports ---
     Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),
     Code("OSC202", "unknown-type", ERROR, "No type has this name.", "7.3"),
@@ -111,7 +122,7 @@ CODES = _table(
     Code("OSC402", "unknown-argument", ERROR, "No parameter has this name.", "7.3.5.1.3"),
     Code("OSC403", "duplicate-argument", ERROR, "A parameter is given twice.", "7.3.5.1.3"),
     Code("OSC404", "missing-argument", ERROR, "A required argument is missing.", "7.3.7"),
-    Code("OSC405", "too-many-arguments", ERROR, "There are more arguments than parameters."),
+    Code("OSC405", "too-many-arguments", ERROR, "Too many arguments are given.", "7.3.5.1.3"),
     Code("OSC406", "modifier-not-applicable", ERROR, "A modifier fits elsewhere.", "7.3.12"),
     Code("OSC407", "missing-actor", ERROR, "It is not said who acts.", "7.3.13"),
     Code("OSC408", "exclusive-arguments", ERROR, "Arguments exclude each other.", "8.9.1.3"),
@@ -121,6 +132,21 @@ CODES = _table(
     Code("OSC412", "invalid-coverage", ERROR, "Coverage arguments do not fit.", "7.5"),
     Code("OSC413", "implicit-it", WARNING, "A parameter is named without `it.`.", "7.4.1.3"),
     Code("OSC414", "implication-chain", WARNING, "`a => b => c` is not specified.", "7.4.2"),
+    # 42x constraints, 43x what can never happen
+    Code("OSC420", "contradiction", ERROR, "Constraints contradict each other.", "7.3.11"),
+    Code("OSC421", "impossible-constraint", ERROR, "A constraint can never hold.", "7.3.11"),
+    Code("OSC422", "contradicted-default", ERROR, "A default contradicts others.", "7.3.11"),
+    Code("OSC423", "contradicted-argument", ERROR, "An argument is not allowed.", "7.3.5.1.3"),
+    Code("OSC424", "integer-overflow", ERROR, "A number does not fit its type.", "7.3.2"),
+    Code("OSC425", "division-by-zero", WARNING, "A divisor is always zero.", "7.4.2"),
+    Code("OSC430", "event-from-outside", WARNING, "Nothing emits an awaited event.", "7.3.10"),
+    Code("OSC431", "event-without-use", WARNING, "Nothing waits for an event.", "7.3.10"),
+    Code("OSC432", "unreachable-member", WARNING, "What is before never ends.", "7.3.13"),
+    Code("OSC433", "unused-actor", WARNING, "An actor takes no part.", "7.3.6"),
+    Code("OSC434", "endless-composition", WARNING, "No member ends by itself.", "7.3.13"),
+    Code("OSC435", "single-alternative", WARNING, "`one_of` has one member.", "7.3.13.3"),
+    Code("OSC436", "constant-condition", WARNING, "A condition never changes.", "7.3.10"),
+    Code("OSC437", "unused-parameter", WARNING, "A parameter is never read.", "7.3.6"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),
@@ -131,4 +157,21 @@ CODES = _table(
     Code("OSC607", "prelude-member", WARNING, "A member belongs to the dialect's prelude."),
     Code("OSC608", "prelude-parameter", WARNING, "A parameter belongs to the prelude."),
     Code("OSC609", "prelude-behavior", WARNING, "A behavior belongs to the prelude."),
+    Code("OSC610", "prelude-type", WARNING, "A type belongs to the dialect's prelude."),
+    Code("OSC611", "prelude-modifier", WARNING, "A modifier belongs to the prelude."),
+    Code("OSC612", "alias-type", WARNING, "A type has another name in the standard.", "8.14"),
+    Code("OSC613", "alias-unit", WARNING, "A unit has another name in the standard.", "8.14"),
+    Code("OSC614", "alias-parameter", WARNING, "A parameter has another name in the standard."),
+    Code("OSC615", "alias-enum-member", WARNING, "An enum member has another name there."),
+    Code("OSC616", "repeated-declaration", WARNING, "What is known is declared again.", "7.3"),
+    Code("OSC617", "relaxed-module", WARNING, "A file is imported without quotes.", "7.7.5"),
+    Code("OSC618", "method-of-a-type", WARNING, "A method is called on the type itself.", "7.3.7"),
+    Code("OSC619", "alias-member", WARNING, "A member has another name in the standard."),
+    Code("OSC620", "runner-event", WARNING, "An event is only raised by `emit` here.", "7.3.10"),
+    Code("OSC621", "quantity-text", WARNING, "A text names the speed of an actor.", "7.4.2.6"),
+    # --- 7xx suppressions ---
+    Code("OSC701", "unused-suppression", WARNING, "A suppression suppresses nothing."),
+    Code("OSC702", "unknown-suppression", WARNING, "A suppression names an unknown code."),
+    Code("OSC703", "invalid-suppression", WARNING, "This cannot be suppressed."),
+    Code("OSC704", "empty-suppression", WARNING, "A suppression names no code."),
 )

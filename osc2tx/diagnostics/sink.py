@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic, InternalCompilerError, Label, Severity
@@ -41,11 +41,16 @@ class DiagnosticSink:
         return any(d.severity is Severity.ERROR for d in self._found.values())
 
     def sorted(self) -> tuple[Diagnostic, ...]:
-        """Return everything found, ordered by file, position, severity and code."""
+        """Return everything found, in order."""
+        return in_order(self._found.values())
 
-        def key(diagnostic: Diagnostic) -> tuple[str, int, int, str]:
-            span = diagnostic.primary
-            place = (span.source.name, span.start) if span else ("", 0)
-            return *place, int(diagnostic.severity is Severity.WARNING), diagnostic.code
 
-        return tuple(sorted(self._found.values(), key=key))
+def in_order(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return diagnostics ordered by file, position, severity and code."""
+
+    def key(diagnostic: Diagnostic) -> tuple[str, int, int, str]:
+        span = diagnostic.primary
+        place = (span.source.name, span.start) if span else ("", 0)
+        return *place, int(diagnostic.severity is Severity.WARNING), diagnostic.code
+
+    return tuple(sorted(diagnostics, key=key))

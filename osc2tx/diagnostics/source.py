@@ -6,6 +6,7 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Final
 
 LINE_END = re.compile(r"\r\n|\r|\n")
 
@@ -18,15 +19,18 @@ class SourceFile:
         name: How diagnostics and generated files call it (relative, forward slashes).
         text: The decoded text, line ends as they were written.
         path: Where it was read from; `None` for texts that never were a file.
+        identity: The same for all texts read from one file.
     """
 
     name: str
     text: str
     path: Path | None = None
     line_starts: tuple[int, ...] = field(init=False, repr=False)
+    identity: Path | str = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Index the line starts; CR, LF and CR LF each end a line (§7.2.1.2)."""
+        object.__setattr__(self, "identity", self.path.resolve() if self.path else self.name)
         starts = (match.end() for match in LINE_END.finditer(self.text))
         object.__setattr__(self, "line_starts", (0, *starts))
 
@@ -42,13 +46,33 @@ class SourceFile:
         return self.text[start:end].rstrip("\r\n")
 
 
-@dataclass(frozen=True, slots=True)
 class Span:
-    """A half-open range of offsets in one source text."""
+    """A half-open range of offsets in one source text; equal to others of the same range.
 
-    source: SourceFile
-    start: int
-    end: int
+    There is one for each node, and a frozen dataclass takes three times as long to build.
+    """
+
+    __slots__ = ("end", "source", "start")
+
+    def __init__(self, source: SourceFile, start: int, end: int) -> None:
+        """Take the range; nobody changes it."""
+        self.source: Final = source
+        self.start: Final = start
+        self.end: Final = end
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Span)
+            and self.source is other.source
+            and self.start == other.start
+            and self.end == other.end
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.source, self.start, self.end))
+
+    def __repr__(self) -> str:
+        return f"Span({self.source.name!r}, {self.start}, {self.end})"
 
     @property
     def line(self) -> int:

@@ -36,6 +36,15 @@ class LabelEvent:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class InnerEvent:
+    """An event of an invoked scenario, `@approach.near`."""
+
+    span: Span
+    label: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Level:
     """True as long as the expression is."""
 
@@ -77,7 +86,7 @@ class Trigger:
     """An event specification: an event, a condition, or an event with a condition."""
 
     span: Span
-    event: EventRef | LabelEvent | None
+    event: EventRef | LabelEvent | InnerEvent | None
     condition: Condition | None
     comments: tuple[str, ...] = ()
 
@@ -125,9 +134,9 @@ class Serial(CompositionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Parallel(CompositionBase):
-    """Members together; `overlap` as in §7.3.13.2, offsets as times or ranges."""
+    """Members together; `overlap` (§7.3.13.2) only if written, offsets as times or ranges."""
 
-    overlap: str = "start"
+    overlap: str | None = None
     start_to_start: Expression | None = None
     end_to_end: Expression | None = None
 
@@ -172,6 +181,27 @@ class Invoke(BehaviorBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class InvokeScenario(BehaviorBase):
+    """Another scenario as a part of this one.
+
+    Attributes:
+        scenario: Its name.
+        key: Tells it apart from others of the same name, see `Scenario.key`.
+        actor: Who plays its `actor`.
+        arguments: Its parameters and cast, in source order, without `duration`.
+        duration: Time or range of time.
+        until: Any of these ends it.
+    """
+
+    scenario: str
+    key: str
+    actor: Expression | None
+    arguments: tuple[Argument, ...]
+    duration: Expression | None = None
+    until: tuple[Trigger, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Wait(BehaviorBase):
     """Blocks until the trigger."""
 
@@ -195,7 +225,7 @@ class On(BehaviorBase):
 
 
 Composition: TypeAlias = Serial | Parallel | OneOf
-Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | Wait | Emit | On
+Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | InvokeScenario | Wait | Emit | On
 
 __all__ = [
     "Behavior",
@@ -206,7 +236,9 @@ __all__ = [
     "Emit",
     "EventRef",
     "Every",
+    "InnerEvent",
     "Invoke",
+    "InvokeScenario",
     "LabelEvent",
     "Level",
     "ModifierCall",

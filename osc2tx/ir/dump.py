@@ -13,7 +13,9 @@ from osc2tx.ir.behaviors import (
     Emit,
     EventRef,
     Every,
+    InnerEvent,
     Invoke,
+    InvokeScenario,
     LabelEvent,
     Level,
     ModifierCall,
@@ -25,12 +27,12 @@ from osc2tx.ir.behaviors import (
     Wait,
 )
 from osc2tx.ir.expressions import (
-    ActorSelf,
     Argument,
     Attribute,
     Binary,
     Conditional,
     EnumValue,
+    EventArgument,
     Expression,
     FieldRef,
     ListValue,
@@ -74,7 +76,8 @@ def _indented(lines: Iterator[str]) -> Iterator[str]:
 
 
 def _scenario(scenario: Scenario) -> Iterator[str]:
-    yield f"scenario {scenario.name} @{scenario.span.line}"
+    origin = f" of {scenario.span.source.name}" if scenario.is_imported else ""
+    yield f"scenario {scenario.name}{origin} @{scenario.span.line}"
     for declaration in scenario.declarations:
         yield from _indented(_declaration(declaration))
     for method in scenario.methods:
@@ -83,6 +86,8 @@ def _scenario(scenario: Scenario) -> Iterator[str]:
         yield f"{INDENT}method {signature} = {show(method.expression)} @{method.span.line}"
     for placement in scenario.placements:
         yield from _indented(_placement(placement))
+    for override in scenario.overrides:
+        yield f"{INDENT}override {override.overridden} by {override.by} {override.mode}"
     yield from _indented(_behavior(scenario.body))
 
 
@@ -97,15 +102,21 @@ def _declaration(declaration: Declaration) -> Iterator[str]:
             yield from _indented(_field_values(declaration.values))
         case Parameter(name=name, type=type_, value=value, domain=domain):
             word = "constant" if declaration.is_fixed else "parameter"
+            word = f"global {word}" if declaration.is_global else word
             default = f" = {show(value)}" if value is not None else ""
             within = f" in {show(domain)}" if domain is not None else ""
             yield f"{word} {name}: {type_}{default}{within} @{line}"
-        case Variable(name=name, type=type_, value=value):
-            yield f"variable {name}: {type_} = {show(value)} @{line}"
+        case Variable(name=name, type=type_, value=value, sample=sample):
+            initial = "" if value is None else f" = {show(value)}"
+            sampled = ""
+            if sample is not None:
+                sampled = f" sampled {show(sample.expression)} at {_trigger(sample.trigger)}"
+            yield f"variable {name}: {type_}{initial}{sampled} @{line}"
         case Event(name=name, trigger=trigger):
             given = f" is {_trigger(trigger)}" if trigger is not None else ""
             implicit = " (implicit)" if declaration.is_implicit else ""
-            yield f"event {name}{given}{implicit} @{line}"
+            taken = ", ".join(f"{p.name}: {p.type}" for p in declaration.parameters)
+            yield f"event {name}{f'({taken})' if taken else ''}{given}{implicit} @{line}"
         case _:
             assert_never(declaration)
 
@@ -139,6 +150,10 @@ def _behavior(node: Behavior) -> Iterator[str]:
             yield f"Invoke {node.owner}.{action}: {called}{place}"
             yield from _indented(_modifier(modifier) for modifier in node.modifiers)
             yield from _indented(_limits(node.duration, node.until))
+        case InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):
+            who = f"{show(actor)}." if actor is not None else ""
+            yield f"InvokeScenario {who}{scenario}({_arguments(arguments)}){place}"
+            yield from _indented(_limits(node.duration, node.until))
         case Wait(trigger=trigger):
             yield f"Wait {_trigger(trigger)}{place}"
         case Emit(event=event, arguments=arguments):
@@ -152,7 +167,7 @@ def _behavior(node: Behavior) -> Iterator[str]:
 
 
 def _composition_details(node: Serial | Parallel | OneOf) -> Iterator[str]:
-    if isinstance(node, Parallel) and node.overlap != "start":
+    if isinstance(node, Parallel) and node.overlap is not None:
         yield f"overlap {node.overlap}"
     yield from _limits(node.duration, node.until)
 
@@ -171,6 +186,8 @@ def _trigger(trigger: Trigger) -> str:
             parts.append(f"@{name}")
         case LabelEvent(label=label, moment=moment):
             parts.append(f"@{label}.{moment.value}")
+        case InnerEvent(label=label, name=name):
+            parts.append(f"@{label}.{name}")
         case None:
             pass
     if trigger.condition is not None:
@@ -210,8 +227,8 @@ def show(expression: Expression) -> str:
             return name
         case ScenarioSelf():
             return "it"
-        case ActorSelf():
-            return "actor"
+        case EventArgument(event=event, parameter=parameter):
+            return f"@{event}.{parameter}"
         case Attribute(base=base, name=name):
             return f"{show(base)}.{name}"
         case MethodCall(base=base, method=method, arguments=arguments):

@@ -84,9 +84,10 @@ class EnumValue(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FieldRef(ExpressionBase):
-    """A field of the scenario: actor, parameter, variable or struct."""
+    """A field of the scenario; `is_variable` if its value changes during a run."""
 
     name: str
+    is_variable: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -102,8 +103,11 @@ class ScenarioSelf(ExpressionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ActorSelf(ExpressionBase):
-    """`actor` of an actor-associated scenario."""
+class EventArgument(ExpressionBase):
+    """The value of a parameter in the occurrence of an event that is being looked at."""
+
+    event: str
+    parameter: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -191,7 +195,7 @@ Expression: TypeAlias = (
     | FieldRef
     | ParameterRef
     | ScenarioSelf
-    | ActorSelf
+    | EventArgument
     | Attribute
     | MethodCall
     | Unary
@@ -212,7 +216,7 @@ def children(expression: Expression) -> tuple[Expression, ...]:
             | FieldRef()
             | ParameterRef()
             | ScenarioSelf()
-            | ActorSelf()
+            | EventArgument()
         ):
             return ()
         case Attribute(base=base):
@@ -245,6 +249,7 @@ def walk(expression: Expression) -> tuple[Expression, ...]:
 def is_live(expression: Expression) -> bool:
     """Whether the value depends on the state of the world, so that it must be read late."""
     return any(
-        isinstance(part, MethodCall) or (isinstance(part, Attribute) and part.is_variable)
+        isinstance(part, MethodCall | EventArgument)
+        or (isinstance(part, Attribute | FieldRef) and part.is_variable)
         for part in walk(expression)
     )

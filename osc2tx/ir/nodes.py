@@ -61,20 +61,40 @@ class Parameter(DeclarationBase):
         value: Its value (`is_fixed`) or default.
         domain: The values it may take; drawn from where there is no default.
         is_fixed: A hard constraint leaves no other value.
+        is_global: One value for all scenarios of a run.
     """
 
     type: ValueType
     value: Expression | None
     domain: RangeValue | None
     is_fixed: bool
+    is_global: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Sample:
+    """When a variable takes a new value, and which."""
+
+    expression: Expression
+    trigger: Trigger
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Variable(DeclarationBase):
-    """A value that may change during a run."""
+    """A value that may change during a run: at its samples, if it has any."""
 
     type: ValueType
-    value: Expression
+    value: Expression | None
+    sample: Sample | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MethodParameter:
+    """A parameter of a method or event."""
+
+    name: str
+    type: ValueType
+    default: Expression | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -83,15 +103,7 @@ class Event(DeclarationBase):
 
     trigger: Trigger | None
     is_implicit: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MethodParameter:
-    """A parameter of a method."""
-
-    name: str
-    type: ValueType
-    default: Expression | None
+    parameters: tuple[MethodParameter, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -120,6 +132,16 @@ class Placement:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Override:
+    """`override(overridden, by, mode)` (§7.3.12.1.1); the first two are labels."""
+
+    span: Span
+    overridden: str
+    by: str
+    mode: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Scenario:
     """A scenario, ready to be written down by a backend.
 
@@ -131,6 +153,8 @@ class Scenario:
         placements: Initial placement, in source order.
         body: Its `do` tree.
         end_comments: Comment lines below its last member.
+        overrides: Which labelled members end which others.
+        is_imported: It stands here because a scenario of the file invokes it.
     """
 
     name: str
@@ -141,6 +165,13 @@ class Scenario:
     placements: tuple[Placement, ...]
     body: Behavior
     end_comments: tuple[str, ...] = ()
+    overrides: tuple[Override, ...] = ()
+    is_imported: bool = False
+
+    @property
+    def key(self) -> str:
+        """Tell the scenario apart from others of the same name."""
+        return f"{self.span.source.name}:{self.span.start}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -13,7 +13,9 @@ from osc2tx.ir.behaviors import (
     Emit,
     EventRef,
     Every,
+    InnerEvent,
     Invoke,
+    InvokeScenario,
     LabelEvent,
     Level,
     ModifierCall,
@@ -43,7 +45,7 @@ def verify(module: Module) -> None:
         InternalCompilerError: A name is declared twice or not at all, a value is used before
             its declaration, a composition is empty, a reference dangles.
     """
-    _require_unique((s.name for s in module.scenarios), f"scenarios of {module.source}")
+    _require_unique((s.key for s in module.scenarios), f"scenarios of {module.source}")
     for scenario in module.scenarios:
         _ScenarioVerifier(scenario).run()
 
@@ -99,8 +101,16 @@ class _ScenarioVerifier:
                     for expression in (value, domain):
                         if expression is not None:
                             self.check_expression(expression, declared)
-                case Variable(value=value):
-                    self.check_expression(value, declared)
+                case Variable(value=value, sample=sample):
+                    self.require(
+                        value is not None or sample is not None,
+                        f"variable {declaration.name!r} without value and sample",
+                    )
+                    if value is not None:
+                        self.check_expression(value, declared)
+                    if sample is not None:
+                        self.check_expression(sample.expression)
+                        self.check_trigger(sample.trigger)
                 case Event(trigger=trigger):
                     if trigger is not None:
                         self.check_trigger(trigger)
@@ -129,6 +139,12 @@ class _ScenarioVerifier:
                 for modifier in node.modifiers:
                     self.check_modifier(modifier)
                 self.check_limits(node.duration, node.until)
+            case InvokeScenario():
+                for argument in node.arguments:
+                    self.check_expression(argument.value)
+                if node.actor is not None:
+                    self.check_expression(node.actor)
+                self.check_limits(node.duration, node.until)
             case Wait(trigger=trigger):
                 self.check_trigger(trigger)
             case Emit(event=event):
@@ -156,7 +172,7 @@ class _ScenarioVerifier:
         match trigger.event:
             case EventRef():
                 self.check_event(trigger.event)
-            case LabelEvent(label=label):
+            case LabelEvent(label=label) | InnerEvent(label=label):
                 self.require(label in self.labels, f"reference to label {label!r}")
             case None:
                 pass

@@ -20,6 +20,7 @@ from osc2tx.lowering.names import (
 )
 from osc2tx.lowering.triggers import declares_event, lower_trigger
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
 
 
@@ -172,21 +173,18 @@ class BehaviorLowering:
                 case ast.KeepConstraint() | ast.RemoveDefault():
                     self._ctx.unsupported("OSC502", member.span, "constraint of a composition")
 
-    def _invocation(self, node: ast.Invocation, comments: tuple[str, ...]) -> ir.Invoke | None:
+    def _invocation(
+        self, node: ast.Invocation, comments: tuple[str, ...]
+    ) -> ir.Invoke | ir.InvokeScenario | None:
         binding = self._ctx.model.binding_of(node)
         callee = binding.callee
-        if not isinstance(callee, sym.ActionSymbol) or callee.actor is None:
-            self._ctx.unsupported(
-                "OSC504", node.span, f"scenario `{node.behavior}` cannot be invoked yet"
-            )
-            return None
-        if binding.receiver is None:
+        actor = self._actor(node, binding)
+        if isinstance(callee, sym.ScenarioSymbol):
+            return self._scenario(node, callee, actor, comments)
+        if not isinstance(callee, sym.ActionSymbol) or callee.actor is None or actor is None:
             self._ctx.unsupported(
                 "OSC504", node.span, "an action without actor is not supported yet"
             )
-            return None
-        actor = lower_expression(self._ctx, binding.receiver)
-        if actor is None:
             return None
         arguments = lower_arguments(self._ctx, binding, node.arguments)
         arguments += self._kept_arguments(node.with_members)
@@ -195,7 +193,7 @@ class BehaviorLowering:
             span=node.span,
             label=_label(node),
             name=invocation_name(
-                binding.receiver.span.text,
+                actor.name if isinstance(actor, ir.FieldRef) else actor.span.text,
                 callee.name,
                 [*(a.span.text for a in node.arguments), *(m.span.text for m in written)],
             ),
@@ -205,6 +203,45 @@ class BehaviorLowering:
             action=callee.name,
             arguments=tuple(a for a in arguments if a.parameter != "duration"),
             modifiers=self._modifiers(node.with_members),
+            duration=next((a.value for a in arguments if a.parameter == "duration"), None),
+            until=self._until(node.with_members),
+        )
+
+    def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
+        """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        if binding.receiver is not None:
+            return lower_expression(self._ctx, binding.receiver)
+        callee = binding.callee
+        if not isinstance(callee, sym.ScenarioSymbol | sym.ActionSymbol) or callee.actor is None:
+            return None
+        type_ = ir.ValueType(ir.Kind.ACTOR, callee.actor.name)
+        return ir.FieldRef(span=node.span, type=type_, name="actor")
+
+    def _scenario(
+        self,
+        node: ast.Invocation,
+        callee: sym.ScenarioSymbol,
+        actor: ir.Expression | None,
+        comments: tuple[str, ...],
+    ) -> ir.InvokeScenario:
+        self._ctx.invoked.append(callee)
+        arguments = lower_arguments(
+            self._ctx, self._ctx.model.binding_of(node), node.arguments
+        ) + self._kept_arguments(node.with_members)
+        for modifier in self._modifiers(node.with_members):
+            self._ctx.unsupported(
+                "OSC508", modifier.span, f"modifier `{modifier.name}` of an invoked scenario"
+            )
+        span = callee.node.name.span
+        return ir.InvokeScenario(
+            span=node.span,
+            label=_label(node),
+            name=statement_name(node.span),
+            comments=comments,
+            scenario=callee.qualified_name,
+            key=f"{span.source.name}:{span.start}",
+            actor=actor,
+            arguments=tuple(a for a in arguments if a.parameter != "duration"),
             duration=next((a.value for a in arguments if a.parameter == "duration"), None),
             until=self._until(node.with_members),
         )
@@ -289,5 +326,5 @@ def _is_until(member: ast.WithMember) -> bool:
     return isinstance(member, ast.UntilDirective)
 
 
-def _overlap(value: ast.Expression | None) -> str:
-    return "start" if value is None else value.span.text
+def _overlap(value: ast.Expression | None) -> str | None:
+    return None if value is None else value.span.text

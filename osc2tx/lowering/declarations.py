@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
@@ -50,7 +51,10 @@ class DeclarationLowering:
             for name in missing:  # one global may be defined by another
                 symbol = self._ctx.globals[name]
                 lowered[name] = self._parameter(symbol, symbol.span, self._global_comments(symbol))
-        return present(list(reversed(lowered.values())))
+        return tuple(
+            replace(parameter, is_global=True)
+            for parameter in present(list(reversed(lowered.values())))
+        )
 
     def _global_comments(self, symbol: sym.FieldSymbol) -> tuple[str, ...]:
         statements = (s for file in self._ctx.model.files for s in file.statements)
@@ -101,7 +105,7 @@ class DeclarationLowering:
                     span=name.span,
                     comments=comments,
                     type=actor.name,
-                    lineage=_lineage(actor),
+                    lineage=lineage(actor),
                     values=self._values(symbol),
                 )
             case types.StructType(symbol=struct):
@@ -160,9 +164,7 @@ class DeclarationLowering:
         value: ir.Expression | None = None
         domain: ir.RangeValue | None = None
         is_fixed = False
-        if isinstance(field.default, ast.SampleExpression):
-            self._ctx.unsupported("OSC501", field.default.span, "`sample` is not supported yet")
-        elif field.default is not None:
+        if field.default is not None and not isinstance(field.default, ast.SampleExpression):
             value = lower_expression(self._ctx, field.default)
         for bound in self._bounds(field):
             comments = (*comments, *bound.comments)
@@ -193,17 +195,26 @@ class DeclarationLowering:
     def _variable(
         self, field: sym.FieldSymbol, node: ast.VariableDeclaration, comments: tuple[str, ...]
     ) -> ir.Variable | None:
-        if node.default is None or isinstance(node.default, ast.SampleExpression):
-            reason = "`sample`" if node.default is not None else "a variable without initial value"
-            self._ctx.unsupported("OSC501", node.span, f"{reason} is not supported yet")
+        if node.default is None:
+            self._ctx.unsupported(
+                "OSC501", node.span, "a variable without initial value is not supported yet"
+            )
             return None
-        value = lower_expression(self._ctx, node.default)
-        if value is None:
+        sample = None
+        initial: ast.Expression | None
+        if isinstance(node.default, ast.SampleExpression):
+            sample, initial = self._sample(node.default), node.default.default
+            if sample is None:
+                return None
+        else:
+            initial = node.default
+        value = None if initial is None else lower_expression(self._ctx, initial)
+        if initial is not None and value is None:
             return None
-        if ir.is_live(value):
+        if value is not None and ir.is_live(value):
             self._ctx.unsupported(
                 "OSC501",
-                node.default.span,
+                value.span,
                 "the initial value of a variable cannot depend on the state of the world",
             )
             return None
@@ -213,7 +224,15 @@ class DeclarationLowering:
             comments=comments,
             type=lower_type(field.type),
             value=value,
+            sample=sample,
         )
+
+    def _sample(self, node: ast.SampleExpression) -> ir.Sample | None:
+        trigger = lower_trigger(self._ctx, node.event)
+        expression = lower_expression(self._ctx, node.expression)
+        if trigger is None or expression is None:
+            return None
+        return ir.Sample(expression=expression, trigger=trigger)
 
     def _method(self, node: ast.MethodDeclaration) -> ir.Method | None:
         symbol = self._scenario_member(node.name.text)
@@ -242,11 +261,8 @@ class DeclarationLowering:
         )
 
     def _event(self, node: ast.EventDeclaration) -> ir.Event | None:
-        if node.parameters:
-            self._ctx.unsupported(
-                "OSC501", node.span, "an event with parameters is not supported yet"
-            )
-            return None
+        symbol = self._scenario_member(node.name.text)
+        parameters = symbol.parameters if isinstance(symbol, sym.EventSymbol) else ()
         trigger = None
         if node.specification is not None:
             trigger = lower_trigger(self._ctx, node.specification)
@@ -258,6 +274,7 @@ class DeclarationLowering:
             comments=statement_comments(node),
             trigger=trigger,
             is_implicit=False,
+            parameters=tuple(self._method_parameter(p) for p in parameters),
         )
 
     def _implicit_events(self) -> Iterator[ir.Event]:
@@ -267,7 +284,8 @@ class DeclarationLowering:
                 yield ir.Event(name=member.name, span=member.span, trigger=None, is_implicit=True)
 
 
-def _lineage(actor: sym.ActorSymbol) -> tuple[str, ...]:
+def lineage(actor: sym.ActorSymbol) -> tuple[str, ...]:
+    """Return an actor type and its ancestors, most derived first."""
     names = []
     current: sym.ActorSymbol | None = actor
     while current is not None:

@@ -9,10 +9,11 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
 
-# (modifier, parameter) -> its default in the standard, and the parameters it gives meaning to.
-STANDARD_DEFAULTS: dict[tuple[str, str], tuple[str | None, frozenset[str]]] = {
-    ("lane", "from"): ("right", frozenset({"lane"})),
-    ("position", "frame"): (None, frozenset({"x", "y", "z", "h"})),
+# (modifier, parameter) -> its default in the standard, the parameters it gives meaning to, and
+# those that take its meaning away.
+STANDARD_DEFAULTS: dict[tuple[str, str], tuple[str | None, frozenset[str], frozenset[str]]] = {
+    ("lane", "from"): ("right", frozenset({"lane"}), frozenset({"same_as", "side_of"})),
+    ("position", "frame"): (None, frozenset({"x", "y", "z", "h"}), frozenset()),
 }
 
 
@@ -24,8 +25,10 @@ def dialect_defaults(
         return ()
     names = {argument.parameter for argument in given}
     defaults = []
-    for (modifier, parameter), (standard, companions) in STANDARD_DEFAULTS.items():
-        if modifier != callee.name or parameter in names or not companions & names:
+    for (modifier, parameter), (standard, companions, rivals) in STANDARD_DEFAULTS.items():
+        if modifier != callee.name or parameter in names:
+            continue
+        if not companions & names or rivals & names:
             continue
         value = _default(callee.members.get(parameter), span)
         if value is not None and _text(value) != standard:

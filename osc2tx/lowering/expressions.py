@@ -94,9 +94,10 @@ def _lower_name(
             enum_type = ir.ValueType(ir.Kind.ENUM, enum.name)
             return ir.EnumValue(span=node.span, type=enum_type, member=name, value=value)
         case sym.FieldSymbol(node=None, name="actor"):
-            return ir.ActorSelf(span=node.span, type=type_)
-        case sym.FieldSymbol(owner=sym.ScenarioSymbol(), name=name):
-            return ir.FieldRef(span=node.span, type=type_, name=name)
+            return ir.FieldRef(span=node.span, type=type_, name="actor")
+        case sym.FieldSymbol(owner=sym.ScenarioSymbol(), name=name) as own:
+            changes = isinstance(own.default, ast.SampleExpression)
+            return ir.FieldRef(span=node.span, type=type_, name=name, is_variable=changes)
         case sym.FieldSymbol(owner=None, name=name) as shared if shared.node is not None:
             ctx.globals.setdefault(name, shared)
             return ir.FieldRef(span=node.span, type=type_, name=name)
@@ -114,6 +115,9 @@ def _lower_member(
     name: ast.Name,
     type_: ir.ValueType,
 ) -> ir.Expression | None:
+    event = ctx.event_fields.get(id(ctx.model.symbol_of(base)))
+    if event is not None:
+        return ir.EventArgument(span=node.span, type=type_, event=event, parameter=name.text)
     field = ctx.model.symbol_of(node)
     if not isinstance(field, sym.FieldSymbol):
         ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
@@ -126,7 +130,7 @@ def _lower_member(
         type=type_,
         base=lowered,
         owner=field.owner.name if field.owner is not None else "",
-        name=name.text,
+        name=field.name,  # not as written: a dialect may know it by another name
         is_variable=field.is_variable,
     )
 

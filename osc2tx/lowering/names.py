@@ -57,7 +57,9 @@ def _actors(node: ir.Behavior) -> Iterable[str]:
         case ir.Serial() | ir.Parallel() | ir.OneOf():
             for member in node.members:
                 yield from _actors(member)
-        case ir.Invoke(actor=ir.FieldRef(name=name)):
+        case ir.Invoke(actor=ir.FieldRef(name=name)) | ir.InvokeScenario(
+            actor=ir.FieldRef(name=name)
+        ):
             yield name
         case _:
             return
@@ -67,6 +69,8 @@ def _verb(node: ir.Behavior) -> str | None:
     match node:
         case ir.Invoke(action=action):
             return action
+        case ir.InvokeScenario(scenario=scenario):
+            return scenario.rpartition(".")[2]
         case ir.Wait():
             return "wait"
         case ir.Emit():

@@ -66,7 +66,7 @@ class PlacementLowering:
                 return self._composition(node, members)
             case ir.Invoke():
                 return self._lift(node) if is_start else self._refuse_start(node)
-            case ir.Wait() | ir.Emit() | ir.On():
+            case ir.InvokeScenario() | ir.Wait() | ir.Emit() | ir.On():
                 return node
 
     def _serial_members(self, node: ir.Serial, *, is_start: bool) -> Iterator[ir.Behavior | None]:
@@ -119,5 +119,5 @@ def is_instant(node: ir.Behavior) -> bool:
             return action in INSTANT
         case ir.Emit():
             return True
-        case ir.Wait() | ir.On():
+        case ir.InvokeScenario() | ir.Wait() | ir.On():
             return False

@@ -8,7 +8,8 @@ from osc2tx import ir
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.lowering.behaviors import BehaviorLowering, lower_modifier
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
-from osc2tx.lowering.declarations import DeclarationLowering
+from osc2tx.lowering.declarations import DeclarationLowering, lineage
+from osc2tx.lowering.ordering import in_order_of_use
 from osc2tx.lowering.placement import PlacementLowering
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import SemanticModel
@@ -17,14 +18,26 @@ from osc2tx.syntax import ast
 
 
 def lower(model: SemanticModel, options: CompileOptions, sink: DiagnosticSink) -> ir.Module:
-    """Lower the scenarios of the root file; what is refused is reported and left out."""
-    lowered = [_lower_scenario(LoweringContext(model, sink), s) for s in model.scenarios]
+    """Lower the scenarios of the root file, and imported ones that they invoke.
+
+    What is refused is reported and left out.
+    """
+    lowered: dict[int, ir.Scenario | None] = {}
+    pending = list(model.scenarios)
+    while pending:
+        scenario = pending.pop(0)
+        if id(scenario) in lowered:
+            continue
+        ctx = LoweringContext(model, sink)
+        is_imported = scenario not in model.scenarios
+        lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)
+        pending.extend(ctx.invoked)
     return ir.Module(
         source=model.root.span.source.name,
         standard=options.standard,
         dialect=options.dialect,
         one_of=options.one_of,
-        scenarios=present(lowered),
+        scenarios=present(list(lowered.values())),
         comments=_head_comments(model.root),
     )
 
@@ -39,13 +52,10 @@ def _head_comments(file: ast.File) -> tuple[str, ...]:
     return tuple(line for s in statements for line in statement_comments(s))
 
 
-def _lower_scenario(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ir.Scenario | None:
+def _lower_scenario(
+    ctx: LoweringContext, scenario: sym.ScenarioSymbol, *, is_imported: bool
+) -> ir.Scenario | None:
     node = scenario.node
-    if scenario.actor is not None:
-        ctx.unsupported(
-            "OSC504", node.name.span, f"scenario `{node.name}` of an actor is not supported yet"
-        )
-        return None
     statements = _statements(scenario)
     lowering = DeclarationLowering(ctx, scenario, statements)
     declarations = lowering.lower()
@@ -57,15 +67,28 @@ def _lower_scenario(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ir.Sc
     if body is None:
         body = _nothing_left(scenario)
     return ir.Scenario(
-        name=scenario.name,
+        name=scenario.qualified_name,
         span=node.name.span,
         comments=statement_comments(node),
-        declarations=(*lowering.lower_globals(), *declarations),
+        declarations=in_order_of_use(
+            ctx, (*_own_actor(scenario), *lowering.lower_globals(), *declarations, *ctx.drawn)
+        ),
         methods=methods,
         placements=(*_member_placements(ctx, statements), *placements),
         body=body,
         end_comments=node.end_comments,
+        overrides=_overrides(ctx, statements),
+        is_imported=is_imported,
     )
+
+
+def _own_actor(scenario: sym.ScenarioSymbol) -> tuple[ir.Actor, ...]:
+    """Return the implicit field `actor` of a scenario of an actor; its invoker fills it in."""
+    if scenario.actor is None:
+        return ()
+    span = scenario.node.name.span
+    names = lineage(scenario.actor)
+    return (ir.Actor(name="actor", span=span, type=names[0], lineage=names, values=()),)
 
 
 def _statements(scenario: sym.ScenarioSymbol) -> tuple[ast.Statement, ...]:
@@ -139,6 +162,8 @@ def _member_placements(
     for statement in statements:
         if not isinstance(statement, ast.ModifierApplication):
             continue
+        if is_override(ctx, statement):
+            continue
         modifier = lower_modifier(ctx, statement)
         target = statement.actor and ctx.model.symbol_of(statement.actor)
         if modifier.name != "location" or not isinstance(target, sym.FieldSymbol):
@@ -167,3 +192,32 @@ def _nothing_left(scenario: sym.ScenarioSymbol) -> ir.Behavior:
     elapsed = ir.Elapsed(span=zero.span, duration=zero)
     trigger = ir.Trigger(span=zero.span, event=None, condition=elapsed)
     return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)
+
+
+def is_override(ctx: LoweringContext, node: ast.ModifierApplication) -> bool:
+    """Whether a modifier is the language's own `override`."""
+    callee = ctx.model.binding_of(node).callee
+    return callee.origin == "builtin" and callee.name == "override"
+
+
+def _overrides(
+    ctx: LoweringContext, statements: tuple[ast.Statement, ...]
+) -> tuple[ir.Override, ...]:
+    """Lower `override(overridden, by, mode)`; both must be labels of the scenario."""
+    overrides = []
+    for statement in statements:
+        if not isinstance(statement, ast.ModifierApplication) or not is_override(ctx, statement):
+            continue
+        given = {p.name: value for p, value in ctx.model.binding_of(statement).arguments}
+        labels = [
+            ctx.model.symbol_of(given[name]) for name in ("overridden", "by") if name in given
+        ]
+        names = [label.name for label in labels if isinstance(label, sym.LabelSymbol)]
+        if len(names) < 2:
+            ctx.unsupported("OSC508", statement.span, "`override` needs two labels")
+            continue
+        mode = given["mode"].span.text if "mode" in given else "on_start"
+        overrides.append(
+            ir.Override(span=statement.span, overridden=names[0], by=names[1], mode=mode)
+        )
+    return tuple(overrides)

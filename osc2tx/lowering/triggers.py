@@ -17,17 +17,21 @@ def lower_trigger(
     ctx: LoweringContext, node: ast.EventSpecification, comments: tuple[str, ...] = ()
 ) -> ir.Trigger | None:
     """Lower an event specification; `None` if a part of it was refused."""
-    if node.field is not None:
-        ctx.unsupported("OSC506", node.field.span, "`as` of an event is not supported yet")
-        return None
     event = None if node.event is None else _lower_event(ctx, node.event)
+    if node.field is not None:
+        if not isinstance(event, ir.EventRef):
+            ctx.unsupported("OSC506", node.field.span, "`as` is not supported for this event yet")
+            return None
+        ctx.event_fields[id(ctx.model.symbol_of(node.field))] = event.name
     condition = None if node.condition is None else _lower_condition(ctx, node.condition)
     if (node.event is None) != (event is None) or (node.condition is None) != (condition is None):
         return None
     return ir.Trigger(span=node.span, event=event, condition=condition, comments=comments)
 
 
-def _lower_event(ctx: LoweringContext, path: ast.Expression) -> ir.EventRef | ir.LabelEvent | None:
+def _lower_event(
+    ctx: LoweringContext, path: ast.Expression
+) -> ir.EventRef | ir.LabelEvent | ir.InnerEvent | None:
     symbol = ctx.model.symbol_of(path)
     if isinstance(path, ast.MemberAccess) and path.name.text in MOMENTS:
         base = ctx.model.symbol_of(path.base)
@@ -42,6 +46,10 @@ def _lower_event(ctx: LoweringContext, path: ast.Expression) -> ir.EventRef | ir
         if isinstance(base, sym.LabelSymbol):
             moment = MOMENTS[path.name.text]
             return ir.LabelEvent(span=path.span, label=base.name, moment=moment)
+    if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.MemberAccess):
+        label = ctx.model.symbol_of(path.base)
+        if isinstance(label, sym.LabelSymbol) and isinstance(symbol.owner, sym.ScenarioSymbol):
+            return ir.InnerEvent(span=path.span, label=label.name, name=symbol.name)
     if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
         if not declares_event(symbol):
             ctx.unsupported("OSC506", path.span, f"`@{symbol.name}` cannot be waited for yet")
@@ -62,6 +70,7 @@ def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condi
             rising = isinstance(node, ast.RiseCondition)
             return ir.Edge(span=node.span, rising=rising, expression=main)
         case ast.ElapsedCondition():
+            main = ctx.draw(main) if isinstance(main, ir.RangeValue) else main
             return ir.Elapsed(span=node.span, duration=main)
         case ast.EveryCondition(offset=offset):
             shift = None if offset is None else lower_expression(ctx, offset)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
 from osc2tx.semantics.resolution import Environment, Resolution
+from osc2tx.semantics.runner import reads_as_quantity
 from osc2tx.semantics.types import (
     BOOL,
     ERROR,
@@ -30,6 +31,8 @@ def check_value(
 ) -> Type:
     """Type an expression, and report it if it does not fit the target type."""
     source = r.type_of(expression, env, target)
+    if reads_as_quantity(r, expression, target, env):
+        r.types[expression] = source = target
     check_fits(r, expression, source, target, what, allow_range=allow_range)
     return source
 

@@ -11,7 +11,7 @@ from osc2tx.semantics.builtins import COMPOSITION, COMPOSITION_FIELDS, DIRECTIVE
 from osc2tx.semantics.constraints import check_keep, check_remove_default
 from osc2tx.semantics.conversions import type_of_owner
 from osc2tx.semantics.events import check_event, resolve_event_name
-from osc2tx.semantics.expressions.methods import resolve_call
+from osc2tx.semantics.expressions.methods import resolve_call, type_itself
 from osc2tx.semantics.modifiers import check_modifier
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
 from osc2tx.semantics.resolve_types import choose, find_behavior, report_unknown_behavior
@@ -163,7 +163,7 @@ def resolve_invocation(
     if node.behavior in r.invoked:
         return r.invoked[node.behavior]
     if node.actor is not None:
-        type_ = r.type_of(node.actor, env)
+        type_ = type_itself(r, node.actor, node.behavior, env) or r.type_of(node.actor, env)
         found = _find_of_actor(r, node, type_, env)
     else:
         found = _find_without_actor(r, node.behavior, env)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from osc2tx.diagnostics import Span
+from osc2tx.semantics.aliases import parameter_alias, standard_parameter, write_instead
 from osc2tx.semantics.assign import check_value
 from osc2tx.semantics.builtins import DURATION
 from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
@@ -48,7 +49,7 @@ def bind_behavior(
 
 def bind_call(
     r: Resolution,
-    node: ast.Call | ast.CallDirective | ast.EmitDirective,
+    node: ast.Call | ast.CallDirective | ast.EmitDirective | ast.ModifierApplication,
     callee: MethodSymbol | EventSymbol,
     receiver: ast.Expression | None,
     span: Span,
@@ -101,17 +102,22 @@ def _match(
     """Pair arguments with parameters in source order; report what does not pair."""
     pairs: list[tuple[Parameter, ast.Expression]] = []
     taken: set[Parameter] = set()
+    implied: list[tuple[Parameter, ast.Expression]] = []
     unknown: list[ast.Name] = []
     for index, argument in enumerate(arguments):
         parameter: Parameter | None
         if argument.name is not None:
             parameter = _find_named(r, argument.name, parameters, callee, env)
             if parameter is None:
+                parameter = _find_alias(r, argument.name, parameters, callee, implied)
+            if parameter is None:
                 unknown.append(argument.name)
         else:
             parameter = parameters[index] if index < len(parameters) else None
             if parameter is None:
                 _report_too_many(r, argument, parameters, callee)
+            else:
+                _note_prelude(r, parameter, callee, argument.span)
         if parameter is None:
             type_arguments(r, [argument], env)
         elif parameter in taken:
@@ -121,7 +127,33 @@ def _match(
             taken.add(parameter)
             pairs.append((parameter, argument.value))
     _report_unknown(r, unknown, parameters, callee)
+    for parameter, value in implied:
+        if parameter in taken:
+            r.report("OSC403", value.span, f"`{parameter.name}` is given twice")
+        else:
+            taken.add(parameter)
+            pairs.append((parameter, value))
     return tuple(pairs)
+
+
+def _find_alias(
+    r: Resolution,
+    name: ast.Name,
+    parameters: Sequence[Parameter],
+    callee: Symbol,
+    implied: list[tuple[Parameter, ast.Expression]],
+) -> Parameter | None:
+    """Return the parameter that another name stands for; add what the name implies."""
+    named = {p.name: p for p in parameters}
+    alias = parameter_alias(r, callee, name, named)
+    if alias is None:
+        return None
+    if alias.implied is not None:
+        parameter, member = alias.implied
+        value = ast.NameExpression(span=name.span, name=ast.Name(span=name.span, text=member))
+        implied.append((named[parameter], value))
+    r.references[name] = named[alias.parameter]
+    return named[alias.parameter]
 
 
 def _report_too_many(
@@ -152,15 +184,19 @@ def _find_named(
         return None
     parameter = named[0]
     r.references[name] = parameter
+    _note_prelude(r, parameter, callee, name.span)
+    return parameter
+
+
+def _note_prelude(r: Resolution, parameter: Parameter, callee: Symbol, span: Span) -> None:
     if parameter.origin == "prelude" and callee.origin == "library":
         r.relaxes(
             "OSC608",
-            name.span,
+            span,
             f"parameter `{parameter.name}` of `{callee.name}` belongs to dialect "
             f"`{r.relaxations.dialect.name}`, not to the standard library",
             key=callee.name,
         )
-    return parameter
 
 
 def _report_unknown(
@@ -179,7 +215,11 @@ def _report_unknown(
             "OSC402",
             name.span,
             f"`{callee.name}` has no parameter `{name}`",
-            help=did_you_mean(name.text, [p.name for p in parameters]),
+            help=(
+                write_instead(alias.written_out)
+                if (alias := standard_parameter(callee, name))
+                else did_you_mean(name.text, [p.name for p in parameters])
+            ),
             labels=declared_here(callee),
         )
 

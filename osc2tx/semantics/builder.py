@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from collections import ChainMap
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
 from osc2tx.semantics.dialects import Dialect, Relaxations
@@ -20,9 +18,8 @@ from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
+from osc2tx.stack import room_for_trees
 from osc2tx.syntax import ast
-
-RECURSION_LIMIT = 5_000
 
 
 @dataclass(slots=True, eq=False)
@@ -43,7 +40,7 @@ class ModelBuilder:
 
     def build(self, root: ast.File) -> SemanticModel:
         """Check the program that starts at a file."""
-        with _room_for_nesting():
+        with room_for_trees():
             try:
                 return self._build(root)
             except RecursionError:
@@ -84,17 +81,6 @@ class ModelBuilder:
         unprefixed = walk.is_legacy or self.dialect.unprefixed_library
         uses = LIBRARY_NAMESPACES if unprefixed else ()
         return resolution, Collector(scope, self.sink, relaxations, null_uses=uses)
-
-
-@contextmanager
-def _room_for_nesting() -> Iterator[None]:
-    """Allow for the deepest nesting that the syntax does: about ten calls for each level."""
-    limit = sys.getrecursionlimit()
-    sys.setrecursionlimit(max(limit, RECURSION_LIMIT))
-    try:
-        yield
-    finally:
-        sys.setrecursionlimit(limit)
 
 
 def _is_extension(statement: ast.FileStatement) -> bool:

@@ -11,6 +11,7 @@ from osc2tx.semantics.coverage import check_coverage
 from osc2tx.semantics.events import check_event
 from osc2tx.semantics.modifiers import check_modifier
 from osc2tx.semantics.resolution import Environment, Resolution
+from osc2tx.semantics.runner import note_runner_event
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -126,7 +127,7 @@ def _check_field(
                 check_value(r, sample.default, type_, env, what)
         case expression:
             check_value(r, expression, type_, env, what)
-    if isinstance(node, ast.VariableDeclaration):
+    if isinstance(node, ast.VariableDeclaration) or not node.constraints:
         return
     inner = env.with_it(type_)
     for constraint in node.constraints:
@@ -140,6 +141,7 @@ def _check_field(
 
 
 def _check_event_declaration(r: Resolution, node: ast.EventDeclaration, env: Environment) -> None:
+    note_runner_event(r, node)
     symbol = env.owner.members.get(node.name.text) if env.owner else None
     for index, parameter in enumerate(node.parameters):
         if parameter.default is not None and isinstance(symbol, EventSymbol):

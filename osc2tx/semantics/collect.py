@@ -6,12 +6,14 @@ Nothing is looked up here except namespaces; types, bases and actors are names u
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import field
 from typing import assert_never
 
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.members import Basics, make_field, members_of
+from osc2tx.semantics.repeats import Repeats
 from osc2tx.semantics.scope import NULL, Context, NamedSymbol, Scope
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -51,6 +53,11 @@ class Collector:
     relaxations: Relaxations
     origin: str = "user"
     null_uses: tuple[str, ...] = ()
+    _repeats: Repeats = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Make the judge of repeated declarations."""
+        self._repeats = Repeats(self.sink, self.relaxations)
 
     def collect_file(self, file: ast.File) -> None:
         """Define everything that a file declares."""
@@ -116,6 +123,10 @@ class Collector:
                 struct = StructSymbol(**self._basics(node.name, context), condition=node.condition)
                 self._define_type(struct, node)
                 self.collect_body(struct, node.members, context)
+            case ast.ActorDeclaration() if self._repeats.actor(node, self.scope):
+                pass
+            case ast.ModifierDeclaration() if self._repeats.modifier(node, self.scope):
+                pass
             case ast.ActorDeclaration():
                 actor = ActorSymbol(**self._basics(node.name, context), condition=node.condition)
                 self._define_type(actor, node)
@@ -152,7 +163,8 @@ class Collector:
         """Report a name that its namespace has already; the first definition stays in force."""
         for other in others:
             if other.namespace == symbol.namespace:
-                report_duplicate(self.sink, symbol, other)
+                if not self._repeats.physical_type(symbol, other):
+                    report_duplicate(self.sink, symbol, other)
                 return False
         return True
 
@@ -168,7 +180,8 @@ class Collector:
         )
         self._define(symbol, node)
         if earlier := self.scope.unit_named(symbol.name):
-            report_duplicate(self.sink, symbol, earlier)
+            if not self._repeats.unit(symbol, dimension_of(node.exponents), earlier):
+                report_duplicate(self.sink, symbol, earlier)
             return
         self.scope.units[symbol.name] = symbol
 

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
+from typing import TYPE_CHECKING
+
+from osc2tx.light_dataclass import dataclass
+
+if TYPE_CHECKING:
+    from osc2tx.semantics.symbols import UnitSymbol
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,13 +32,14 @@ class Dialect:
 
 
 LIBRARY_FILES = frozenset({"domain.osc", "types.osc", "standard.osc"})
+RUNNER_FILE = "basic.osc"  # where ScenarioRunner declares its types; stands for the prelude
 
 ASAM = Dialect("asam")
 CARLA = Dialect(
     "carla",
     prelude="dialects/carla.osc",
-    relaxed=frozenset(f"OSC60{digit}" for digit in range(1, 10)),
-    library_files=LIBRARY_FILES,
+    relaxed=frozenset({"OSC111", *(f"OSC{number}" for number in range(601, 622))}),
+    library_files=LIBRARY_FILES | {RUNNER_FILE},
     unprefixed_library=True,
 )
 DIALECTS: Mapping[str, Dialect] = {dialect.name: dialect for dialect in (ASAM, CARLA)}
@@ -54,6 +61,10 @@ PRELUDE_MEMBERS: Mapping[str, PreludeHint] = {
     ),
 }
 PRELUDE_PARAMETERS: Mapping[tuple[str, str], PreludeHint] = {
+    **{
+        (action, "path"): PreludeHint("carla", "the modifier `along()` names a route")
+        for action in ("drive", "walk")
+    },
     ("speed", "rate_profile"): PreludeHint("carla", "use `shape:` with a `common_speed_shape`"),
     ("speed", "rate_peak"): PreludeHint("carla", "use `shape:` with a `common_speed_shape`"),
     **{
@@ -69,6 +80,74 @@ PRELUDE_BEHAVIORS: Mapping[tuple[str, str], PreludeHint] = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class ParameterAlias:
+    """What another name of a parameter stands for.
+
+    Attributes:
+        parameter: The standard's parameter, which takes the value.
+        implied: A further parameter and the enum member that it gets.
+        note: What is easily misread about it.
+    """
+
+    parameter: str
+    implied: tuple[str, str] | None = None
+    note: str | None = None
+
+    @property
+    def written_out(self) -> str:
+        """How the standard writes it."""
+        further = f", {self.implied[0]}: {self.implied[1]}" if self.implied else ""
+        return f"{self.parameter}: …{further}"
+
+
+# Other names for what the standard has. Every dialect explains with them what to write instead;
+# one that relaxes OSC612 to OSC615 and OSC619 reads them as what they stand for.
+TYPE_ALIASES: Mapping[str, str] = {
+    "velocity": "speed",
+    "distance": "length",
+    "angular_speed": "angular_rate",
+}
+UNIT_ALIASES: Mapping[str, str] = {"kphps": "kmphps"}
+PARAMETER_ALIASES: Mapping[tuple[str, str], ParameterAlias] = {
+    **{
+        (modifier, f"{side}_of"): ParameterAlias("side_of", ("side", side))
+        for modifier in ("lane", "lateral")
+        for side in ("left", "right")
+    },
+    ("change_lane", "lane_changes"): ParameterAlias("lane"),
+    ("change_speed", "desired_speed"): ParameterAlias(
+        "speed", note="it is a change against the present speed, not the speed to reach"
+    ),
+    ("change_speed", "delta"): ParameterAlias("speed"),
+    ("assign_speed", "target"): ParameterAlias("speed"),
+    ("assign_acceleration", "target"): ParameterAlias("acceleration"),
+    ("assign_orientation", "target"): ParameterAlias("orientation"),
+    ("air", "atmospheric_pressure"): ParameterAlias("pressure"),
+    **{
+        (modifier, "measured_by"): ParameterAlias("measure_by")
+        for modifier in ("lateral", "yaw", "orientation")
+    },
+}
+ENUM_MEMBER_ALIASES: Mapping[tuple[str, str], str] = {("lane_change_side", "same_as"): "same"}
+MEMBER_ALIASES: Mapping[tuple[str, str], str] = {
+    **{
+        (owner, short): long
+        for owner in ("geodetic_position_2d", "geodetic_point")
+        for short, long in (("lat", "latitude"), ("lon", "longitude"))
+    },
+}
+BEHAVIOR_ALIASES: Mapping[tuple[str, str], str] = {("environment", "cloud"): "clouds"}
+
+# Names of events that ScenarioRunner raises itself, with the parameters that make them its own.
+RUNNER_EVENTS: Mapping[str, frozenset[str]] = {
+    "near_collision": frozenset({"other_car", "distance"}),
+    "drive_distance": frozenset({"other_car", "distance"}),
+}
+# Texts by which ScenarioRunner names a quantity of an actor, `"<actor>_speed"`: suffix to type.
+QUANTITY_TEXTS: Mapping[str, str] = {"_speed": "speed"}
+
+
 @dataclass(slots=True)
 class Relaxations:
     """What one run has relaxed so far; each kind is reported once per file.
@@ -76,10 +155,12 @@ class Relaxations:
     Attributes:
         dialect: The dialect in force.
         reported: File, code and key of the warnings that were given.
+        disputed: Units that a program declares again with another value.
     """
 
     dialect: Dialect
     reported: set[tuple[str, str, str]] = field(default_factory=set)
+    disputed: dict[str, UnitSymbol] = field(default_factory=dict)
 
     def is_new(self, code: str, file: str, key: str) -> bool:
         """Note a relaxation; whether it was not reported before."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import PurePosixPath
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
-from osc2tx.semantics.dialects import LIBRARY_FILES, Relaxations
+from osc2tx.light_dataclass import dataclass
+from osc2tx.semantics.dialects import LIBRARY_FILES, RUNNER_FILE, Relaxations
 from osc2tx.syntax import ast
 
 LoadFile = Callable[[ast.Import, SourceFile], ast.File | None]
@@ -59,12 +60,38 @@ class ImportWalk:
             self.is_legacy |= statement.module == LEGACY
             return
         name = ".".join(statement.module)
+        if statement.module[-1] == "osc" and len(statement.module) == 2:
+            self._import_unquoted(statement, name)
+            return
         if statement.module[:1] != ("osc",):
             imported = self.load(statement, statement.span.source)
             if imported is not None:
                 self._visit_once(imported)
                 return
         self._report(statement, f"no module `{name}`", "the standard library is `osc.standard.all`")
+
+    def _import_unquoted(self, statement: ast.Import, name: str) -> None:
+        """Import `name.osc`, as ScenarioRunner writes it; the library is taken for granted."""
+        source = statement.span.source
+        if "OSC617" not in self.relaxations.dialect.relaxed:
+            advice = f'to import a file write `import "{name}"`'
+            if name == RUNNER_FILE:
+                advice += "; for a scenario of ScenarioRunner check with `--dialect carla`"
+            self._report(statement, f"no module `{name}`", advice)
+            return
+        self.modules.add("all")
+        quoted = ast.Import(span=statement.span, uri=name, module=())
+        found = self.load(quoted, source)
+        if found is None or not self.relaxations.is_new("OSC617", source.name, name):
+            self._import_file(quoted, name, source)
+            return
+        self.sink.report(
+            "OSC617",
+            statement.span,
+            f'`import {name}` is taken for `import "{name}"`',
+            help=f'write `import "{name}"`',
+        )
+        self._visit_once(found)
 
     def _import_file(self, statement: ast.Import, uri: str, source: SourceFile) -> None:
         imported = self.load(statement, source)
@@ -75,10 +102,13 @@ class ImportWalk:
         if name in self.relaxations.dialect.library_files and "/" not in uri:
             self.modules.add("types" if name == "types.osc" else "all")
             if self.relaxations.is_new("OSC606", source.name, uri):
+                whole = "the standard library"
+                taken = f"the prelude of dialect `{self.relaxations.dialect.name}`"
                 self.sink.report(
                     "OSC606",
                     statement.span,
-                    f'`"{uri}"` is taken for the standard library; there is no such file',
+                    f'`"{uri}"` is taken for {taken if name == RUNNER_FILE else whole}; '
+                    "there is no such file",
                     help="write `import osc.standard.all`",
                 )
             return

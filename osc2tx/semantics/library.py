@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import Collector
 from osc2tx.semantics.dialects import DIALECTS, Dialect, Relaxations

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     FieldSymbol,
@@ -19,7 +20,7 @@ from osc2tx.semantics.types import ERROR, Type
 from osc2tx.syntax import ast
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Binding:
     """What a call, invocation, modifier application or emit means.
 
@@ -34,7 +35,7 @@ class Binding:
     arguments: tuple[tuple[FieldSymbol | ParameterSymbol, ast.Expression], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SemanticModel:
     """A checked program: symbols, and side tables over its syntax trees.
 
@@ -43,7 +44,7 @@ class SemanticModel:
         files: All files, imported ones first.
         scenarios: The scenarios of the root file, in source order.
         actions: All actions that are known, the library's included.
-        types: Type of every expression of the user's files.
+        types: Type of every expression of the user's files, and of the type names of fields.
         references: What a `NameExpression`, `MemberAccess`, `EnumLiteral` or `Name` stands for.
         bindings: What an `Invocation`, `ModifierApplication`, `Call`, `CallDirective` or
             `EmitDirective` means.

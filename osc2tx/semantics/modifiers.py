@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from osc2tx.semantics.binding import bind_behavior, type_arguments
 from osc2tx.semantics.builtins import OVERRIDE
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.expressions.methods import call_by_statement
+from osc2tx.semantics.foreign import advise
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
 from osc2tx.semantics.scope import CallableBehavior, is_subtype
 from osc2tx.semantics.symbols import ActionSymbol, ActorSymbol, ModifierSymbol
@@ -29,6 +31,8 @@ def check_modifier(
         invoked: The behavior that is modified; `None` where that is unknown or a composition.
         actor: The actor that may be left out.
     """
+    if call_by_statement(r, node, env):
+        return
     if node.actor is not None:
         type_ = r.type_of(node.actor, env)
         if isinstance(type_, ActorType):
@@ -43,6 +47,14 @@ def check_modifier(
         type_arguments(r, node.arguments, env)
         return
     r.references[node.modifier] = modifier
+    if modifier.origin == "prelude":
+        r.relaxes(
+            "OSC611",
+            node.modifier.span,
+            f"modifier `{modifier.qualified_name}` belongs to dialect "
+            f"`{r.relaxations.dialect.name}`, not to the standard library",
+            key=modifier.qualified_name,
+        )
     bind_behavior(r, node, modifier, env)
     if modifier is OVERRIDE:
         _check_override(r, node)
@@ -123,7 +135,8 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
             labels=declared_here(behaviors[0]),
         )
         return
-    r.report("OSC212", name.span, f"no modifier `{name}`", help=did_you_mean(name.text, known))
+    advice = advise(r, "modifier", name, sorted(known))
+    r.report("OSC212", name.span, f"no modifier `{name}`", **advice)
 
 
 def _report_misfit(

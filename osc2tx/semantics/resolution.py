@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from difflib import get_close_matches
 from typing import Protocol
 
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import Context, Scope
@@ -69,7 +70,7 @@ class InferFunction(Protocol):
         """Return the type, and report what is wrong."""
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Resolution:
     """Scope and side tables of one resolution pass.
 

@@ -40,7 +40,7 @@ from osc2tx.semantics.symbols import (
     TypeSymbol,
     UnitSymbol,
 )
-from osc2tx.semantics.types import VOID, PhysicalType
+from osc2tx.semantics.types import VOID, ActorType, PhysicalType, StructType
 from osc2tx.syntax import ast
 
 __all__ = ["resolve_declarations"]
@@ -199,6 +199,17 @@ def _resolve_field(r: Resolution, symbol: FieldSymbol) -> None:
             r, symbol.node.type, r.scope.context_of(symbol.node)
         )
     symbol.type = r.types[symbol.node.type]
+    if isinstance(symbol.type, ActorType | StructType) and isinstance(
+        symbol.node, ast.ParameterDeclaration
+    ):
+        own = (c for c in symbol.node.constraints if isinstance(c, ast.KeepConstraint))
+        symbol.constraints = (*_constraints_of(symbol.type.symbol), *own)
+
+
+def _constraints_of(type_: TypeSymbol) -> list[ast.KeepConstraint]:
+    """Return what a type demands of its instances, the demands of its supertypes first."""
+    ancestry = reversed(list(supertypes(type_)))
+    return [s for t in ancestry for s in t.statements if isinstance(s, ast.KeepConstraint)]
 
 
 def _resolve_parameters(

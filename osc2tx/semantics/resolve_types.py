@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar, assert_never
 
-from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS
+from osc2tx.semantics.aliases import (
+    behavior_alias,
+    standard_behavior,
+    type_alias,
+    write_instead,
+)
+from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS, TYPE_ALIASES
+from osc2tx.semantics.foreign import advise
 from osc2tx.semantics.resolution import Resolution, declared_here, did_you_mean
 from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype, supertypes
 from osc2tx.semantics.symbols import (
@@ -102,10 +109,16 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
     candidates = r.scope.types_named(name.text)
     symbol = choose(r, candidates, name, context)
     if symbol is not None:
+        _note_prelude_type(r, symbol, name)
         r.references[name] = symbol
         return symbol
     if candidates:
         return None
+    if standard := type_alias(r, name):
+        symbol = resolve_type_name(r, standard, context)
+        if symbol is not None:
+            r.references[name] = symbol
+        return symbol
     if report_unimported(r, name):
         return None
     if associated := r.scope.behaviors_named(name.text):
@@ -119,13 +132,21 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
         r.report("OSC311", name.span, f"`{name}` is a modifier, not a type")
     else:
         known = [text for layer in r.scope.layers() for text in layer.types]
-        r.report(
-            "OSC202",
-            name.span,
-            f"no type `{name}`",
-            help=did_you_mean(name.text, [*known, *PRIMITIVES]),
-        )
+        advice = advise(r, "type", name, [*known, *PRIMITIVES])
+        help_ = write_instead(TYPE_ALIASES.get(name.text)) or advice["help"]
+        r.report("OSC202", name.span, f"no type `{name}`", notes=advice["notes"], help=help_)
     return None
+
+
+def _note_prelude_type(r: Resolution, symbol: NamedSymbol, name: ast.Name) -> None:
+    if symbol.origin == "prelude" and r.scope.parent is not None:
+        r.relaxes(
+            "OSC610",
+            name.span,
+            f"type `{name}` belongs to dialect `{r.relaxations.dialect.name}`, "
+            "not to the standard library",
+            key=symbol.name,
+        )
 
 
 def choose(r: Resolution, candidates: Sequence[S], name: ast.Name, context: Context) -> S | None:
@@ -209,6 +230,8 @@ def find_behavior(
         for b in r.scope.behaviors_named(name.text)
         if b.actor is not None and is_subtype(actor, b.actor)
     ]
+    if not fitting and (standard := behavior_alias(r, actor, name)):
+        return find_behavior(r, actor, standard, context)
     visible = r.scope.select(fitting, name, context)
     if fitting and not visible:
         choose(r, fitting, name, context)
@@ -263,5 +286,5 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             "OSC211",
             name.span,
             f"`{actor.name}` has no behavior `{name}`",
-            help=did_you_mean(name.text, known),
+            help=write_instead(standard_behavior(actor, name)) or did_you_mean(name.text, known),
         )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeAlias, TypeVar
 
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
@@ -43,7 +44,7 @@ class Context:
     uses: tuple[str, ...] = ()
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Scope:
     """The definitions of a program, or of the library on which programs are layered.
 

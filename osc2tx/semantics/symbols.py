@@ -6,15 +6,16 @@ that nobody writes to a symbol any more.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.types import DIMENSIONLESS, ERROR, Dimension, Type
 from osc2tx.syntax import ast
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class Symbol:
     """A named thing.
 
@@ -30,8 +31,12 @@ class Symbol:
     span: Span
     origin: str = "user"
 
+    def __repr__(self) -> str:
+        """Kind and name alone: symbols refer to each other in circles."""
+        return f"{type(self).__name__}({self.name!r})"
 
-@dataclass(slots=True, kw_only=True, eq=False)
+
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class UnitSymbol(Symbol):
     """A unit: `si = value * factor + offset`."""
 
@@ -40,14 +45,14 @@ class UnitSymbol(Symbol):
     offset: float = 0.0
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class PhysicalTypeSymbol(Symbol):
     """A physical type."""
 
     dimension: Dimension = DIMENSIONLESS
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class EnumMemberSymbol(Symbol):
     """A member of an enum with its value."""
 
@@ -55,14 +60,14 @@ class EnumMemberSymbol(Symbol):
     value: int
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class EnumSymbol(Symbol):
     """An enum; members in order, extensions included."""
 
     members: dict[str, EnumMemberSymbol] = field(default_factory=dict)
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class ParameterSymbol(Symbol):
     """A formal parameter of a method or event."""
 
@@ -70,7 +75,7 @@ class ParameterSymbol(Symbol):
     default: ast.Expression | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class FieldSymbol(Symbol):
     """A field: of a structured type, of a modifier (then it is a parameter), or global.
 
@@ -79,7 +84,7 @@ class FieldSymbol(Symbol):
         is_variable: Declared with `var`.
         default: Its default value or sample.
         node: The declaration; `None` for built-in fields such as `duration` and `actor`.
-        constraints: The `keep`s of its `with` block.
+        constraints: The `keep`s of its type and of its `with` block.
     """
 
     owner: MemberOwner | None
@@ -90,7 +95,7 @@ class FieldSymbol(Symbol):
     constraints: tuple[ast.KeepConstraint, ...] = ()
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class EventSymbol(Symbol):
     """An event; `is_implicit` if a dialect let it be used without declaration."""
 
@@ -100,7 +105,7 @@ class EventSymbol(Symbol):
     is_implicit: bool = False
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class MethodSymbol(Symbol):
     """A method of a structured or primitive type, or a built-in operator of lists and ranges."""
 
@@ -110,7 +115,7 @@ class MethodSymbol(Symbol):
     node: ast.MethodDeclaration | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class LabelSymbol(Symbol):
     """A label in a `do` tree; its type is that of the labelled member."""
 
@@ -122,7 +127,7 @@ class LabelSymbol(Symbol):
 Member: TypeAlias = FieldSymbol | EventSymbol | MethodSymbol | LabelSymbol
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class TypeSymbol(Symbol):
     """What structs, actors, behaviors and modifiers have in common.
 
@@ -135,7 +140,7 @@ class TypeSymbol(Symbol):
     statements: list[ast.Statement] = field(default_factory=list)
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class StructSymbol(TypeSymbol):
     """A struct."""
 
@@ -143,7 +148,7 @@ class StructSymbol(TypeSymbol):
     condition: ast.InheritanceCondition | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class ActorSymbol(TypeSymbol):
     """An actor type."""
 
@@ -151,7 +156,7 @@ class ActorSymbol(TypeSymbol):
     condition: ast.InheritanceCondition | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class BehaviorSymbol(TypeSymbol):
     """A scenario, action or modifier, with the actor type it is associated with."""
 
@@ -163,7 +168,7 @@ class BehaviorSymbol(TypeSymbol):
         return f"{self.actor.name}.{self.name}" if self.actor else self.name
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class ScenarioSymbol(BehaviorSymbol):
     """A scenario."""
 
@@ -172,7 +177,7 @@ class ScenarioSymbol(BehaviorSymbol):
     condition: ast.InheritanceCondition | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class ActionSymbol(BehaviorSymbol):
     """An action."""
 
@@ -181,7 +186,7 @@ class ActionSymbol(BehaviorSymbol):
     condition: ast.InheritanceCondition | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class ModifierSymbol(BehaviorSymbol):
     """A modifier; its fields are its parameters.
 
@@ -193,7 +198,7 @@ class ModifierSymbol(BehaviorSymbol):
     target: ScenarioSymbol | ActionSymbol | None = None
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class PrimitiveSymbol(TypeSymbol):
     """A primitive type with the methods that extensions gave it (2.2)."""
 

@@ -8,46 +8,54 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, SourceFile
+from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
 from osc2tx.syntax import ast, parse
 
-__all__ = ["DOMAIN", "TYPES", "library_file", "library_source"]
+__all__ = ["DOMAIN", "TYPES", "library_file", "library_source", "parse_library_file"]
 
 TYPES, DOMAIN = "types.osc", "domain.osc"
 
-_TAG = re.compile(r"#! (since|until) (\d+\.\d+)\s*$")
+_FOLDER = Path(__file__).parent
+_TAGGED_LINE = re.compile(r"^(.*)#! (since|until) (\d+\.\d+)[ \t]*$", re.MULTILINE)
 
 
 @cache
 def library_source(name: str, standard: str) -> SourceFile:
     """Return a file of the library as one version of the standard has it."""
-    text = files(__name__).joinpath(name).read_text(encoding="utf-8")
-    lines = [_select(line, standard) for line in text.splitlines(keepends=True)]
-    return SourceFile(f"<library>/{name}", "".join(lines))
+    text = (_FOLDER / name).read_text(encoding="utf-8")
+    text = _TAGGED_LINE.sub(lambda line: _select(line, standard), text)
+    return SourceFile(f"<library>/{name}", text)
 
 
 @cache
 def library_file(name: str, standard: str) -> ast.File:
-    """Return a parsed file of the library; parsed once per process."""
-    sink = DiagnosticSink()
-    file = parse(library_source(name, standard), sink)
-    if sink.has_errors:
-        first = sink.sorted()[0]
-        raise InternalCompilerError(f"library {name}: {first.primary}: {first.message}")
+    """Return a parsed file of the library; parsed once, then read from its snapshot."""
+    source = library_source(name, standard)
+    file = load_snapshot(source, standard)
+    if file is None:
+        file = parse_library_file(source)
+        save_snapshot(file, standard)
     return file
 
 
-def _select(line: str, standard: str) -> str:
-    """Return a line, or blanks of its length if another version owns it."""
-    tag = _TAG.search(line)
-    if tag is None:
-        return line
-    bound = _version(tag.group(2))
-    wanted = _version(standard)
-    belongs = wanted >= bound if tag.group(1) == "since" else wanted <= bound
-    return line if belongs else re.sub(r"[^\r\n]", " ", line)
+def parse_library_file(source: SourceFile) -> ast.File:
+    """Parse a file of the library."""
+    sink = DiagnosticSink()
+    file = parse(source, sink)
+    if sink.has_errors:
+        first = sink.sorted()[0]
+        raise InternalCompilerError(f"{source.name}: {first.primary}: {first.message}")
+    return file
+
+
+def _select(line: re.Match[str], standard: str) -> str:
+    """Return a line with a tag, or blanks of its length if another version owns it."""
+    bound, wanted = _version(line[3]), _version(standard)
+    belongs = wanted >= bound if line[2] == "since" else wanted <= bound
+    return line[0] if belongs else " " * len(line[0])
 
 
 def _version(text: str) -> tuple[int, ...]:

@@ -12,7 +12,7 @@ Stages, in order:
    generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
 4. `ASTTransformer` (`ast_transformer`, `ast_builder`, `literals`): tree to AST (`ast`).
 
-`dump_ast` (`dump`) prints an AST as text.
+`dump_ast` (`dump`) prints an AST as text; `packed` turns one into plain data and back.
 
 Invariants: no input raises or recurses without bound; one mistake gives one message and costs one
 statement; every stage is linear in the size of the text; only this package imports antlr4, and no
@@ -22,6 +22,7 @@ object of antlr4 leaves it.
 from collections.abc import Collection
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
+from osc2tx.stack import room_for_trees
 from osc2tx.syntax import ast
 from osc2tx.syntax.dump import dump_ast
 from osc2tx.syntax.source_reader import read_source
@@ -46,7 +47,7 @@ def parse(
     """
     # Loaded late: the generated parser is only needed when there is something to parse.
     from osc2tx.syntax.ast_transformer import ASTTransformer
-    from osc2tx.syntax.parser import parse_tokens, room_for_trees
+    from osc2tx.syntax.parser import parse_tokens
     from osc2tx.syntax.token_source import TokenSource
 
     with room_for_trees():

@@ -53,8 +53,7 @@ class ASTTransformer(DeclarationBuilder):
         statements: list[Any] = []
         for child in tree.children:
             if child.__class__ is Grammar.BlockContext:
-                self._report_indentation(child)
-                found = self._block(child, Place.FILE)
+                found = self._block_without_header(child)
             elif child.__class__ is Grammar.StatementContext:
                 node = self._statement(child, Place.FILE)
                 found = () if node is None else (node,)
@@ -73,6 +72,11 @@ class ASTTransformer(DeclarationBuilder):
             statements=tuple(statements),
             comments=self._comments.rest(),
         )
+
+    def _block_without_header(self, block: Tree) -> tuple[Any, ...]:
+        """Build an indented start of the file, or a block under a line that was not readable."""
+        self._report_indentation(block)
+        return self._block(block, Place.NOWHERE if self._has_lost_header(block) else Place.FILE)
 
     def _report_late_import(self, node: ast.Import) -> None:
         message = "an import stands before all other statements of a file"

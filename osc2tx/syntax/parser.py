@@ -8,10 +8,6 @@ line is skipped, the block below it is parsed as usual, and parsing goes on with
 
 from __future__ import annotations
 
-import gc
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 from antlr4.error.Errors import RecognitionException
@@ -25,7 +21,6 @@ from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, KEYWORDS, NEWLINE, TokenTa
 Tree = Any  # a context of the generated parser; its children are contexts and token indexes
 
 _WITH = KEYWORDS["with"]
-RECURSION_LIMIT = 10_000
 
 
 class Mismatch(RecognitionException):  # type: ignore[misc]
@@ -102,7 +97,11 @@ class StatementRecovery:
             StatementRecovery._block_call = _state_that_calls(Grammar.RULE_block)
 
     def sync(self, parser: Any) -> None:
-        """Before each statement of a block: pass over lines that begin no statement."""
+        """Before each statement of a block: pass over lines that begin no statement.
+
+        A block stands among the statements when the line above it lost all its tokens to a lexical
+        mistake; it is read like any other, so that its DEDENT ends nothing else.
+        """
         context = parser._ctx.__class__
         if context is not Grammar.BlockContext and context is not Grammar.SourceFileContext:
             return
@@ -110,6 +109,9 @@ class StatementRecovery:
         while (kind := stream.types[stream.index]) not in self._starts:
             if kind in (DEDENT, EOF) or (kind == INDENT and not parser._ctx.children):
                 return
+            if kind == INDENT:
+                self._parse_block(parser)
+                continue
             self._errors.report(parser, stream.index)
             self._skip_statement(parser)
 
@@ -147,10 +149,14 @@ class StatementRecovery:
                 return
             stream.index += 1
             if types[stream.index] == INDENT:
-                parser.state = self._block_call
-                parser.block()
+                self._parse_block(parser)
             if types[stream.index] != _WITH:
                 return
+
+    def _parse_block(self, parser: Any) -> None:
+        """Parse a block where the grammar has none, for the mistakes in it."""
+        parser.state = self._block_call
+        parser.block()
 
 
 def _state_that_calls(rule: int) -> int:
@@ -169,22 +175,3 @@ def parse_tokens(table: TokenTable, sink: DiagnosticSink) -> Tree:
     parser._input = stream
     parser._errHandler = StatementRecovery(stream, SyntaxErrors(table, sink))
     return parser.sourceFile()
-
-
-@contextmanager
-def room_for_trees() -> Iterator[None]:
-    """Conditions for large and deep trees: no garbage collection, enough stack.
-
-    Trees are cyclic and long-lived, so collecting while they grow doubles the time. The token
-    source caps the nesting, so the depth needed is known; it is just more than the default limit.
-    """
-    was_enabled = gc.isenabled()
-    limit = sys.getrecursionlimit()
-    gc.disable()
-    sys.setrecursionlimit(max(limit, RECURSION_LIMIT))
-    try:
-        yield
-    finally:
-        sys.setrecursionlimit(limit)
-        if was_enabled:
-            gc.enable()

@@ -7,9 +7,9 @@ Each remedy looks at the place where the parser stopped and returns message and 
 from __future__ import annotations
 
 from collections.abc import Callable
-from difflib import get_close_matches
 from typing import NamedTuple
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.tokens import TokenTable
 
@@ -181,8 +181,8 @@ def _misspelt_statement(place: Place) -> Advice | None:
         follows = place.kind() == t.ID and place.kind(-1) == _RPAREN and place.kind(1) == _COLON
         token, candidates = place.at, ["with"] if follows else []
     word = place.table.text(token)
-    close = get_close_matches(word, candidates, 1, 0.7)
-    return Advice(f"unknown word `{word}`", f"did you mean `{close[0]}`?", token) if close else None
+    meant = did_you_mean(word, candidates, 0.7)
+    return Advice(f"unknown word `{word}`", meant, token) if meant else None
 
 
 def _missing_colon_of_argument(place: Place) -> Advice | None:
@@ -225,9 +225,9 @@ def _misspelt_composition(place: Place) -> Advice | None:
     if index < place.line or place.table.types[index] != t.ID:
         return None
     word = place.table.text(index)
-    close = get_close_matches(word, ["serial", "parallel", "one_of", "with"], 1, 0.7)
-    if close:
-        return Advice(f"unknown word `{word}`", f"did you mean `{close[0]}`?", index)
+    meant = did_you_mean(word, ["serial", "parallel", "one_of", "with"], 0.7)
+    if meant:
+        return Advice(f"unknown word `{word}`", meant, index)
     if place.kind() == t.NEWLINE and index < end - 1:
         name = place.table.source.text[place.table.starts[place.line] : place.table.ends[end - 1]]
         help_ = f"write `{name} with:`" if len(name) <= 40 and "\n" not in name else None

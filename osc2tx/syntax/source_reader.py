@@ -16,6 +16,8 @@ def read_source(path: Path, name: str, sink: DiagnosticSink) -> SourceFile | Non
         sink: Where diagnostics go.
     """
     try:
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise ValueError("it is not a regular file")  # a pipe would be waited for
         data = path.read_bytes()
     except (OSError, ValueError) as error:
         reason = "it is a directory" if path.is_dir() else _reason(error)

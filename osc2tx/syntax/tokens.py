@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
 from osc2tx.diagnostics import SourceFile, Span
+from osc2tx.light_dataclass import dataclass
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 
 EOF = -1

@@ -107,6 +107,15 @@ class Action(Leaf):
         """
         self.context.effect((what, self.actor.id), self, value, apply)
 
+    def length(self) -> int | None:
+        """Return how many steps the action takes; None where only the run can tell.
+
+        A subclass that knows overrides it; a `duration` is known anyway.
+        """
+        ends = self.registered.ends
+        content = 0 if ends == "instant" else None
+        return content if self._limits is None else self._limits.length(content, ends == "open")
+
     @property
     def elapsed_steps(self) -> int:
         """Steps since the start of the action."""

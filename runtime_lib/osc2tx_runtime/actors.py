@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.measures import Measures, RoutePosition
 from osc2tx_runtime.registry import methods
+from osc2tx_runtime.road_network import RoadNetwork
 from osc2tx_runtime.values import CelestialLightSource, OdrPoint, Orientation, Point, Pose
-from osc2tx_runtime.world.catalogue import VEHICLE_CATEGORIES, Shape, limits_of, shape_of
+from osc2tx_runtime.world.catalogue import MODELS, VEHICLE_CATEGORIES, Shape, limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ __all__ = [
     "StationaryObject",
     "TrafficLightController",
     "TrafficParticipant",
+    "Trailer",
     "Vehicle",
 ]
 
@@ -131,6 +133,15 @@ class PhysicalObject(Actor, Measures):
             known.wheelbase * stretch,
         )
 
+    @property
+    def size_from(self) -> str:
+        """What the size is from: `scenario`, `model`, `category` or `default`."""
+        if None not in self._size:
+            return "scenario"
+        if self.model in MODELS:
+            return "model"
+        return "default" if self.category is None else "category"
+
     def spec(self) -> ActorSpec:
         """What the world must know."""
         return ActorSpec(
@@ -206,6 +217,13 @@ class Vehicle(TrafficParticipant):
         self.rear_overhang = rear_overhang
 
 
+class Trailer(Vehicle):
+    """A vehicle without propulsion that another one tows; fields as of `Vehicle`."""
+
+    kinds = ("trailer", *Vehicle.kinds)
+    lane_bound = False
+
+
 class Person(TrafficParticipant):
     """A human being on foot; walks straight on, not bound to lanes."""
 
@@ -234,7 +252,7 @@ class Environment(Actor):
         self.moon = CelestialLightSource("moon")
 
 
-class Map(Actor):
+class Map(Actor, RoadNetwork):
     """The road network.
 
     Args:

@@ -22,20 +22,44 @@ from osc2tx_runtime.actors import (
     Pose,
     StationaryObject,
     TrafficLightController,
+    Trailer,
     Vehicle,
 )
 from osc2tx_runtime.initializer import PLACEMENT_MODIFIERS
 from osc2tx_runtime.measures import RoutePosition
 from osc2tx_runtime.modifiers import MODIFIERS, Modifier
 from osc2tx_runtime.registry import Method, methods
+from osc2tx_runtime.road_network import RoadNetwork
+from osc2tx_runtime.values import (
+    OdrPoint,
+    Path,
+    RelativePathOdr,
+    RelativePathPose3d,
+    RelativePathSt,
+    RelativeTrajectoryOdr,
+    RelativeTrajectoryPose3d,
+    RelativeTrajectorySt,
+    RoutePoint,
+    Trajectory,
+    XyzPoint,
+)
 
-__all__ = ["FIELDS", "METHODS", "OBJECTS", "capabilities"]
+__all__ = ["FIELDS", "METHODS", "OBJECTS", "OTHER_OBJECTS", "capabilities"]
 
-METHODS: Mapping[str, Callable[..., float]] = {
+METHODS: Mapping[str, Callable[..., Any]] = {
     "physical_object.object_distance": PhysicalObject.object_distance,
     "physical_object.road_distance": PhysicalObject.road_distance,
     "physical_object.get_s_coord": PhysicalObject.get_s_coord,
     "physical_object.get_t_coord": PhysicalObject.get_t_coord,
+    "physical_object.get_route_point": PhysicalObject.get_route_point,
+    "physical_object.distance_to_xyz_point": PhysicalObject.distance_to_xyz_point,
+    "physical_object.distance_to_route_point": PhysicalObject.distance_to_route_point,
+    "physical_object.distance_to_odr_point": PhysicalObject.distance_to_odr_point,
+    **{
+        f"map.{name}": method
+        for name, method in vars(RoadNetwork).items()
+        if not name.startswith("_") and name != "context"
+    },
     "traffic_participant.space_gap": PhysicalObject.space_gap,
     "traffic_participant.time_gap": PhysicalObject.time_gap,
     "traffic_participant.space_headway": PhysicalObject.space_headway,
@@ -54,6 +78,9 @@ FIELDS: Mapping[str, str] = {
     "movable_object.acceleration": "acceleration",
     "environment.sun": "celestial_light_source",
     "environment.moon": "celestial_light_source",
+    "route_point.s": "length",
+    "route_point.t": "length",
+    "xyz_point.position": "position_3d",
 }
 """Members that can be read in expressions, with their types."""
 
@@ -78,15 +105,33 @@ OBJECTS: Mapping[str, Callable[..., Any]] = {
 }
 """Classes of actors and values, by their names in the domain model."""
 
+OTHER_OBJECTS: Mapping[str, Callable[..., Any]] = {
+    "odr_point": OdrPoint,
+    "path": Path,
+    "relative_path_odr": RelativePathOdr,
+    "relative_path_pose_3d": RelativePathPose3d,
+    "relative_path_st": RelativePathSt,
+    "relative_trajectory_odr": RelativeTrajectoryOdr,
+    "relative_trajectory_pose_3d": RelativeTrajectoryPose3d,
+    "relative_trajectory_st": RelativeTrajectorySt,
+    "route_point": RoutePoint,
+    "trajectory": Trajectory,
+    "xyz_point": XyzPoint,
+    "trailer": Trailer,
+}
+"""Likewise, but generated modules cannot declare them yet: the compiler has no names for them."""
+
 
 def capabilities() -> dict[str, dict[str, Any]]:
     """Lists what there is, by kind and name, in sorted order.
 
     Returns:
-        `actions`: `vehicle.drive` to its `arguments`, `modifiers`, `slots` and how it `ends`;
+        `actions`: `vehicle.drive` to its `arguments`, which of them are `required`, `modifiers`,
+        `slots` and how it `ends`;
         `modifiers`: name to parameters; `placement`: the same for those an actor can start with;
         `methods`: `physical_object.object_distance` to parameters; `fields`: name to type;
-        `objects`: actor or value type to what its constructor takes.
+        `objects`: actor or value type to what its constructor takes; `other_objects`: those the
+        compiler does not know yet.
     """
     return {
         "actions": {f"{m.kind}.{m.name}": _action(m) for m in methods.all()},
@@ -98,6 +143,7 @@ def capabilities() -> dict[str, dict[str, Any]]:
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
         "fields": dict(sorted(FIELDS.items())),
         "objects": {name: _keywords(OBJECTS[name]) for name in sorted(OBJECTS)},
+        "other_objects": {name: _keywords(OTHER_OBJECTS[name]) for name in sorted(OTHER_OBJECTS)},
     }
 
 
@@ -105,6 +151,7 @@ def _action(method: Method) -> dict[str, Any]:
     accepted = [kind.name for kind in method.factory.accepts if issubclass(kind, Modifier)]
     return {
         "arguments": _arguments(method.factory.__init__),
+        "required": _required(method.factory.__init__),
         "modifiers": sorted(accepted),
         "slots": list(method.slots),
         "ends": method.ends,
@@ -119,6 +166,13 @@ def _arguments(function: Callable[..., Any]) -> list[str]:
         if parameter.name not in ("actor", "duration", "label")
         and parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
     ]
+
+
+def _required(function: Callable[..., Any]) -> list[str]:
+    """Names of those that have no default."""
+    parameters = inspect.signature(function).parameters
+    names = _arguments(function)
+    return [name for name in names if parameters[name].default is inspect.Parameter.empty]
 
 
 def _keywords(kind: Callable[..., Any]) -> list[str]:

@@ -3,7 +3,7 @@
 Nothing a node does in a pass may change what another node reads at the same instant. So nodes
 hand their wishes in here, and `commit` carries them out once the instant is settled:
 
-- `post`: an event becomes visible with the next pass;
+- `post`, `assign`: an event, a new value become visible with the next pass;
 - `claim`, `command`, `release`: who moves an actor;
 - `effect`: a change of state at one instant (assign_speed, set_lights).
 """
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.action import Action
     from osc2tx_runtime.actors import Actor
     from osc2tx_runtime.behaviour.events import Event
+    from osc2tx_runtime.behaviour.variables import Sampled
     from osc2tx_runtime.world.commands import Command
     from osc2tx_runtime.world.protocol import World
 
@@ -45,6 +46,8 @@ class ExecutionContext:
         step: Present step; `time` is `step * dt`.
         pass_number: Number of the present pass within the step, from 0.
         tick: Number of the present pass within the run, from 1: the clock of events.
+        snapshot: Number of the values that nodes read: changes with every step, and with every
+            pass in which a sampled variable gets a new value.
         settled: The instant is settled; what is unfinished now is unfinished at this instant.
         one_of: Policy of the scenario: `race`, `first` or `seeded`.
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
@@ -75,6 +78,7 @@ class ExecutionContext:
         self.step = 0
         self.pass_number = 0
         self.tick = 0
+        self.snapshot = 0
         self.settled = False
         self.random = random.Random(self.settings.seed)
         self.slots = Slots()
@@ -82,6 +86,7 @@ class ExecutionContext:
         self.collisions: list[tuple[float, str, str]] = []
         self._cast: tuple[str, ...] | None = None
         self._posted: dict[Event, list[Mapping[str, Any]]] = {}
+        self._assigned: dict[Sampled, Any] = {}
         self._pass_wanted = False
         self._settling_wanted = False
 
@@ -116,6 +121,11 @@ class ExecutionContext:
         self._posted.setdefault(event, []).append(dict(arguments or {}))
         self.trace.event(event.name, arguments)
 
+    def assign(self, variable: Sampled, value: Any) -> None:
+        """Give a sampled variable a value; others read it from the next pass of this instant on."""
+        self._assigned[variable] = value
+        self._pass_wanted = True
+
     def request_pass(self) -> None:
         """Ask for one more pass at this instant."""
         self._pass_wanted = True
@@ -127,6 +137,7 @@ class ExecutionContext:
     def begin_step(self, step: int) -> None:
         """Go to a step; its first pass comes next."""
         self.step = step
+        self.snapshot += 1
         self.pass_number = -1
         self.settled = False
 
@@ -139,7 +150,8 @@ class ExecutionContext:
         self.tick += 1
         self.pass_number += 1
         if self.pass_number >= MAX_PASSES:
-            names = ", ".join(sorted({event.name for event in self._posted}))
+            changing = {event.name for event in self._posted}
+            names = ", ".join(sorted(changing.union(v.name for v in self._assigned)))
             raise ScenarioError(
                 f"events chase each other at {self.time:.3f} s without time going on"
                 + (f": {names}" if names else "")
@@ -147,6 +159,12 @@ class ExecutionContext:
         posted, self._posted = self._posted, {}
         for event, arguments in posted.items():
             event.occur(self.tick, arguments)
+        if self._assigned:
+            self.snapshot += 1
+            for variable, value in self._assigned.items():
+                variable.value = value
+                self.trace.variable(variable.name, value)
+            self._assigned.clear()
         self._pass_wanted = self._settling_wanted = False
 
     def next_pass(self) -> bool:

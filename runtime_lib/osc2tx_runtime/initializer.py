@@ -15,6 +15,7 @@ from osc2tx_runtime.modifiers import (
     Orient,
     Position,
     Speed,
+    TowTrailer,
     Yaw,
 )
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
@@ -22,6 +23,7 @@ from osc2tx_runtime.places import Placer, Spot
 from osc2tx_runtime.poses import one_of_kind
 from osc2tx_runtime.world.collision import Box, box_of, overlapping
 from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.towing import pose_behind
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
@@ -37,6 +39,7 @@ PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
     Speed,
     Yaw,
     Orient,
+    TowTrailer,
 )
 """Modifiers that say where and how an actor starts."""
 
@@ -50,6 +53,7 @@ class _Start:
         source: Place in the scenario.
         references: Actors that must be placed before.
         rank: Absolute places come before relative ones, defaults last.
+        towed_by: The vehicle it is coupled to from the start.
     """
 
     def __init__(
@@ -59,6 +63,7 @@ class _Start:
         self.modifiers = modifiers
         self.source = source
         self.references: list[PhysicalObject] = []
+        self.towed_by: PhysicalObject | None = None
         for modifier in modifiers:
             if not isinstance(modifier, PLACEMENT_MODIFIERS):
                 raise PlacementError(f"{actor.id} cannot start with {modifier.name}", source)
@@ -109,6 +114,17 @@ class ScenarioInitializer:
             waiting.remove(start)
             self._place(start)
         self._set_routes()
+        self._note_sizes()
+
+    def _note_sizes(self) -> None:
+        """Says in the trace which sizes are not those of the model that was asked for."""
+        for actor in self._context.actors.values():
+            if not isinstance(actor, PhysicalObject) or actor.model is None:
+                continue
+            if actor.size_from not in ("model", "scenario"):
+                self._context.trace.other(
+                    4, "size", actor=actor.id, model=actor.model, source=actor.size_from
+                )
 
     def _starts(self, placements: Sequence[Placement]) -> list[_Start]:
         """One start per physical actor, in the order of the cast."""
@@ -127,10 +143,17 @@ class ScenarioInitializer:
                 starts.append(_Start(actor, modifiers, given.source if given else actor.source))
             elif given is not None:
                 raise PlacementError(f"{actor.id} cannot be placed anywhere", given.source)
+        _couple(starts)
         return starts
 
     def _place(self, start: _Start) -> None:
         actor = start.actor
+        if start.towed_by is not None:
+            tow = self._world.state(start.towed_by.id)
+            self._world.place(actor.id, pose_behind(tow, actor.shape), tow.v)
+            self._world.attach(start.towed_by.id, actor.id)
+            self._boxes[actor.id] = box_of(self._world.state(actor.id))
+            return
         try:
             spot = self._placer.spot(
                 actor,
@@ -191,6 +214,26 @@ class ScenarioInitializer:
             raise SettingsError(
                 f"--destination {actor_id}={goal}: write a placed actor or ROAD,LANE,S"
             ) from None
+
+
+def _couple(starts: Sequence[_Start]) -> None:
+    """Makes trailers wait for what tows them.
+
+    Raises:
+        PlacementError: A trailer has a place of its own, or two towing vehicles.
+    """
+    by_id = {start.actor.id: start for start in starts}
+    for start in starts:
+        tow = one_of_kind(start.modifiers, TowTrailer)
+        if tow is None:
+            continue
+        trailer = by_id[tow.trailer.id]
+        if trailer.modifiers or trailer.towed_by is not None:
+            raise PlacementError(
+                f"{trailer.actor.id} is towed by {start.actor.id}, so it has no place of its own",
+                start.source,
+            )
+        trailer.towed_by, trailer.references, trailer.rank = start.actor, [start.actor], 1
 
 
 def _cycle(waiting: Sequence[_Start]) -> PlacementError:

@@ -18,6 +18,7 @@ __all__ = ["choose_scenario", "main", "verdict"]
 
 EXIT_SUCCESS = 0
 EXIT_FAILED = 5
+EXIT_INTERRUPTED = 130  # as shells have it: 128 + SIGINT
 
 
 def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
@@ -28,7 +29,8 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         argv: Arguments; those of the process by default.
 
     Returns:
-        0 success, 5 ran and failed or ran out of time, 4 unreadable input, 2 usage.
+        0 success, 5 ran and failed or ran out of time, 4 unreadable input, 2 usage, 130 when the
+        user interrupts it.
     """
     arguments = vars(make_parser(scenarios).parse_args(argv))
     progress = show_progress if sys.stderr.isatty() else None
@@ -44,6 +46,10 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         clear_progress(progress)
         print(f"{error.source or scenario.source}: error: {error.message}", file=sys.stderr)
         return error.exit_code
+    except KeyboardInterrupt:
+        clear_progress(progress)
+        print(f"{scenario.name}: interrupted", file=sys.stderr)
+        return EXIT_INTERRUPTED
     clear_progress(progress)
     print(verdict(scenario.name, result))
     return EXIT_SUCCESS if result.status == "success" else EXIT_FAILED

@@ -6,7 +6,20 @@ import math
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.values import Orientation, Point, Pose
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.opendrive import Pose as MapPose
+from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.routes import along_lane, place_of_route, route_point_at
+from osc2tx_runtime.values import (
+    OdrPoint,
+    Orientation,
+    Point,
+    Pose,
+    RoadRoute,
+    RoutePoint,
+    XyzPoint,
+)
+from osc2tx_runtime.world.catalogue import Shape
 from osc2tx_runtime.world.distances import (
     DistanceDirection,
     DistanceMode,
@@ -20,10 +33,10 @@ from osc2tx_runtime.world.distances import (
     time_to_cover,
 )
 from osc2tx_runtime.world.distances import along_lanes as route_between
+from osc2tx_runtime.world.state import ActorState
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
-    from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["Measures", "RoutePosition", "RouteType"]
 
@@ -95,14 +108,7 @@ class Measures:
 
         With `bounding_boxes` it is measured between the facing ends or sides.
         """
-        if route_type not in ("on_road", "on_lane"):
-            raise UnsupportedError(f"road_distance with route_type {route_type} is not there yet")
-        shape, other = self.state.shape, reference.state.shape
-        if direction == "longitudinal":
-            along = self._along(reference)
-            return along if mode == "reference_points" else -gap_between(-along, shape, other)
-        lateral = self._lateral(reference)
-        return lateral if mode == "reference_points" else -side_gap(lateral, shape, other)
+        return self._road_distance_to(reference.state, direction, mode, route_type)
 
     def space_gap(self, reference: Measures, direction: RoadDirection) -> float:
         """Space (m) between facing ends or sides; positive if the caller is ahead or left.
@@ -140,14 +146,55 @@ class Measures:
         return time_to_collision(self.state, reference.state)
 
     def get_s_coord(self, route_type: RouteType = "on_road") -> float:
-        """Own s (m) on the road."""
-        if route_type == "on_lane":
-            raise UnsupportedError("get_s_coord with route_type on_lane is not there yet")
+        """Own s (m) on the road, or along the centre line of the lane from where it begins."""
         return self._road_coordinates(route_type)[0]
 
     def get_t_coord(self, route_type: RouteType = "on_road") -> float:
         """Own t (m): left of the reference line of the road, or of the lane's centre line."""
         return self._road_coordinates(route_type)[1]
+
+    def get_route_point(self, route_type: RouteType = "on_road") -> RoutePoint:
+        """Own place in coordinates of the road or the lane."""
+        s, t = self._road_coordinates(route_type)
+        place = self.state.lane_position
+        assert place is not None  # else it has no coordinates
+        if route_type == "on_lane":
+            return route_point_at(self.context.world.map, place)
+        return RoutePoint(RoadRoute(place.road), s, t)
+
+    # --- distances to points ------------------------------------------------------------------
+
+    def distance_to_xyz_point(
+        self,
+        point: XyzPoint,
+        direction: DistanceDirection,
+        mode: DistanceMode = "reference_points",
+    ) -> float:
+        """As `object_distance`, to a point."""
+        there = point.position
+        return object_distance(self.state, self._standing_at(there, 0.0), direction, mode)
+
+    def distance_to_route_point(
+        self,
+        point: RoutePoint,
+        direction: RoadDirection,
+        mode: DistanceMode = "reference_points",
+        route_type: RouteType = "on_road",
+    ) -> float:
+        """As `road_distance`, to a point."""
+        there = place_of_route(self.context.world.map, point)
+        return self._road_distance_to(self._at_place(there), direction, mode, route_type)
+
+    def distance_to_odr_point(
+        self,
+        point: OdrPoint,
+        direction: RoadDirection,
+        mode: DistanceMode = "reference_points",
+        route_type: RouteType = "on_road",
+    ) -> float:
+        """As `road_distance`, to a point."""
+        there = place_of_odr(self.context.world.map, point)
+        return self._road_distance_to(self._at_place(there), direction, mode, route_type)
 
     # --- internals ----------------------------------------------------------------------------
 
@@ -157,12 +204,39 @@ class Measures:
         if place is None:
             raise ScenarioError(f"{self.id} is not on a road")
         if route_type == "on_lane":
-            return place.s, place.offset
+            return along_lane(self.context.world.map, place), place.offset
         if route_type != "on_road":
             raise UnsupportedError(f"coordinates with route_type {route_type} are not there yet")
         line = self.context.world.map.road_pose(place.road, place.s, 0.0)
         across = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
         return place.s, across
+
+    def _road_distance_to(
+        self, there: ActorState, direction: RoadDirection, mode: DistanceMode, route_type: RouteType
+    ) -> float:
+        if route_type not in ("on_road", "on_lane"):
+            raise UnsupportedError(f"road_distance with route_type {route_type} is not there yet")
+        here, road_map = self.state, self.context.world.map
+        ahead = direction == "longitudinal"
+        distance = (route_between if ahead else lateral_on_road)(road_map, here, there)
+        if distance is None:
+            raise ScenarioError(f"no lane leads from {self.id} to the place or back")
+        if mode == "reference_points":
+            return distance
+        if ahead:
+            return -gap_between(-distance, here.shape, there.shape)
+        return -side_gap(distance, here.shape, there.shape)
+
+    def _standing_at(self, point: Point, heading: float) -> ActorState:
+        """A point as something without extent."""
+        on = self.context.world.map.locate(point.x, point.y, point.z)
+        shape = Shape(0.0, 0.0, 0.0, 0.0)
+        return ActorState(point.x, point.y, point.z, heading, 0.0, 0.0, on, 0.0, shape)
+
+    def _at_place(self, place: LanePosition | MapPose) -> ActorState:
+        pose = self.context.world.map.pose(place) if isinstance(place, LanePosition) else place
+        state = self._standing_at(Point(pose.x, pose.y, pose.z), pose.h)
+        return state._replace(lane_position=place) if isinstance(place, LanePosition) else state
 
     def _along(self, reference: Measures) -> float:
         """Route distance (m) to the reference, positive if it is ahead."""

@@ -18,20 +18,18 @@ from osc2tx_runtime.modifiers import (
     value_of,
 )
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.poses import heading_of, one_of_kind, pose_of, road_entry, road_heading
+from osc2tx_runtime.points import PointPlaces
+from osc2tx_runtime.poses import heading_of, one_of_kind, road_entry
 from osc2tx_runtime.starts import StartPlaces
-from osc2tx_runtime.world.lanes import lane_with_number, number_of_lane
-from osc2tx_runtime.world.motion import ANY_LANE
+from osc2tx_runtime.world.lateral import offset_from
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
-    from osc2tx_runtime.values import Point
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["Placer", "Spot"]
 
-_MARGIN = 50.0  # m around the lanes that still belong to the map
 _EXACT = 1e-7  # m to which a distance along the road is met
 
 
@@ -56,6 +54,7 @@ class Placer:
         self._world = world
         self._map = world.map
         self._starts = StartPlaces(world.map)
+        self._points = PointPlaces(world.map)
 
     def spot(
         self,
@@ -87,7 +86,7 @@ class Placer:
         if lateral is not None:
             if not isinstance(at, LanePosition):
                 raise PlacementError(f"{actor.id}: lateral needs a lane, not a point off the lanes")
-            at = LanePosition(at.road, at.lane, at.s, lateral.offset())
+            at = self._aside(actor, at, lateral)
         pose = self._map.pose(at) if isinstance(at, LanePosition) else at
         heading = heading_of(self._world, actor, modifiers, pose)
         if heading is not None and actor.lane_bound and isinstance(at, LanePosition):
@@ -114,11 +113,13 @@ class Placer:
             return self._starts.given(actor, spawn, lane, position)
         if position is not None and position.absolute:
             if position.at_point is not None and position.project_on_route:
-                return self._projected(actor, position.at_point, lane)
-            at = self._at_point(actor, position)
+                return self._points.projected(actor, position.at_point, lane)
+            at = self._points.at_point(actor, position)
             if lane is not None:
-                self._check_lane(actor, at, lane)
+                self._points.check_lane(actor, at, lane)
             return at
+        if position is not None and position.reference_point is not None:
+            return self._points.near_point(actor, position, lane)
         beside = None if lane is None else lane.reference
         reference = None if position is None else position.reference
         if beside is not None or reference is not None:
@@ -138,63 +139,18 @@ class Placer:
                 f"{actor.id}: location is for stationary objects, instead of position"
             )
         pose = location.pose
-        return Position(x=pose.x, y=pose.y, z=pose.z, h=pose.yaw)
+        return Position(x=pose.x, y=pose.y, z=pose.z, h=pose.yaw or 0.0)
 
-    def _check_lane(
-        self, actor: PhysicalObject, at: LanePosition | opendrive.Pose, lane: Lane
-    ) -> None:
-        """A point decides by itself: a lane modifier can only agree."""
-        if lane.reference is not None:
-            raise PlacementError(
-                f"{actor.id}: a point leaves no room for a lane relative to {lane.reference.id}"
-            )
-        on = (
-            at
-            if isinstance(at, LanePosition)
-            else self._map.locate(at.x, at.y, at.z, max_distance=1e-3)
-        )
-        if on is None or number_of_lane(self._map, on, lane.from_) != lane.number:
-            raise PlacementError(
-                f"{actor.id}: its point is not on lane {lane.number} from the {lane.from_}"
-            )
-
-    def _projected(self, actor: PhysicalObject, point: Point, lane: Lane | None) -> LanePosition:
-        """Centre of the driving lane nearest to a point, or of a lane beside it."""
-        on = self._map.locate(point.x, point.y, point.z)
-        if on is None:
-            raise PlacementError(
-                f"{actor.id}: no lane is near ({point.x:g}, {point.y:g}); with"
-                " project_on_route: false it can be off the road"
-            )
-        place = LanePosition(on.road, on.lane, on.s)
-        if lane is None:
-            return place
-        if lane.reference is not None:
-            self._check_lane(actor, place, lane)
-        return self._numbered(actor, place, lane)
-
-    def _at_point(self, actor: PhysicalObject, position: Position) -> LanePosition | opendrive.Pose:
-        pose, heading = pose_of(actor, position)
-        west, south, east, north = self._map.bounds()
-        if not (
-            west - _MARGIN <= pose.x <= east + _MARGIN
-            and south - _MARGIN <= pose.y <= north + _MARGIN
-        ):
-            raise PlacementError(
-                f"{actor.id}: ({pose.x:g}, {pose.y:g}) is off the map, which reaches from"
-                f" ({west:.0f}, {south:.0f}) to ({east:.0f}, {north:.0f})"
-            )
-        z = None if position.z is None and position.at_point is None else pose.z
-        types = opendrive.DRIVING if actor.lane_bound else ANY_LANE
-        on = self._map.locate(pose.x, pose.y, z, heading, lane_types=types, max_distance=1e-3)
-        if on is None:
-            h = road_heading(self._map, pose) if heading is None else heading
-            return opendrive.Pose(pose.x, pose.y, pose.z, h)
-        lane = self._map.pose(on)
-        if actor.lane_bound and math.cos(lane.h - (lane.h if heading is None else heading)) > 0.0:
-            return on
-        h = lane.h if heading is None else heading
-        return opendrive.Pose(pose.x, pose.y, lane.z if z is None else z, h)
+    def _aside(self, actor: PhysicalObject, at: LanePosition, lateral: Lateral) -> LanePosition:
+        """The place across the lane, in the lane or beside another actor."""
+        own = actor.shape.width
+        if lateral.side_of is None:
+            width = self._map.lane_width(at.road, at.lane, at.s)
+            return LanePosition(at.road, at.lane, at.s, lateral.offset(own, width))
+        other = self._world.state(lateral.side_of.id)
+        centre = LanePosition(at.road, at.lane, at.s)
+        offset = offset_from(self._map, centre, other.x, other.y)
+        return LanePosition(at.road, at.lane, at.s, offset + lateral.offset(own, other.width))
 
     def _beside(
         self, actor: PhysicalObject, lane: Lane | None, position: Position | None, speed: float
@@ -215,7 +171,7 @@ class Placer:
         elif position is not None:
             start = self._along_road(actor, start, value_of(position.distance or 0.0))
         if lane is not None and in_lane_of is None:
-            return self._numbered(actor, start, lane)
+            return self._points.numbered(actor, start, lane)
         return start
 
     def _at_distance(
@@ -226,11 +182,11 @@ class Placer:
         assert reference is not None
         origin = self._centre(reference, actor)
         if position.time is not None:
-            behind = self._world.state(reference.id).v if position.ahead_of is not None else speed
+            behind = self._world.state(reference.id).v if position.ahead else speed
             wanted = value_of(position.time) * behind
         else:
             wanted = value_of(position.distance or 0.0)
-        wanted = wanted if position.ahead_of is not None else -wanted
+        wanted = wanted if position.ahead else -wanted
         place = start
         for _ in range(20):
             measured = self._map.route_distance(origin, place)
@@ -257,7 +213,7 @@ class Placer:
         place = LanePosition(here.road, here.lane, here.s)
         if position is not None:
             place = self._along_road(actor, place, value_of(position.distance or 0.0))
-        return place if lane is None else self._numbered(actor, place, lane)
+        return place if lane is None else self._points.numbered(actor, place, lane)
 
     # --- small steps --------------------------------------------------------------------------
 
@@ -272,15 +228,6 @@ class Placer:
                 f" {step.travelled:.1f} m, before {distance:g} m"
             )
         return step.position
-
-    def _numbered(self, actor: PhysicalObject, place: LanePosition, lane: Lane) -> LanePosition:
-        found = lane_with_number(self._map, place, lane.number, lane.from_)
-        if found is None:
-            raise PlacementError(
-                f"{actor.id}: road {place.road} has no lane {lane.number} from the {lane.from_}"
-                f" at s = {place.s:.1f} m"
-            )
-        return found
 
     def _centre(self, of: PhysicalObject | None, actor: PhysicalObject) -> LanePosition:
         """Place of a placed actor, on the centre of its driving lane."""

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["heading_of", "one_of_kind", "place_of_odr", "pose_of", "road_entry", "road_heading"]
 
+# What is added to an angle between axes to have the heading: the width axis points left.
+_AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
+
 ModifierT = TypeVar("ModifierT", bound=Modifier)
 
 
@@ -50,11 +53,14 @@ def heading_of(
         return None
     if isinstance(turned, Orient):
         angle, base = value_of(turned.yaw or 0.0), 0.0
+        if turned.measure_by == "relative_to_road":
+            base = road_heading(world.map, at)
     else:
         angle, base = value_of(turned.angle), road_heading(world.map, at)
         if turned.measure_by == "relative_to_north":
             base = 0.5 * math.pi
-    if turned.relative_to is not None:
+        angle += _AXES.get(turned.measure_by, 0.0)
+    if turned.relative_to is not None and turned.measure_by != "absolute":
         base = world.state(turned.relative_to.id).h
     if actor.lane_bound and not isinstance(at, opendrive.Pose) and at.lane_position is not None:
         raise UnsupportedError(f"{actor.id} follows its lane, so it takes no {turned.name}")
@@ -71,19 +77,21 @@ def road_heading(road_map: RoadMap, at: opendrive.Pose | ActorState) -> float:
 
 def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
     """Where the lane of a place begins on its road, in direction of travel."""
-    length = road_map.roads[place.road].length
-    back = place.s if road_map.travel_direction(place.road, place.lane) > 0 else length - place.s
-    lane = place
-    while back > 0.0:
-        step = road_map.advance(lane, -back)
-        if step.position.road != place.road or abs(step.travelled) < 1e-9:
+    key = road_map.lane_key(place)
+    sections = road_map.roads[place.road].sections
+    with_s = road_map.travel_direction(place.road, place.lane) > 0
+    while True:
+        wanted = (key.road, key.section + (-1 if with_s else 1))
+        before = [k for k in road_map.predecessors(key) if (k.road, k.section) == wanted]
+        if not before:
             break
-        lane = step.position
-        rest = lane.s if road_map.travel_direction(place.road, place.lane) > 0 else length - lane.s
-        if rest < 1e-6 or rest >= back:
-            break
-        back = rest
-    return LanePosition(lane.road, lane.lane, lane.s)
+        key = before[0]
+    section = sections[key.section]
+    if with_s:
+        return LanePosition(key.road, key.lane, section.begin)
+    last = key.section == len(sections) - 1
+    s = section.end if last else math.nextafter(section.end, section.begin)
+    return LanePosition(key.road, key.lane, s)
 
 
 def pose_of(actor: PhysicalObject, position: Position) -> tuple[opendrive.Pose, float | None]:

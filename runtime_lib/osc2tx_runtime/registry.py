@@ -8,11 +8,25 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
+from osc2tx_runtime.errors import ScenarioError
+
 if TYPE_CHECKING:
     from osc2tx_runtime.action import Action
     from osc2tx_runtime.actors import Actor
 
-__all__ = ["LATERAL", "LONGITUDINAL", "Ends", "Method", "MethodRegistry", "action", "methods"]
+__all__ = [
+    "ENTRY_POINTS",
+    "LATERAL",
+    "LONGITUDINAL",
+    "Ends",
+    "Method",
+    "MethodRegistry",
+    "action",
+    "methods",
+]
+
+ENTRY_POINTS = "osc2tx.methods"
+"""Group of entry points; each names a module that registers actions. See docs/extending.md."""
 
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
@@ -50,6 +64,29 @@ class MethodRegistry:
 
     def __init__(self) -> None:
         self._methods: dict[tuple[str, str], Method] = {}
+        self._extended = False
+
+    def extend(self) -> None:
+        """Import the modules that installed packages name in the entry point group.
+
+        Happens once, when a method is asked for that nobody has registered: it takes time.
+
+        Raises:
+            ScenarioError: If such a module cannot be imported.
+        """
+        if self._extended:
+            return
+        self._extended = True
+        from importlib.metadata import entry_points
+
+        for entry in sorted(entry_points(group=ENTRY_POINTS), key=lambda found: found.name):
+            try:
+                entry.load()
+            except (ImportError, AttributeError, ValueError, SyntaxError) as error:
+                package = "" if entry.dist is None else f" of {entry.dist.name}"
+                raise ScenarioError(
+                    f"the actions in {entry.value}{package} cannot be loaded: {error}"
+                ) from error
 
     def action(
         self,
@@ -113,6 +150,9 @@ class MethodRegistry:
         """
         kinds = type(actor).kinds
         method = self.find(kinds, name)
+        if method is None:
+            self.extend()
+            method = self.find(kinds, name)
         if method is None:
             near = self.near(kinds, name)
             hint = f"; did you mean {' or '.join(near)}?" if near else ""

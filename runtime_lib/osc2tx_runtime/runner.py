@@ -17,11 +17,11 @@ from osc2tx_runtime.behaviour.base import (
     pulse_of,
 )
 from osc2tx_runtime.behaviour.events import Event
+from osc2tx_runtime.behaviour.reasons import failure_reason, timeout_reason
 from osc2tx_runtime.context import ExecutionContext
-from osc2tx_runtime.errors import InputError, ScenarioError
+from osc2tx_runtime.errors import InputError, ScenarioError, SettingsError
 from osc2tx_runtime.map_search import find_map
 from osc2tx_runtime.settings import RunSettings
-from osc2tx_runtime.slots import place_key
 from osc2tx_runtime.trace import TraceWriter
 
 if TYPE_CHECKING:
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 __all__ = ["Outcome", "RunResult", "run_scenario", "run_tree"]
 
 OnProgress = Callable[[float, float], None]
-NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +169,7 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
             "seed": context.settings.seed,
             "parameters": scenario.parameters,
             "actors": actors,
+            "one_of": scenario.one_of,
         }
     )
 
@@ -189,6 +189,8 @@ def run_tree(
         outcome = loop(root, context, on_progress)
     except BaseException as error:
         text = str(error) if isinstance(error, ScenarioError) else repr(error)
+        if isinstance(error, KeyboardInterrupt):
+            text = f"interrupted at {context.time:g} s"
         outcome = Outcome("error", text, context.step)
         raise
     finally:
@@ -259,9 +261,9 @@ def settle(
 
 
 def post_all(context: ExecutionContext, signals: tuple[Event, ...]) -> None:
-    """Post events without arguments."""
+    """Post events from outside; their parameters have their defaults."""
     for event in signals:
-        context.post(event)
+        context.post(event, event.complete({}))
 
 
 def signals_by_step(context: ExecutionContext) -> dict[int, tuple[Event, ...]]:
@@ -269,7 +271,11 @@ def signals_by_step(context: ExecutionContext) -> dict[int, tuple[Event, ...]]:
     found: dict[int, tuple[Event, ...]] = {}
     for name, seconds in context.settings.signal.items():
         step = context.first_step_at(seconds)
-        found[step] = (*found.get(step, ()), context.events[name])
+        event = context.events[name]
+        problem = event.problem(())
+        if problem:
+            raise SettingsError(f"--signal {name}: {problem}")
+        found[step] = (*found.get(step, ()), event)
     return found
 
 
@@ -277,45 +283,6 @@ def states(context: ExecutionContext) -> Iterator[tuple[str, ActorState]]:
     """Yield the states of the placed actors, in the order of the cast."""
     state = context.world.state
     return ((actor_id, state(actor_id)) for actor_id in context.cast())
-
-
-def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
-    """Return what failed, where, when and why."""
-    culprits = sorted(failing(root), key=lambda node: place_key(source_of(node), node.name))
-    texts = []
-    for node in culprits:
-        text = f"{named(node)} failed at {context.time:.3f} s"
-        texts.append(f"{text}: {node.feedback_message}" if node.feedback_message else text)
-    return "; ".join(texts)
-
-
-def failing(node: Behaviour) -> list[Behaviour]:
-    """Return the nodes that a failure comes from."""
-    below = [child for child in node.children if child.status is FAILURE]
-    if node.feedback_message or not below:
-        return [node]
-    return [culprit for child in below for culprit in failing(child)]
-
-
-def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
-    """Return which leaves are still running."""
-    leaves = [node for node in root.iterate() if node.status is RUNNING and not node.children]
-    leaves.sort(key=lambda node: place_key(source_of(node), node.name))
-    texts = [named(leaf) for leaf in leaves[:NAMED_LEAVES]]
-    if len(leaves) > NAMED_LEAVES:
-        texts.append(f"and {len(leaves) - NAMED_LEAVES} more")
-    return f"not finished at {context.time:g} s; still running: {', '.join(texts) or 'nothing'}"
-
-
-def source_of(node: Behaviour) -> str:
-    """Return a node's place; behaviours that are not ours have none."""
-    return str(getattr(node, "source", ""))
-
-
-def named(node: Behaviour) -> str:
-    """Return a node's name, with its place where known."""
-    source = source_of(node)
-    return f"{node.name} ({source})" if source else node.name
 
 
 def write_files(context: ExecutionContext) -> None:

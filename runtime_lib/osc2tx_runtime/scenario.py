@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
-import difflib
 import random
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
 from osc2tx_runtime.actors import Actor, Map
-from osc2tx_runtime.behaviour.base import Behaviour, Node
-from osc2tx_runtime.behaviour.events import Event
-from osc2tx_runtime.errors import ScenarioError, SettingsError
-from osc2tx_runtime.settings import RunSettings
-from osc2tx_runtime.sidecar import apply_nodes, every_node, read_source_map
+from osc2tx_runtime.behaviour.assembly import assemble, invoked_placements
+from osc2tx_runtime.behaviour.base import Behaviour
+from osc2tx_runtime.behaviour.events import Event, Trigger, argument_key
+from osc2tx_runtime.behaviour.invocation import (
+    Caller,
+    Invocation,
+    check_recursion,
+    unique_name,
+)
+from osc2tx_runtime.behaviour.limits import Duration
+from osc2tx_runtime.behaviour.override import Mode
+from osc2tx_runtime.behaviour.parameters import Range, choose, within
+from osc2tx_runtime.behaviour.variables import MISSING, Sampled
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.settings import RunSettings, check_known, near
+from osc2tx_runtime.sidecar import read_source_map
 
 if TYPE_CHECKING:
     from osc2tx_runtime.modifiers import Modifier
@@ -20,23 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Placement", "Range", "Scenario", "within"]
 
 ValueT = TypeVar("ValueT", bool, int, float, str)
-
-
-@dataclass(frozen=True, slots=True)
-class Range:
-    """Values from `low` to `high`, SI units; one is drawn from the seed of the run."""
-
-    low: float
-    high: float
-
-    def __post_init__(self) -> None:
-        if not self.low <= self.high:
-            raise ValueError(f"within({self.low}, {self.high}): from the lower to the upper bound")
-
-
-def within(low: float, high: float) -> Range:
-    """Return the range of a sampled parameter."""
-    return Range(low, high)
+AnyT = TypeVar("AnyT")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,17 +54,20 @@ class Scenario:
 
     Args:
         settings: Of the run.
-        **arguments: Values of parameters, before those of the settings.
+        caller: The scenario that invokes this one; `invoke` gives it.
+        **arguments: Values of parameters, before those of the settings; for an invoked scenario
+            also the actors that take the place of the declared ones.
 
     Attributes:
         name: Name in the scenario file.
         source: Scenario file.
         one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
         settings: Of the run.
-        actors: Declared actors by id, in order.
-        events: Declared events by name, in order.
-        parameters: Values of the parameters, in order.
-        placements: What `placement` asked for.
+        actors: Declared actors by id, in order; the scenario that runs also has those of all that
+            it invokes.
+        events: Declared events by name, in order; likewise.
+        parameters: Values of the parameters, in order; likewise.
+        placements: What `placement` asked for; likewise, once there is a tree.
         label_events: (label, `start` | `end` | `fail`) to the event that somebody waits for.
     """
 
@@ -77,20 +75,36 @@ class Scenario:
     source: ClassVar[str] = ""
     one_of: ClassVar[str] = "race"
 
-    def __init__(self, settings: RunSettings | None = None, **arguments: float | str) -> None:
+    def __init__(
+        self,
+        settings: RunSettings | None = None,
+        *,
+        caller: Caller | None = None,
+        **arguments: Any,
+    ) -> None:
         self.settings = settings or RunSettings()
+        self._caller = caller
+        self._root: Scenario = self if caller is None else caller.scenario._root
+        # Labels of the invocations from the scenario that runs down to this one.
+        self._path = "" if caller is None else caller.path
         self.actors: dict[str, Actor] = {}
         self.events: dict[str, Event] = {}
-        self.parameters: dict[str, float | str] = {}
+        self.parameters: dict[str, Any] = {}
         self.placements: list[Placement] = []
         self.label_events: dict[tuple[str, str], Event] = {}
         self._arguments = arguments
         self._generator = random.Random(self.settings.seed)
         self._source_map = read_source_map(type(self), self.name, self.source)
+        self._variables: dict[str, Sampled] = {}
+        self._invoked: dict[str, Scenario] = {}
+        self._keys: dict[str, None] = {}
+        self._inner_events: dict[str, Event] = {}
+        self._overrides: list[tuple[str, str, Mode]] = []
         self.declare()
         self._name_members()
-        self._check_names()
+        self._check_arguments()
         self.placement()
+        self._own_placements = len(self.placements)
 
     # --- written by generated classes ---
 
@@ -114,31 +128,36 @@ class Scenario:
         """Return the value of a parameter.
 
         An argument of the class counts before `--set`, that before a draw from a range, that
-        before the default. Ranges draw in the order of declaration, whether the value is used or
-        not, so that setting one parameter does not change another.
+        before the default. Setting one parameter does not change what is drawn for another.
+        Parameters of invoked scenarios are set by path: `--set p1.gap=12`.
 
         Args:
             name: Name of the parameter.
             default: Value, or range of values, SI units.
             domain: Range that settings must keep to; that of the default where it is a range.
         """
-        drawn = default
-        if isinstance(default, Range):
-            drawn = self._generator.uniform(default.low, default.high)
-            domain = domain or default
-        if name in self._arguments:
-            value: Any = self._arguments[name]
-        elif name in self.settings.set:
-            value = fit(name, self.settings.set[name], drawn)
-            if domain is not None and not domain.low <= value <= domain.high:
-                raise SettingsError(
-                    f"--set {name}={value:g}: the scenario allows {domain.low:g} to"
-                    f" {domain.high:g} (SI units)"
-                )
-        else:
-            value = drawn
-        self.parameters[name] = value
+        path = f"{self._path}.{name}" if self._path else name
+        generator = self._generator  # draws in the order of declaration
+        if self._caller is not None:
+            generator = random.Random(f"{self.settings.seed}/{self._caller.key}/{name}")
+        given, chosen = self._arguments.get(name), self.settings.set
+        value = choose(path, default, domain, generator, given=given, settings=chosen)
+        self.parameters[name] = self._root.parameters[path] = value
         return value
+
+    @overload
+    def global_parameter(self, name: str, default: Range, domain: Range | None = None) -> float: ...
+    @overload
+    def global_parameter(
+        self, name: str, default: ValueT, domain: Range | None = None
+    ) -> ValueT: ...
+    def global_parameter(self, name: str, default: Any, domain: Range | None = None) -> Any:
+        """Return the value of a global parameter: one for all scenarios of the run."""
+        known = self._root.parameters
+        if name not in known:
+            generator = random.Random(f"{self.settings.seed}/global/{name}")
+            known[name] = choose(name, default, domain, generator, settings=self.settings.set)
+        return known[name]
 
     def place(self, actor: Actor, *modifiers: Modifier) -> None:
         """Say where and how an actor starts."""
@@ -146,6 +165,81 @@ class Scenario:
         index = len(self.placements)
         source = self._source_map.place(lines[index] if index < len(lines) else None)
         self.placements.append(Placement(actor, modifiers, source))
+
+    def sample(
+        self,
+        expression: Callable[[], AnyT],
+        trigger: Trigger,
+        default: Any = MISSING,
+        *,
+        condition: Callable[[], bool] | None = None,
+    ) -> AnyT:
+        """Make a variable: `self.v = self.sample(lambda: self.ego.speed, self.near, 0 * mps)`.
+
+        Read later, `self.v` is its latest value: `default`, and from the pass after an occurrence
+        on what `expression` gave at that occurrence.
+
+        Args:
+            expression: Gives the new value.
+            trigger: When: an event, a condition or a boolean function.
+            default: Value before the first sample; without it the variable cannot be read before.
+            condition: With an event: only an occurrence at which this is true counts.
+        """
+        variable: Any = Sampled(expression, trigger, default, condition)
+        return variable  # type: ignore[no-any-return]
+
+    def invoke(
+        self,
+        scenario: type[Scenario],
+        /,
+        *,
+        actor: Actor | None = None,
+        label: str | None = None,
+        duration: Duration | None = None,
+        **arguments: Any,
+    ) -> Behaviour:
+        """Invoke another scenario: `self.invoke(Approach, actor=self.ego, lead=self.car1)`.
+
+        Args:
+            scenario: Its class.
+            actor: Its `actor`, for a scenario of an actor.
+            label: Name for `@label.end`, for settings (`--set label.gap=12`) and in the trace.
+            duration: Seconds, or (least, most) seconds, that it takes.
+            **arguments: Its parameters (a range is drawn from) and actors.
+
+        Raises:
+            ScenarioError: If it invokes itself, or does not take the arguments.
+        """
+        check_recursion(self, scenario)
+        given = arguments if actor is None else {"actor": actor, **arguments}
+        short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
+        name = unique_name(label or short, self._invoked)
+        path = f"{self._path}.{name}" if self._path else name
+        # Without a label the arguments tell invocations apart, not the order of the members.
+        key = label or f"{scenario.name}{argument_key(given)}"
+        key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
+        self._keys[key] = None
+        invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
+        self._invoked[name] = invoked
+        who = f"{actor.id} {short}" if actor is not None else short
+        return Invocation(label or who, invoked, invoked.create_tree(), duration)
+
+    def invoked(self, label: str) -> Any:
+        """Return an invoked scenario, to read its values: `self.invoked("p1").gap`."""
+        if label not in self._invoked:
+            hint = near(label, self._invoked)
+            raise ScenarioError(f"{label}: no invocation has this label{hint}", self.source)
+        return self._invoked[label]
+
+    def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
+        """Let a behavior end another when it starts; call it in `behavior`.
+
+        Args:
+            overridden: Label of the behavior that ends.
+            by: Label of the behavior that overrides it.
+            mode: `when_active`: it also does not start while the other one runs.
+        """
+        self._overrides.append((overridden, by, mode))
 
     def started(self, label: str) -> Event:
         """Return the event at which the node with this label starts."""
@@ -159,83 +253,79 @@ class Scenario:
         """Return the event at which the node with this label fails."""
         return self._label_event(label, "fail")
 
+    def event(self, path: str) -> Event:
+        """Return an event of an invoked scenario: `self.event("p1.near")`, `"p1.cut.end"`."""
+        found = self._inner_events.setdefault(path, Event())
+        found.name = path
+        return found
+
     # --- used by the runtime ---
 
     def create_tree(self) -> Behaviour:
         """Return the tree, each node with its place in the scenario."""
-        root = self.behavior()
-        apply_nodes(root, self._source_map)
-        self._check_labels(root)
-        return root
+        self._invoked, self._keys, self._overrides = {}, {}, []
+        tree = assemble(self, self.behavior())
+        if self._caller is None:
+            self.placements[self._own_placements :] = invoked_placements(self, tree)
+            self._check_settings()
+        return tree
 
     def map_file(self) -> str | None:
         """Return the map file the scenario names; None if it leaves the map open."""
         maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
         return next((found.map_file for found in maps if found.map_file), None)
 
+    if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if isinstance(value, Sampled):
+                value.name = f"{self._path}.{name}" if self._path else name
+                self._variables[name] = value
+                return
+            if isinstance(value, Actor) and self._caller is not None:
+                value = self._caller.cast(name, value)
+            object.__setattr__(self, name, value)
+
+        def __getattr__(self, name: str) -> Any:
+            variables = self.__dict__.get("_variables", {})
+            if name in variables:
+                return variables[name].read()
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+
     def _label_event(self, label: str, moment: str) -> Event:
         event = self.label_events.setdefault((label, moment), Event())
-        event.name = f"{label}.{moment}"
+        event.name = f"{self._path}.{label}.{moment}" if self._path else f"{label}.{moment}"
         return event
 
     def _name_members(self) -> None:
         lines = self._source_map.fields
+        handed_in = {id(actor) for actor in self._arguments.values()}
+        handed_in.update(id(actor) for actor in self._root.actors.values())
         for attribute, value in vars(self).items():
-            if isinstance(value, Actor):
-                value.id = attribute
+            path = f"{self._path}.{attribute}" if self._path else attribute
+            if isinstance(value, Actor) and id(value) not in handed_in:
+                value.id = path
                 value.source = self._source_map.place(lines.get(attribute))
-                self.actors[attribute] = value
+                self.actors[attribute] = self._root.actors[path] = value
             elif isinstance(value, Event):
-                value.name = attribute
-                self.events[attribute] = value
+                value.name = path
+                self.events[attribute] = self._root.events[path] = value
 
-    def _check_names(self) -> None:
+    def _check_arguments(self) -> None:
+        for name in self._arguments:
+            if name not in self.parameters and not isinstance(vars(self).get(name), Actor):
+                if self._caller is None:
+                    raise TypeError(f"{type(self).__name__}() has no parameter {name!r}")
+                hint = near(name, self.parameters)
+                raise ScenarioError(
+                    f"{self._path}: scenario {self.name} has no parameter {name}{hint}",
+                    self._caller.scenario.source,
+                )
+
+    def _check_settings(self) -> None:
         """Report settings that name nothing of this scenario."""
         settings = self.settings
         check_known("--set", "parameter", settings.set, self.parameters)
         check_known("--signal", "event", settings.signal, self.events)
         check_known("--spawn", "actor", settings.spawn, self.actors)
         check_known("--destination", "actor", settings.destination, self.actors)
-        for name in self._arguments:
-            if name not in self.parameters:
-                raise TypeError(f"{type(self).__name__}() has no parameter {name!r}")
-
-    def _check_labels(self, root: Behaviour) -> None:
-        known = {node.label for node in every_node(root) if isinstance(node, Node) and node.label}
-        for label, moment in self.label_events:
-            if label not in known:
-                hint = near(label, known)
-                raise ScenarioError(f"@{label}.{moment}: no node has this label{hint}", self.source)
-
-
-def fit(name: str, value: float | str, like: Any) -> Any:
-    """Return a value of the settings in the type of the parameter it is for."""
-    text = str(value)
-    if isinstance(like, bool):
-        if text in ("true", "false"):
-            return text == "true"
-        raise SettingsError(f"--set {name}={text}: write true or false")
-    if isinstance(like, str):
-        return f"{value:g}" if isinstance(value, float) else value
-    if isinstance(value, str):
-        raise SettingsError(f"--set {name}={text}: write a number in SI units")
-    if isinstance(like, int):
-        if value != int(value):
-            raise SettingsError(f"--set {name}={text}: write a whole number")
-        return int(value)
-    return value
-
-
-def check_known(option: str, what: str, given: Any, known: Any) -> None:
-    """Raise SettingsError for a name of the settings that the scenario does not have."""
-    for name in given:
-        if name not in known:
-            has = f"it has {', '.join(known)}" if known else "it has none"
-            hint = near(name, known) or f" ({has})"
-            raise SettingsError(f"{option} {name}: the scenario has no such {what}{hint}")
-
-
-def near(name: str, known: Any) -> str:
-    """Return a question that offers similar names, or nothing."""
-    found = difflib.get_close_matches(name, sorted(known), n=3)
-    return f"; did you mean {' or '.join(found)}?" if found else ""

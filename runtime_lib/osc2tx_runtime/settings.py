@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +12,7 @@ from typing import Any
 
 from osc2tx_runtime.errors import SettingsError
 
-__all__ = ["OPTIONS", "Option", "RunSettings"]
+__all__ = ["OPTIONS", "Option", "RunSettings", "check_known", "near"]
 
 SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 0.001, "min": 60.0}
 NUMBER_AND_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z]*)")
@@ -197,3 +198,18 @@ OPTIONS: tuple[Option, ...] = (
     Option("trace", "FILE", "write the trace (JSON Lines)", Path),
     Option("report", "FILE", "write the report (HTML)", Path),
 )
+
+
+def check_known(option: str, what: str, given: Any, known: Any) -> None:
+    """Raise SettingsError for a name of the settings that the scenario does not have."""
+    for name in given:
+        if name not in known:
+            has = f"it has {', '.join(known)}" if known else "it has none"
+            hint = near(name, known) or f" ({has})"
+            raise SettingsError(f"{option} {name}: the scenario has no such {what}{hint}")
+
+
+def near(name: str, known: Any) -> str:
+    """Return a question that offers similar names, or nothing."""
+    found = difflib.get_close_matches(name, sorted(known), n=3)
+    return f"; did you mean {' or '.join(found)}?" if found else ""

@@ -11,8 +11,9 @@ from typing import Any
 
 from osc2tx_runtime.behaviour.base import Behaviour, Node
 from osc2tx_runtime.behaviour.compositions import Composition
+from osc2tx_runtime.behaviour.invocation import Invocation
 
-__all__ = ["SourceMap", "apply_nodes", "read_source_map"]
+__all__ = ["SourceMap", "apply_nodes", "own_nodes", "read_source_map"]
 
 VERSION = 1
 
@@ -76,16 +77,17 @@ def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
 
 
 def apply_nodes(root: Behaviour, source_map: SourceMap) -> bool:
-    """Give the nodes of a tree their places, and the leaves their names.
+    """Give the nodes of a scenario's tree their places, and the leaves their names.
+
+    The trees of invoked scenarios have their own maps and are left alone.
 
     Returns:
         Whether the map fits the tree. If not, the nodes get the file without a line.
     """
-    nodes = list(written_nodes(root))
+    nodes = [node for node in own_nodes(root) if not node.synthetic]
     fits = len(nodes) == len(source_map.nodes)
-    for node in every_node(root):
-        if isinstance(node, Node):
-            node.source = source_map.file
+    for node in own_nodes(root):
+        node.source = source_map.file
     if fits:
         for node, (line, text) in zip(nodes, source_map.nodes, strict=True):
             node.source = source_map.place(line)
@@ -94,13 +96,10 @@ def apply_nodes(root: Behaviour, source_map: SourceMap) -> bool:
     return fits
 
 
-def written_nodes(root: Behaviour) -> Iterator[Node]:
-    """Yield the nodes that the module writes, in pre-order."""
-    return (node for node in every_node(root) if isinstance(node, Node) and not node.synthetic)
-
-
-def every_node(root: Behaviour) -> Iterator[Behaviour]:
-    """Yield all nodes, parents first."""
-    yield root
-    for child in root.children:
-        yield from every_node(child)
+def own_nodes(root: Behaviour) -> Iterator[Node]:
+    """Yield the nodes of a scenario, parents first, without those of the scenarios it invokes."""
+    if isinstance(root, Node):
+        yield root
+    if not isinstance(root, Invocation):
+        for child in root.children:
+            yield from own_nodes(child)

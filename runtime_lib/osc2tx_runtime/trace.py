@@ -106,6 +106,26 @@ class TraceWriter:
         """Note a new contact of two actors."""
         self.other(3, "collision", actors=sorted(actor_ids))
 
+    def choice(self, name: str, policy: str, chosen: str, source: str) -> None:
+        """Note which member of a `one_of` was chosen, or won the race."""
+        if self.enabled:
+            values = {"name": name, "policy": policy, "chosen": chosen, "source": source}
+            self._listed(4, "choice", values)
+
+    def override(self, name: str, what: str, by: str, source: str) -> None:
+        """Note that a behavior was ended or skipped because of another."""
+        if self.enabled:
+            self._listed(5, "override", {"name": name, "what": what, "by": by, "source": source})
+
+    def variable(self, name: str, value: Any) -> None:
+        """Note the new value of a sampled variable; the last one of an instant counts."""
+        self.other(6, "variable", name=name, value=value)
+
+    def _listed(self, rank: int, kind: str, values: Mapping[str, Any]) -> None:
+        """Keep a line of which there may be several, whatever they are about."""
+        text = to_json(values)[1:-1]
+        self._others[rank, kind, text] = f'"kind":{json.dumps(kind)},{text}'
+
     def other(self, rank: int, kind: str, **values: Any) -> None:
         """Note a line of another kind, about its first value; the last one about it counts.
 

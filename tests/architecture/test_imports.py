@@ -12,27 +12,31 @@ COMPILER = REPOSITORY / "osc2tx"
 RUNTIME = REPOSITORY / "runtime_lib" / "osc2tx_runtime"
 
 # Leaves that every stage may use; they import nothing of ours but `diagnostics` itself.
-LEAVES = {"diagnostics", "options", "resources"}
+LEAVES = {"diagnostics", "light_dataclass", "options", "resources", "stack"}
 
 # Part of osc2tx -> what else of osc2tx it may import. `a.b` means that module and those below it.
 MAY_IMPORT = {
-    "diagnostics": {"diagnostics"},
-    "options": set[str](),
+    "diagnostics": {"diagnostics", "light_dataclass"},
+    "light_dataclass": set[str](),
+    "options": {"light_dataclass"},
     "resources": set[str](),
+    "stack": set[str](),
     "syntax": {"syntax", "stdlib"} | LEAVES,
-    "stdlib": {"stdlib", "syntax"} | LEAVES,
+    "stdlib": {"", "stdlib", "syntax"} | LEAVES,
     "semantics": {"semantics", "syntax.ast", "stdlib"} | LEAVES,
-    "ir": {"ir", "diagnostics"},
+    "analysis": {"analysis", "semantics", "syntax.ast"} | LEAVES,
+    "ir": {"ir", "diagnostics", "light_dataclass"},
     "lowering": {"lowering", "ir", "semantics", "syntax.ast"} | LEAVES,
     "backends": {"backends", "ir"} | LEAVES,
     # the shell around the stages
-    "config": {"options"},
-    "inputs": set[str](),
+    "config": {"options", "diagnostics.nearest", "light_dataclass"},
+    "inputs": {"light_dataclass"},
     "imports": {"syntax"} | LEAVES,
-    "driver": {"imports", "syntax", "semantics", "lowering", "ir", "backends"} | LEAVES,
-    "build": {"config", "diagnostics", "driver", "inputs"},
-    "cli": {"", "build", "config", "driver", "inputs"} | LEAVES,
-    "run_command": {"build", "cli", "config", "driver", "inputs"},
+    "driver": {"imports", "syntax", "semantics", "analysis", "lowering", "ir", "backends"} | LEAVES,
+    "build": {"config", "diagnostics", "driver", "inputs", "light_dataclass"},
+    "reporting": {"", "driver", "diagnostics", "light_dataclass"},
+    "cli": {"", "build", "config", "driver", "inputs", "reporting"} | LEAVES,
+    "run_command": {"build", "cli", "config", "driver", "inputs", "reporting"},
     "__main__": {"cli"},
     "": set[str](),
 }
@@ -43,6 +47,7 @@ OTHERS = {
     "semantics": {"pint"},
     "backends": {"jinja2", "black"},
     "cli": {"click"},
+    "reporting": {"click"},
     "run_command": {"click", "rich", "osc2tx_runtime"},
 }
 RUNTIME_OTHERS = {"numpy", "py_trees"}

@@ -145,7 +145,8 @@ def compare(numbers: Numbers, expected: Numbers) -> tuple[list[str], list[str]]:
 
     Files that check may also turn from `no scenario` to `build`, so the two count together.
     """
-    fell, rose = [], []
+    fell: list[str] = []
+    rose: list[str] = []
     for group, pinned in expected.items():
         found = numbers.get(group, {})
         for stage, (now, then) in {
@@ -172,7 +173,7 @@ def bugs(results: Iterable[Result]) -> list[str]:
 def render(results: Sequence[Result], *, verbose: bool) -> str:
     """Return the report as text."""
     columns = ("files", "parse", "check", "build", "no scenario", "refused")
-    rows = [("dialect", "kind", *columns)]
+    rows: list[tuple[str, ...]] = [("dialect", "kind", *columns)]
     for group, numbers in count(results).items():
         rows.append((*group.split(" ", 1), *(str(numbers.get(name, "")) for name in columns)))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -183,15 +184,11 @@ def render(results: Sequence[Result], *, verbose: bool) -> str:
         ).rstrip()
         for row in rows
     ]
-    for title, wanted in (
-        ("why files are refused, by files", lambda r: r.kind != INVALID),
-        ("accepted although their authors expect a refusal", None),
-    ):
-        lines += ["", f"{title}:"]
-        if wanted is None:
-            lines += [f"  {r.file}" for r in results if r.kind == INVALID and not r.is_refused]
-        else:
-            lines += _reasons([r for r in results if wanted(r)], verbose)
+    valid = [result for result in results if result.kind != INVALID]
+    accepted = [r.file for r in results if r.kind == INVALID and not r.is_refused]
+    lines += ["", "why files are refused, by files:", *_reasons(valid, verbose)]
+    lines += ["", "accepted although their authors expect a refusal:"]
+    lines += [f"  {file}" for file in accepted]
     lines += ["", "bugs of the compiler:", *(f"  {bug}" for bug in bugs(results) or ["none"])]
     return "\n".join(lines) + "\n"
 

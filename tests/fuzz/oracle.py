@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import os
-import sys
 import tempfile
 import time
 from dataclasses import dataclass
@@ -109,8 +108,3 @@ def _key(error: Exception) -> str:
         message = str(error).partition("'")[0].split(": ")[-1]
         return f"{type(error).__name__} {message} {place}"
     return f"{type(error).__name__} {place}"
-
-
-def settle_recursion() -> None:
-    """Take the recursion limit of a fresh process; test tools raise it or stand on its stack."""
-    sys.setrecursionlimit(1000)

@@ -22,91 +22,14 @@ T = TypeVar("T")
 
 # Names that mean something to Python, to the runtime or to the generated module, and names that
 # only differ in what Python cannot tell.
-NAMES = (
-    *[
-        "car",
-        "ego",
-        "npc",
-        "other_car",
-        "x",
-        "y",
-        "v",
-        "gap",
-        "lag",
-        "speed_limit",
-        "flag",
-        "text",
-        "count",
-        "hero_2",
-        "_",
-        "__",
-        "self",
-        "cls",
-    ],
-    *[
-        "super",
-        "lambda",
-        "class",
-        "def",
-        "None",
-        "True",
-        "False",
-        "pass",
-        "import_",
-        "from_",
-        "print",
-        "type",
-        "object",
-        "len",
-    ],
-    *[
-        "list",
-        "str",
-        "float",
-        "main",
-        "declare",
-        "behavior",
-        "create_root",
-        "Scenario",
-        "Serial",
-        "Parallel",
-        "OneOf",
-    ],
-    *[
-        "Wait",
-        "Event",
-        "Vehicle",
-        "Top",
-        "top",
-        "m",
-        "mps",
-        "kph",
-        "s",
-        "rise",
-        "fall",
-        "name",
-        "parent",
-        "children",
-        "tick",
-        "status",
-    ],
-    *[
-        "setup",
-        "start_",
-        "world",
-        "|a-b|",
-        "|a_b|",
-        '|"""|',
-        "|\\n|",
-        "|ÅÖ|",
-        "|日本|",
-        "|'|",
-        "|#|",
-        "|x;y|",
-        "|{x}|",
-    ],
-    "|a b|",
+PLAIN_NAMES = (
+    "car ego npc other_car x y v gap lag speed_limit flag text count hero_2 _ __ self cls super "
+    "lambda class def None True False pass import_ from_ print type object len list str float main "
+    "declare behavior create_root Scenario Serial Parallel OneOf Wait Event Vehicle Top top m mps "
+    "kph s rise fall name parent children tick status setup start_ world"
 )
+ESCAPED_NAMES = """|a-b| |a_b| |\"\"\"| |\\n| |ÅÖ| |日本| |'| |#| |x;y| |{x}|"""
+NAMES = (*PLAIN_NAMES.split(), *ESCAPED_NAMES.split(), "|a b|")
 UNITS = {
     "length": ("m", "km", "cm", "feet"),
     "time": ("s", "ms", "min"),
@@ -348,7 +271,7 @@ class Writer:
         if self.often(0.3):
             arguments.append(f"duration: {self.duration()}")
         block: list[str] = []
-        if self.often(0.7):
+        if self.often(0.7) and (self.bold or action.name == "drive"):
             modifiers = [m for m in scope.declared if isinstance(m, ModifierSymbol) and m.target]
             modifiers = [m for m in modifiers if self.bold or m.name in MODIFIERS]
             chosen = [self.one(modifiers) for _ in range(self.random.randint(0, 2))]
@@ -443,7 +366,7 @@ class Writer:
         known = self.values.get(kind, ())
         if depth <= 0 or self.often(0.3):
             return self.one(known) if known and self.often(0.6) else self.literal(kind)
-        if kind == "uint":
+        if kind == "uint" or (kind == "string" and not self.bold):
             return self.literal(kind)
         if kind == "bool":
             return self.truth(depth - 1, steady)
@@ -488,7 +411,9 @@ class Writer:
             "angle": (f"{one}.pose.orientation.yaw",),
             "time": (f"{one}.time_headway({other})", f"{one}.time_to_collision({other})"),
         }.get(kind)
-        return self.one(options) if options else None
+        if not options:
+            return None
+        return self.one(options if self.bold else options[:1])
 
     def truth(self, depth: int, steady: bool) -> str:
         form = self.random.randrange(6)

@@ -63,6 +63,7 @@ def test_what_is_in_the_wheel(wheel: Path) -> None:
         "osc2tx/py.typed",
         "osc2tx/grammar/OpenSCENARIO2.g4",
         "osc2tx/stdlib/domain.osc",
+        "osc2tx/diagnostics/texts/1xx.toml",
         "osc2tx_runtime/py.typed",
         "osc2tx_runtime/maps/highway.xodr",
         "osc2tx_runtime/report/report.html",

@@ -22,7 +22,7 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.source_map import ScenarioMap
-from osc2tx.backends.py_trees.view import ArgumentView, CallView, MethodView
+from osc2tx.backends.py_trees.view import ArgumentView, CallView, MethodView, StatementView
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
@@ -37,20 +37,25 @@ class BehaviorTreeBuilder:
     Args:
         calls: Writer of calls.
         names: Names of the scenario's fields and methods.
+        classes: Names of the module's scenario classes, by key of the scenario.
         source_map: Where the nodes' lines go, in the pre-order of the tree.
     """
 
-    def __init__(self, calls: CallWriter, names: NameTable, source_map: ScenarioMap) -> None:
+    def __init__(
+        self, calls: CallWriter, names: NameTable, classes: NameTable, source_map: ScenarioMap
+    ) -> None:
         """See the class."""
+        self._classes = classes
         self._calls = calls
         self._names = names
         self._source_map = source_map
         self._written: list[MethodView] = []
 
-    def write(self, root: ir.Behavior) -> tuple[MethodView, ...]:
+    def write(self, scenario: ir.Scenario) -> tuple[MethodView, ...]:
         """Return `behavior` and the methods it calls, in source order."""
-        self._method(PyName("behavior"), root)
-        return tuple(self._written)
+        self._method(PyName("behavior"), scenario.body)
+        first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
+        return (first, *self._written[1:])
 
     def _method(self, name: PyName, node: ir.Behavior) -> None:
         """Write a method; it is listed before those it calls."""
@@ -92,6 +97,8 @@ class BehaviorTreeBuilder:
                 return self._composition(node, depth=depth)
             case ir.Invoke():
                 return self._invocation(node)
+            case ir.InvokeScenario():
+                return self._scenario_invocation(node)
             case ir.Wait(trigger=trigger):
                 arguments = (*self._calls.trigger(trigger), *self._label(node.label))
                 return self._calls.runtime_call("Wait", *arguments)
@@ -119,7 +126,7 @@ class BehaviorTreeBuilder:
     def _composition_arguments(self, node: ir.Composition) -> tuple[ArgumentView, ...]:
         arguments = self._calls.duration(node.duration)
         if isinstance(node, ir.Parallel):
-            if node.overlap != "start":
+            if node.overlap is not None:
                 arguments += (code(literal(node.overlap), "overlap"),)
             arguments += self._calls.time_limit("start_to_start", node.start_to_start)
             arguments += self._calls.time_limit("end_to_end", node.end_to_end)
@@ -136,8 +143,24 @@ class BehaviorTreeBuilder:
         )
         return CallView(action, arguments)
 
+    def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
+        arguments = [code(name_expression(self._classes[node.key]))]
+        if node.actor is not None:
+            arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
+        arguments += self._calls.keywords(node.arguments)
+        arguments += self._calls.duration(node.duration)
+        arguments += () if node.until else self._label(node.label)
+        return CallView(self_attribute(PyName("invoke")), tuple(arguments))
+
     def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
         return () if label is None else (code(literal(label), "label"),)
+
+
+def _override(override: ir.Override) -> StatementView:
+    labels = (code(literal(override.overridden)), code(literal(override.by)))
+    mode = () if override.mode == "on_start" else (code(literal(override.mode), "mode"),)
+    call = CallView(self_attribute(PyName("override")), (*labels, *mode))
+    return StatementView(None, ArgumentView(call=call))
 
 
 def method_name(node: ir.Composition) -> str:

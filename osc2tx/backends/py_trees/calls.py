@@ -111,6 +111,10 @@ class CallWriter:
                 arguments.append(code(self.expressions.field(name)))
             case ir.LabelEvent():
                 arguments.append(self._label_event(trigger.event))
+            case ir.InnerEvent(label=label, name=name):
+                path = code(literal(f"{label}.{name}"))
+                event = PyExpr("self.event", Level.ATOM)
+                arguments.append(ArgumentView(call=CallView(event, (path,))))
             case None:
                 pass
         if trigger.condition is not None:
@@ -125,10 +129,7 @@ class CallWriter:
             ir.Moment.FAIL: "failed",
         }
         method = PyExpr(f"self.{methods[event.moment]}", Level.ATOM)
-        label = ir.Literal(
-            span=event.span, type=ir.ValueType(ir.Kind.STRING, "string"), value=event.label
-        )
-        return ArgumentView(call=CallView(method, (code(self.expressions.write(label)),)))
+        return ArgumentView(call=CallView(method, (code(literal(event.label)),)))
 
     def condition(self, condition: ir.Condition) -> ArgumentView:
         """Write a condition; expressions over the world are read late."""

@@ -48,15 +48,10 @@ def emit(module: ir.Module) -> GeneratedModule:
     """Write the module for one source file with at least one scenario."""
     uses = Uses()
     classes = NameTable(RUNTIME_CLASSES)
-    writers = [
-        ScenarioWriter(
-            scenario,
-            module.one_of,
-            classes.add(scenario.name, class_name(scenario.name), "Scenario"),
-            uses,
-        )
-        for scenario in module.scenarios
-    ]
+    for scenario in module.scenarios:
+        plain = scenario.name.rpartition(".")[2]
+        classes.add(scenario.key, class_name(plain), "Scenario")
+    writers = [ScenarioWriter(s, module.one_of, classes, uses) for s in module.scenarios]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
         docstring=_docstring(module),
@@ -64,8 +59,8 @@ def emit(module: ir.Module) -> GeneratedModule:
         api_level=API_LEVEL,
         units=uses.units(),
         scenarios=scenarios,
-        mains=tuple(classes[scenario.name] for scenario in module.scenarios),
-        shown=classes[shown_scenario(module)],
+        mains=tuple(classes[scenario.key] for scenario in own_scenarios(module)),
+        shown=classes[shown_scenario(module).key],
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
@@ -77,15 +72,22 @@ def module_stem(source: str) -> str:
     return PyName(identifier(PurePosixPath(source).stem)).text
 
 
-def shown_scenario(module: ir.Module) -> str:
+def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
+    """Return the scenarios of the file itself, without imported ones."""
+    return [scenario for scenario in module.scenarios if not scenario.is_imported]
+
+
+def shown_scenario(module: ir.Module) -> ir.Scenario:
     """Return the scenario whose tree viewers get: `top`, `main`, else the last."""
-    names = [scenario.name for scenario in module.scenarios]
-    return next((name for name in ("top", "main") if name in names), names[-1])
+    by_name = {scenario.name: scenario for scenario in own_scenarios(module)}
+    wanted = next((name for name in ("top", "main") if name in by_name), None)
+    return by_name[wanted] if wanted else own_scenarios(module)[-1]
 
 
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
-    names = ", ".join(f"`{scenario.name}`" for scenario in module.scenarios)
-    word = "Scenario" if len(module.scenarios) == 1 else "Scenarios"
+    own = own_scenarios(module)
+    names = ", ".join(f"`{scenario.name}`" for scenario in own)
+    word = "Scenario" if len(own) == 1 else "Scenarios"
     about = ("", *module.comments) if module.comments else ()
     lines = (
         f"{word} {names}.",

@@ -71,8 +71,8 @@ class ExpressionWriter:
                 return name_expression(PyName(identifier(name)))
             case ir.ScenarioSelf():
                 return PyExpr("self", Level.ATOM)
-            case ir.ActorSelf():
-                return PyExpr("self.actor", Level.ATOM)
+            case ir.EventArgument(event=event, parameter=parameter):
+                return PyExpr(f"{self.field(event)}[{literal(parameter)}]", Level.ATOM)
             case ir.Attribute(base=base, name=name):
                 return PyExpr(f"{self._atom(base)}.{PyName(identifier(name))}", Level.ATOM)
             case ir.MethodCall():
@@ -154,8 +154,8 @@ class ExpressionWriter:
         if operator in LOGICAL:
             level = LOGICAL[operator]
             return PyExpr(f"{left.within(level)} {operator} {right.within(level + 1)}", level)
-        # a => b
-        return PyExpr(f"not {left.within(Level.NOT)} or {right.within(Level.AND)}", Level.OR)
+        # a => b; a chain of them stays flat, for `or` is associative
+        return PyExpr(f"not {left.within(Level.NOT)} or {right.within(Level.OR)}", Level.OR)
 
     def _in_range(self, left: PyExpr, bounds: ir.RangeValue) -> PyExpr:
         lower, upper = self.write(bounds.lower), self.write(bounds.upper)

@@ -60,9 +60,10 @@ def constructor_keyword(path: tuple[str, ...]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ActionSupport:
-    """What the runtime takes for one action."""
+    """What the runtime takes for one action; it cannot do without the `required` arguments."""
 
     arguments: frozenset[str]
+    required: frozenset[str]
     modifiers: frozenset[str]
 
 
@@ -98,7 +99,11 @@ def runtime_support() -> RuntimeSupport:
 
     return RuntimeSupport(
         actions={
-            name: ActionSupport(frozenset(entry["arguments"]), frozenset(entry["modifiers"]))
+            name: ActionSupport(
+                frozenset(entry["arguments"]),
+                frozenset(entry["required"]),
+                frozenset(entry["modifiers"]),
+            )
             for name, entry in table["actions"].items()
         },
         modifiers=sets("modifiers"),

@@ -6,6 +6,7 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
 from osc2tx.backends.py_trees.calls import CallWriter, code, comments
 from osc2tx.backends.py_trees.code import (
+    Level,
     PyComment,
     PyDocLine,
     PyExpr,
@@ -40,15 +41,15 @@ class ScenarioWriter:
     Args:
         scenario: The scenario.
         one_of: Policy of `one_of` in this module.
-        class_name: Name of its class.
+        classes: Names of the module's scenario classes, by key of the scenario.
         uses: What the module has to import.
     """
 
-    def __init__(self, scenario: ir.Scenario, one_of: str, class_name: PyName, uses: Uses) -> None:
+    def __init__(self, scenario: ir.Scenario, one_of: str, classes: NameTable, uses: Uses) -> None:
         """See the class."""
         self._scenario = scenario
         self._one_of = one_of
-        self._class_name = class_name
+        self._classes = classes
         self._names = NameTable(SCENARIO_ATTRIBUTES)
         for member in (*scenario.declarations, *scenario.methods):
             self._names.add(member.name, identifier(member.name))
@@ -65,11 +66,11 @@ class ScenarioWriter:
         )
         functions = tuple(self._function(method) for method in self._scenario.methods)
         placements = tuple(self._placement(placement) for placement in self._scenario.placements)
-        methods = BehaviorTreeBuilder(self._calls, self._names, self.source_map).write(
-            self._scenario.body
-        )
+        methods = BehaviorTreeBuilder(
+            self._calls, self._names, self._classes, self.source_map
+        ).write(self._scenario)
         return ScenarioView(
-            class_name=self._class_name,
+            class_name=self._classes[self._scenario.key],
             docstring=self._docstring(),
             attributes=self._attributes(),
             declarations=declarations,
@@ -112,19 +113,19 @@ class ScenarioWriter:
         return next((event for event in events if event.is_implicit), None)
 
     def _declared_value(self, declaration: ir.Declaration) -> ArgumentView:
-        write = self._calls.expressions.write
         match declaration:
             case ir.Actor(lineage=lineage):
                 kind = next(ACTOR_CLASSES[t] for t in lineage if t in ACTOR_CLASSES)
                 return self._constructor(kind, declaration.values)
             case ir.Struct(type=type_):
                 return self._constructor(STRUCT_CLASSES[type_], declaration.values)
-            case ir.Variable(value=value):
-                return code(write(value))
+            case ir.Variable():
+                return self._variable(declaration)
             case ir.Parameter():
                 return self._parameter(declaration)
             case ir.Event(trigger=trigger):
                 arguments = () if trigger is None else self._calls.trigger(trigger)
+                arguments += self._event_parameters(declaration.parameters)
                 return ArgumentView(call=self._calls.runtime_call("Event", *arguments))
 
     def _constructor(self, kind: str, values: tuple[ir.FieldValue, ...]) -> ArgumentView:
@@ -138,6 +139,29 @@ class ScenarioWriter:
         )
         return ArgumentView(call=self._calls.runtime_call(kind, *arguments))
 
+    def _variable(self, variable: ir.Variable) -> ArgumentView:
+        """Write the value, or how the variable is sampled."""
+        writer = self._calls.expressions
+        initial = [code(writer.write(v)) for v in (variable.value,) if v is not None]
+        if variable.sample is None:
+            return initial[0]  # the verifier saw to it that there is one
+        what = code(writer.late(writer.write(variable.sample.expression)))
+        when = self._calls.occurrence(variable.sample.trigger)
+        return ArgumentView(call=CallView(_self("sample"), (what, when, *initial)))
+
+    def _event_parameters(
+        self, parameters: tuple[ir.MethodParameter, ...]
+    ) -> tuple[ArgumentView, ...]:
+        """Write the parameters of an event with their defaults; `None` must be given."""
+        if not parameters:
+            return ()
+        writer = self._calls.expressions
+        entries = ", ".join(
+            f"{literal(p.name)}: {'None' if p.default is None else writer.value(p.default)}"
+            for p in parameters
+        )
+        return (code(PyExpr(f"{{{entries}}}", Level.ATOM), "parameters"),)
+
     def _parameter(self, parameter: ir.Parameter) -> ArgumentView:
         """Write a constant as its value, anything else so that `--set` can reach it."""
         write = self._calls.expressions.write
@@ -145,7 +169,8 @@ class ScenarioWriter:
             return code(write(parameter.value))
         arguments = [code(literal(parameter.name))]
         arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
-        return ArgumentView(call=CallView(_self("parameter"), tuple(arguments)))
+        method = "global_parameter" if parameter.is_global else "parameter"
+        return ArgumentView(call=CallView(_self(method), tuple(arguments)))
 
     def _function(self, method: ir.Method) -> FunctionView:
         write = self._calls.expressions.write

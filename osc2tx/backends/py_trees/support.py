@@ -16,7 +16,20 @@ from osc2tx.backends.py_trees.runtime_api import (
 )
 from osc2tx.diagnostics import DiagnosticSink, Span
 
-OVERLAPS = frozenset({"start", "equal"})
+# CPython gives up on expressions of about 3,000 parts; nobody reads one of this length anyway.
+MAX_PARTS = 1000
+
+# Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
+INVOKE_KEYWORDS = frozenset({"caller", "label", "settings"})
+
+# Modifiers that say nothing without at least one of these parameters.
+NEEDS_ONE_OF = {
+    "acceleration": frozenset({"acceleration"}),
+    "change_speed": frozenset({"speed"}),
+    "position": frozenset({"distance", "time", "at_point", "x"}),
+    "speed": frozenset({"speed", "faster_than", "slower_than", "same_as"}),
+    "yaw": frozenset({"angle"}),
+}
 
 
 def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
@@ -51,9 +64,13 @@ class _SupportCheck:
                 self.object(declaration, type_ if type_ in STRUCT_CLASSES else None)
             case ir.Parameter(value=value, domain=domain):
                 self.expressions(part for part in (value, domain) if part is not None)
-            case ir.Variable(value=value):
-                self.expressions((value,))
-            case ir.Event(trigger=trigger):
+            case ir.Variable(value=value, sample=sample):
+                self.expressions(() if value is None else (value,))
+                if sample is not None:
+                    self.expressions((sample.expression,))
+                    self.trigger(sample.trigger)
+            case ir.Event(trigger=trigger, parameters=parameters):
+                self.expressions(p.default for p in parameters if p.default is not None)
                 if trigger is not None:
                     self.trigger(trigger)
 
@@ -91,11 +108,16 @@ class _SupportCheck:
         self.arguments(
             modifier.arguments, self.runtime.placement[modifier.name], f"modifier `{modifier.name}`"
         )
+        self.content(modifier)
 
     def behavior(self, node: ir.Behavior) -> None:
         match node:
             case ir.Invoke():
                 self.invocation(node)
+                self.limits(node.duration, node.until)
+            case ir.InvokeScenario():
+                self.free_names(node)
+                self.expressions(argument.value for argument in node.arguments)
                 self.limits(node.duration, node.until)
             case ir.Wait(trigger=trigger):
                 self.trigger(trigger)
@@ -106,28 +128,35 @@ class _SupportCheck:
                 for reaction in reactions:
                     self.behavior(reaction)
             case ir.Parallel():
-                self.overlap(node)
+                for offset in (node.start_to_start, node.end_to_end):
+                    if offset is not None:
+                        self.time(offset)
                 self.limits(node.duration, node.until)
             case ir.Serial() | ir.OneOf():
                 self.limits(node.duration, node.until)
 
-    def overlap(self, node: ir.Parallel) -> None:
-        if node.overlap not in OVERLAPS:
-            self.sink.report(
-                "OSC506",
-                node.span,
-                f"`overlap: {node.overlap}` is not supported by the runtime yet",
-            )
-        for offset in (node.start_to_start, node.end_to_end):
-            if offset is not None:
+    def free_names(self, node: ir.InvokeScenario) -> None:
+        for argument in node.arguments:
+            if argument.parameter in INVOKE_KEYWORDS:
                 self.sink.report(
-                    "OSC506", offset.span, "offsets of `parallel` are not supported yet"
+                    "OSC509",
+                    argument.span,
+                    f"`{argument.parameter}` is a word of the runtime's own here; rename it",
                 )
 
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
-        self.expressions(() if duration is None else (duration,))
+        if duration is not None:
+            self.time(duration)
         for trigger in until:
             self.trigger(trigger)
+
+    def time(self, value: ir.Expression) -> None:
+        """Check a time that the tree is built with."""
+        if ir.is_live(value):
+            self.sink.report(
+                "OSC503", value.span, "a time limit cannot depend on the state of the world yet"
+            )
+        self.expressions((value,))
 
     def invocation(self, node: ir.Invoke) -> None:
         key = f"{node.owner}.{node.action}"
@@ -141,8 +170,23 @@ class _SupportCheck:
             return
         self.expressions((node.actor,))
         self.arguments(node.arguments, support.arguments, f"action `{key}`")
-        for modifier in node.modifiers:
+        self.required(node, key, support.required)
+        for index, modifier in enumerate(node.modifiers):
             self.modifier(modifier, key, support.modifiers)
+            earlier = (m for m in node.modifiers[:index] if m.name == modifier.name)
+            if any(other.at == modifier.at for other in earlier):
+                self.sink.report(
+                    "OSC508", modifier.span, f"modifier `{modifier.name}` stands here twice"
+                )
+
+    def required(self, node: ir.Invoke, action: str, needed: frozenset[str]) -> None:
+        given = {identifier(argument.parameter) for argument in node.arguments}
+        missing = sorted(needed - given)
+        if missing:
+            names = ", ".join(f"`{name}`" for name in missing)
+            self.sink.report(
+                "OSC509", node.span, f"action `{action}` cannot do without {names} yet"
+            )
 
     def modifier(self, modifier: ir.ModifierCall, action: str, accepted: frozenset[str]) -> None:
         if modifier.name not in accepted:
@@ -160,6 +204,16 @@ class _SupportCheck:
                 f"modifier `{modifier.name}` cannot be asked for `at: end` yet",
             )
         self.arguments(modifier.arguments, known, f"modifier `{modifier.name}`")
+        self.content(modifier)
+
+    def content(self, modifier: ir.ModifierCall) -> None:
+        needed = NEEDS_ONE_OF.get(modifier.name, frozenset())
+        given = {argument.parameter for argument in modifier.arguments}
+        if needed and not needed & given:
+            names = " or ".join(f"`{name}`" for name in sorted(needed))
+            self.sink.report(
+                "OSC509", modifier.span, f"modifier `{modifier.name}` cannot do without {names} yet"
+            )
 
     def arguments(
         self, arguments: tuple[ir.Argument, ...], known: frozenset[str], what: str
@@ -180,12 +234,26 @@ class _SupportCheck:
                 trigger.span,
                 "an event can only be combined with a plain condition yet",
             )
-        if trigger.condition is not None:
-            self.expressions(ir.condition_expressions(trigger.condition))
+        match trigger.condition:
+            case ir.Elapsed() | ir.Every():
+                for value in ir.condition_expressions(trigger.condition):
+                    self.time(value)
+            case ir.Level() | ir.Edge():
+                self.expressions(ir.condition_expressions(trigger.condition))
+            case None:
+                pass
 
     def expressions(self, expressions: Iterable[ir.Expression]) -> None:
         for expression in expressions:
-            for part in ir.walk(expression):
+            parts = ir.walk(expression)
+            if len(parts) > MAX_PARTS:
+                self.sink.report(
+                    "OSC503",
+                    expression.span,
+                    f"an expression of {len(parts)} parts is too long for a Python module",
+                    help="compute parts of it in variables",
+                )
+            for part in parts:
                 self.expression(part)
 
     def expression(self, part: ir.Expression) -> None:

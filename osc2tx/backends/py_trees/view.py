@@ -66,6 +66,7 @@ class MethodView:
     location: PyComment
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
+    statements: tuple[StatementView, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from osc2tx.semantics.aliases import member_alias, standard_member, write_instead
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.expressions.names import value_type
@@ -36,6 +37,8 @@ def resolve_member(
         r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`")
         return None
     member = find_member(r, owner, node.name, env.context)
+    if member is None and (standard := member_alias(r, owner, node.name)):
+        member = find_member(r, owner, standard, env.context)
     if member is None:
         report_unknown_member(r, owner, node.name)
         return None
@@ -72,7 +75,8 @@ def report_unknown_member(r: Resolution, owner: TypeSymbol, name: ast.Name) -> N
         "OSC208",
         name.span,
         f"`{owner.name}` has no member `{name}`",
-        help=did_you_mean(name.text, member_names(owner)),
+        help=write_instead(standard_member(owner, name))
+        or did_you_mean(name.text, member_names(owner)),
         labels=declared_here(owner),
     )
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from osc2tx.semantics.aliases import unit_alias, write_instead
 from osc2tx.semantics.conversions import common_type, is_numeric
+from osc2tx.semantics.dialects import UNIT_ALIASES
+from osc2tx.semantics.repeats import report_disputed
 from osc2tx.semantics.resolution import Environment, Resolution, did_you_mean
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
 from osc2tx.semantics.unimported import report_unimported
@@ -12,6 +15,8 @@ from osc2tx.syntax import ast
 def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
     """Type a number with a unit; unit names form one table (§7.3.4)."""
     unit = r.scope.unit_named(node.unit.text)
+    if unit is None and (standard := unit_alias(r, node.unit)):
+        unit = r.scope.unit_named(standard.text)
     if unit is None:
         if not report_unimported(r, node.unit):
             known = [u.name for u in r.scope.all_units()]
@@ -19,9 +24,12 @@ def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
                 "OSC209",
                 node.unit.span,
                 f"no unit `{node.unit}`",
-                help=did_you_mean(node.unit.text, known),
+                help=write_instead(UNIT_ALIASES.get(node.unit.text))
+                or did_you_mean(node.unit.text, known),
             )
         return ERROR
+    if rival := r.relaxations.disputed.get(node.unit.text):
+        report_disputed(r, node.unit, unit, rival)
     r.units[node] = unit
     r.references[node.unit] = unit
     return unit.type

@@ -17,8 +17,24 @@ from osc2tx.semantics.expressions.access import note_prelude_member, report_unkn
 from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
-from osc2tx.semantics.symbols import MethodSymbol, Symbol
-from osc2tx.semantics.types import BOOL, ERROR, VOID, ListType, PrimitiveType, RangeType, Type
+from osc2tx.semantics.resolve_types import type_of_symbol
+from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.symbols import (
+    ActorSymbol,
+    FieldSymbol,
+    MethodSymbol,
+    StructSymbol,
+    Symbol,
+)
+from osc2tx.semantics.types import (
+    BOOL,
+    ERROR,
+    VOID,
+    ListType,
+    PrimitiveType,
+    RangeType,
+    Type,
+)
 from osc2tx.syntax import ast
 
 
@@ -48,7 +64,7 @@ def resolve_call(
             symbol = _find_plain(r, callee, env)
             receiver = None
         case ast.MemberAccess():
-            base = r.type_of(callee.base, env)
+            base = type_itself(r, callee.base, callee.name, env) or r.type_of(callee.base, env)
             if isinstance(base, ListType | RangeType) and isinstance(node, ast.Call):
                 return _resolve_operator(r, node, callee, base, env)
             symbol = _find_member(r, callee, base, env)
@@ -63,6 +79,67 @@ def resolve_call(
     r.references[callee] = symbol
     bind_call(r, node, symbol, receiver, callee.span, env)
     return symbol.result
+
+
+def type_itself(
+    r: Resolution, receiver: ast.Expression, method: ast.Name, env: Environment
+) -> Type | None:
+    """Return the struct or actor type that stands before the dot in place of an instance.
+
+    Sound where the type has no fields, for then all its instances are alike.
+    """
+    if not isinstance(receiver, ast.NameExpression):
+        return None
+    if lookup_value(r, receiver.name, env, quiet=True) is not None:
+        return None
+    named = r.scope.select(r.scope.types_named(receiver.name.text), receiver.name, env.context)
+    if len(named) != 1 or not isinstance(named[0], StructSymbol | ActorSymbol):
+        return None
+    symbol = named[0]
+    kind = "struct" if isinstance(symbol, StructSymbol) else "actor type"
+    r.references[receiver] = symbol
+    members = [m for ancestor in supertypes(symbol) for m in ancestor.members.values()]
+    is_static = not any(isinstance(m, FieldSymbol) for m in members)
+    if is_static and r.relaxes(
+        "OSC618",
+        receiver.span,
+        f"`{receiver.name}.{method}()` is called on the {kind} itself, not on an instance",
+        key=f"{symbol.name}.{method}",
+        help=f"declare a field of type `{symbol.name}`, and call it on that",
+    ):
+        r.types[receiver] = type_of_symbol(symbol)
+        return r.types[receiver]
+    r.types[receiver] = ERROR
+    r.report(
+        "OSC316",
+        receiver.span,
+        f"`{receiver.name}` is a {kind}, not an instance of it".replace(" a a", " an a"),
+        notes=[] if is_static else ["it has fields, whose values may be needed"],
+        help=f"declare a field of type `{symbol.name}`, and call `{method}()` on that",
+        labels=declared_here(symbol),
+    )
+    return ERROR
+
+
+def call_by_statement(r: Resolution, node: ast.ModifierApplication, env: Environment) -> bool:
+    """Whether a line that looks like a modifier calls a method of a struct."""
+    if node.actor is None:
+        return False
+    if r.scope.modifiers_named(node.modifier.text):
+        return False
+    base = type_itself(r, node.actor, node.modifier, env)
+    if base is None:
+        return False
+    owner = symbol_of(base)
+    method = None if owner is None else find_member(r, owner, node.modifier, env.context)
+    if not isinstance(method, MethodSymbol):
+        type_arguments(r, node.arguments, env)
+        if owner is not None:
+            report_unknown_member(r, owner, node.modifier)
+        return True
+    r.references[node.modifier] = method
+    bind_call(r, node, method, node.actor, node.modifier.span, env)
+    return True
 
 
 def _find_plain(r: Resolution, callee: ast.NameExpression, env: Environment) -> MethodSymbol | None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from osc2tx.semantics.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.conversions import converts, symbol_of, type_of_owner
+from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
 from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
 from osc2tx.semantics.resolve_types import resolve_type_name
@@ -24,7 +26,7 @@ def infer_name(
     r: Resolution, node: ast.NameExpression, env: Environment, expected: Type | None
 ) -> Type:
     """Type a bare name; an enum member needs an expected enum type."""
-    member = enum_member_of(node.name, expected)
+    member = enum_member_of(node.name, expected) or _member_by_alias(r, node.name, expected)
     symbol = lookup_value(r, node.name, env, quiet=member is not None)
     if member is not None and (symbol is None or not _has_type(symbol, expected)):
         r.references[node] = member
@@ -50,6 +52,15 @@ def enum_member_of(name: ast.Name, expected: Type | None) -> EnumMemberSymbol | 
     if isinstance(expected, EnumType):
         return expected.symbol.members.get(name.text)
     return None
+
+
+def _member_by_alias(
+    r: Resolution, name: ast.Name, expected: Type | None
+) -> EnumMemberSymbol | None:
+    if not isinstance(expected, EnumType):
+        return None
+    standard = enum_member_alias(r, expected.symbol, name)
+    return enum_member_of(standard, expected) if standard else None
 
 
 def value_type(r: Resolution, symbol: Symbol, node: ast.Expression) -> Type:
@@ -101,7 +112,8 @@ def _infer_unknown(
             "OSC208",
             node.span,
             f"enum `{expected.symbol.name}` has no member `{name}`",
-            help=did_you_mean(name.text, expected.symbol.members),
+            help=write_instead(ENUM_MEMBER_ALIASES.get((expected.symbol.name, name.text)))
+            or did_you_mean(name.text, expected.symbol.members),
             labels=declared_here(expected.symbol),
         )
         return ERROR

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
+from osc2tx.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import Name, Node
 from osc2tx.syntax.ast.types import TypeName
 

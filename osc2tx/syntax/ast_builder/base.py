@@ -16,6 +16,8 @@ Tree = Any  # a parser context; `children` holds contexts and token indexes
 # Not reported on a line with a lexical mistake, which is most likely their cause.
 _FOLLOW_UPS = frozenset({"OSC100", "OSC108", "OSC112"})
 
+_LAYOUT = frozenset({t.NEWLINE, t.INDENT, t.DEDENT})
+
 
 class BuilderBase:
     """Access to the tokens of one file."""
@@ -30,6 +32,7 @@ class BuilderBase:
         self._code = table.source.text
         self._sink = sink
         self._allow = allow
+        self._damaged = sorted(table.damaged)
         self._damaged_lines = {table.source.position(start)[0] for start in table.damaged}
 
     def _report(self, code: str, span: Span, message: str, help_: str | None = None) -> None:
@@ -46,19 +49,20 @@ class BuilderBase:
         return Span(self._source, self._starts[first], self._ends[last])
 
     def _tree_span(self, tree: Tree) -> Span:
-        return self._span(tree.start, self._last(tree))
+        return Span(self._source, self._starts[tree.start], self._ends[self._last(tree)])
 
     def _last(self, tree: Tree) -> int:
         """Index of the last token of a tree that is not layout."""
         last: int = tree.stop
-        while last > tree.start and self._types[last] in (t.NEWLINE, t.INDENT, t.DEDENT):
+        while self._types[last] in _LAYOUT and last > tree.start:
             last -= 1
         return last
 
     def _name(self, token: int) -> ast.Name:
-        text = self._text(token)
-        span = Span(self._source, self._starts[token], self._ends[token])
-        if text.isalnum():
+        start, end = self._starts[token], self._ends[token]
+        text = self._code[start:end]
+        span = Span(self._source, start, end)
+        if text.isidentifier():
             return ast.Name(span=span, text=text)
         namespace, name = split_name(text)
         return ast.Name(span=span, text=name, namespace=namespace)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Collection
 from typing import Any, ClassVar, NamedTuple, TypedDict
 
@@ -123,12 +124,15 @@ class StatementBuilder(ExpressionBuilder):
         """Build the statements of a block."""
         if block is None:
             return ()
-        nodes = [
-            self._statement(child, place)
-            for child in block.children
-            if not isinstance(child, int) and child.__class__ is Grammar.StatementContext
-        ]
-        return tuple(node for node in nodes if node is not None)
+        nodes = []
+        for child in block.children:
+            if child.__class__ is Grammar.StatementContext:
+                node = self._statement(child, place)
+                if node is not None:
+                    nodes.append(node)
+            elif child.__class__ is Grammar.BlockContext:  # its header was not readable
+                self._block(child, Place.NOWHERE)
+        return tuple(nodes)
 
     def _block_end(self, block: Tree | None) -> tuple[str, ...]:
         """Take the comments at the end of a block."""
@@ -150,7 +154,15 @@ class StatementBuilder(ExpressionBuilder):
             self._report_indentation(block)
             self._block(block, Place.NOWHERE)
 
+    def _has_lost_header(self, block: Tree) -> bool:
+        """Whether the line above a block consists of unknown characters, reported already."""
+        above = self._ends[block.start - 1] if block.start > 0 else 0
+        place = bisect_left(self._damaged, above)
+        return place < len(self._damaged) and self._damaged[place] < self._starts[block.start]
+
     def _report_indentation(self, block: Tree) -> None:
+        if self._has_lost_header(block):
+            return
         first = block.start + 1
         span = self._span(first, first)
         message = "the line is indented, but no block is open here"

@@ -1,6 +1,7 @@
-"""Gaps and headways to another actor (DSL 8.8.3.4 to 8.8.3.11), along the road.
+"""Gaps and headways to another actor (DSL 8.8.3.4 to 8.8.3.11).
 
-Gaps count from end to end, headways from front to front. Lateral gaps are not there yet.
+Gaps along the road count from end to end, across it from side to side; headways from front to
+front. A gap in time across the road is the gap over the lateral speed towards the reference.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ from typing import TYPE_CHECKING, Literal, Unpack
 
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Modifier, Value, value_of
-from osc2tx_runtime.registry import LONGITUDINAL, action
-from osc2tx_runtime.world.commands import KeepGap
+from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.world.commands import Beside, Command, KeepGap
 
 from .support import MotionAction
 
@@ -33,6 +34,7 @@ __all__ = [
 
 GapDirection = Literal["ahead", "behind", "left", "right", "inside", "outside"]
 HeadwayDirection = Literal["ahead", "behind"]
+_DIRECTIONS: tuple[GapDirection, ...] = ("ahead", "behind", "left", "right", "inside", "outside")
 
 
 class _ChangeGap(MotionAction):
@@ -51,17 +53,33 @@ class _ChangeGap(MotionAction):
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
-        if direction not in ("ahead", "behind"):
-            raise UnsupportedError(f"{self.action_name}: direction {direction} is not there yet")
+        if direction not in _DIRECTIONS:
+            known = ", ".join(_DIRECTIONS)
+            raise ScenarioError(f"{self.action_name}: direction `{direction}` is none of {known}")
+        if self.measure == "headway" and direction not in ("ahead", "behind"):
+            raise ScenarioError(f"{self.action_name}: a headway is ahead or behind")
         self.target = target
-        self.ahead = direction == "ahead"
+        self.vehicle = actor
+        self._refused: str | None = None
+        self.direction = direction
         self.reference = reference
+        if direction not in ("ahead", "behind"):
+            self.slots = (LATERAL,)
 
     def on_start(self) -> None:
         """Commands the gap; a negative one is on the other side."""
         target = value_of(self.target)
-        ahead = self.ahead if target >= 0.0 else not self.ahead
         size = abs(target)
+        if LATERAL in self.slots:
+            left = self._leads_left() == (target >= 0.0)
+            gap = self.vehicle.space_gap(self.reference, "lateral")
+            if self.timed and (gap == 0.0 or (gap > 0.0) != left):
+                side = "left" if left else "right"
+                self._refused = f"it is not to the {side} of {self.reference.id}"
+                return
+            self.command(LATERAL, _beside(self, self.reference, size, left, self.timed))
+            return
+        ahead = (self.direction == "ahead") == (target >= 0.0)
         self.command(
             LONGITUDINAL,
             KeepGap(
@@ -73,15 +91,37 @@ class _ChangeGap(MotionAction):
             ),
         )
 
+    def on_update(self) -> Status:
+        """Ends with the gap, fails if there can be none."""
+        return super().on_update() if self._refused is None else self.fail(self._refused)
+
+    def _leads_left(self) -> bool:
+        """True if the direction is to the left of the reference."""
+        if self.direction in ("left", "right"):
+            return self.direction == "left"
+        road = self.place_of(self.reference.id).road
+        right_hand = self.world.map.roads[road].right_hand_traffic
+        return (self.direction == "inside") == right_hand
+
+
+def _beside(
+    action: MotionAction, reference: Vehicle, size: float, left: bool, timed: bool
+) -> Command:
+    """The command for a gap (m or s) across the road."""
+    if timed:
+        return Beside(reference.id, time=size)
+    reach = 0.5 * (action.here.width + action.world.state(reference.id).width)
+    return Beside(reference.id, size + reach if left else -size - reach)
+
 
 @action("vehicle", "change_space_gap", slots=(LONGITUDINAL,))
 class ChangeSpaceGap(_ChangeGap):
-    """Reach a space (m) between facing ends, `ahead` of or `behind` the reference."""
+    """Reach a space (m) between facing ends or sides, in a direction from the reference."""
 
 
 @action("vehicle", "change_time_gap", slots=(LONGITUDINAL,))
 class ChangeTimeGap(_ChangeGap):
-    """Reach a time (s) between facing ends, at the speed of the one behind."""
+    """Reach a time (s) between facing ends at the speed of the one behind, or between sides."""
 
     timed = True
 
@@ -116,8 +156,13 @@ class _KeepGap(MotionAction):
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
-        if direction != "longitudinal":
-            raise UnsupportedError(f"{self.action_name}: direction {direction} is not there yet")
+        if direction not in ("longitudinal", "lateral"):
+            raise ScenarioError(
+                f"{self.action_name}: direction `{direction}` is neither longitudinal nor lateral"
+            )
+        self.direction = direction
+        if direction == "lateral":
+            self.slots = (LATERAL,)
         self.vehicle = actor
         self.reference = reference
         self._undefined = False
@@ -127,6 +172,10 @@ class _KeepGap(MotionAction):
         size = self._sampled()
         self._undefined = math.isinf(size)
         if self._undefined:
+            return
+        if self.direction == "lateral":
+            command = _beside(self, self.reference, abs(size), size >= 0.0, self.timed)
+            self.command(LATERAL, command)
             return
         self.command(
             LONGITUDINAL,
@@ -142,30 +191,36 @@ class _KeepGap(MotionAction):
     def on_update(self) -> Status:
         """Runs on, unless there is nothing to hold."""
         if self._undefined:
-            return self.fail("there is no time between actors of which the trailing one stands")
+            why = (
+                "the trailing one stands"
+                if self.direction == "longitudinal"
+                else "none comes nearer"
+            )
+            return self.fail(f"there is no time between actors of which {why}")
         return super().on_update()
 
     def _sampled(self) -> float:
         """The present size; positive if the actor is ahead."""
         me, other = self.vehicle, self.reference
         if self.measure == "gap":
-            if me.space_gap(other, "longitudinal") == 0.0:
+            if me.space_gap(other, self.direction) == 0.0:
+                where = "beside" if self.direction == "longitudinal" else "in the lane of"
                 raise ScenarioError(
-                    f"{me.id} is beside {other.id}, so there is no gap to keep", self.source
+                    f"{me.id} is {where} {other.id}, so there is no gap to keep", self.source
                 )
             read = me.time_gap if self.timed else me.space_gap
-            return read(other, "longitudinal")
+            return read(other, self.direction)
         return -(me.time_headway(other) if self.timed else me.space_headway(other))
 
 
 @action("vehicle", "keep_space_gap", slots=(LONGITUDINAL,), ends="open")
 class KeepSpaceGap(_KeepGap):
-    """Hold the present space between facing ends."""
+    """Hold the present space between facing ends, or sides."""
 
 
 @action("vehicle", "keep_time_gap", slots=(LONGITUDINAL,), ends="open")
 class KeepTimeGap(_KeepGap):
-    """Hold the present time between facing ends."""
+    """Hold the present time between facing ends, or sides."""
 
     timed = True
 

@@ -102,11 +102,7 @@ class ChangeLane(MotionAction):
                 return 1 if right_hand else -1
             case "outside":
                 return -1 if right_hand else 1
-        count = max(self.num_of_lanes, 1)
-        sides: tuple[Literal["left", "right"], ...] = ("left", "right")
-        free = [s for s in sides if self.world.map.neighbour(own, s, count) is not None]
-        generator = self.context.random_for(f"{self.action_name}/{self.source}")
-        return 1 if generator.choice(free or ["left"]) == "left" else -1
+        return 1 if self.drawn_side(self.num_of_lanes) == "left" else -1
 
 
 @action("vehicle", "follow_lane", slots=(LATERAL,), ends="open")

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.action import Action
+from osc2tx_runtime.actors import PhysicalObject
 from osc2tx_runtime.behaviour.base import Status
 from osc2tx_runtime.errors import ScenarioError
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
     from osc2tx_runtime.opendrive import LanePosition
+    from osc2tx_runtime.world.catalogue import Limits
     from osc2tx_runtime.world.protocol import LightState, World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["MotionAction", "OneStepAction", "note_lights"]
+__all__ = ["MotionAction", "OneStepAction", "Refused", "note_lights"]
+
+
+class Refused(ScenarioError):
+    """Something that cannot be done: the action fails with this reason."""
 
 
 class MotionAction(Action):
@@ -45,14 +51,35 @@ class MotionAction(Action):
         """Ends with the goal in all slots, fails as soon as one cannot be reached."""
         if self.elapsed_steps == 0:
             return Status.RUNNING  # the commands act from now on
-        done, progress_of, actor_id = True, self.context.world.progress, self.actor.id
-        for slot in self.slots or ():
+        done, progress_of, actor_id = {}, self.context.world.progress, self.actor.id
+        for slot in self.slots:
             progress = progress_of(actor_id, slot)
             if progress.failed is not None:
                 return self.fail(progress.failed)
-            done = done and progress.done
-        open_end = self.registered.ends == "open"
-        return Status.SUCCESS if done and not open_end else Status.RUNNING
+            done[slot] = progress.done
+        return Status.SUCCESS if self.goal_reached(done) else Status.RUNNING
+
+    def goal_reached(self, done: dict[str, bool]) -> bool:
+        """Whether the action has reached its goal.
+
+        Args:
+            done: For each slot whether its command is.
+        """
+        return self.registered.ends != "open" and all(done.values())
+
+    @property
+    def limits(self) -> Limits:
+        """What the actor can do."""
+        assert isinstance(self.actor, PhysicalObject)
+        return self.actor.spec().limits
+
+    def drawn_side(self, lanes: int) -> Literal["left", "right"]:
+        """A side on which there are so many lanes, drawn from the seed."""
+        own = self.place_of(self.actor.id)
+        sides: tuple[Literal["left", "right"], ...] = ("left", "right")
+        count = max(abs(lanes), 1)
+        free = [s for s in sides if self.world.map.neighbour(own, s, count) is not None]
+        return self.generator(self.action_name).choice(free or ["left"])
 
     def fixed_duration(self) -> float | None:
         """The duration (s) if it is one number."""

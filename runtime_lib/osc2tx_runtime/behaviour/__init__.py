@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from osc2tx_runtime.behaviour.base import Behaviour, Leaf, Node, Status
-from osc2tx_runtime.behaviour.compositions import OneOf, Parallel, Serial
+from osc2tx_runtime.behaviour.compositions import OneOf, Serial
 from osc2tx_runtime.behaviour.conditions import Condition, elapsed, every, fall, rise
-from osc2tx_runtime.behaviour.directives import Call, Emit, On, Until, Wait
+from osc2tx_runtime.behaviour.directives import Call, Emit, Until, Wait
 from osc2tx_runtime.behaviour.events import Event, Trigger
 from osc2tx_runtime.behaviour.limits import Duration
+from osc2tx_runtime.behaviour.on import On
+from osc2tx_runtime.behaviour.parallel import Parallel
 
 __all__ = [
     "Behaviour",

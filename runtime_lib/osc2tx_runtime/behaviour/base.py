@@ -10,7 +10,8 @@ SUCCESS (it ended, by itself or because its open end was reached), FAILURE, INVA
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import random
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from py_trees.behaviour import Behaviour
@@ -22,12 +23,44 @@ if TYPE_CHECKING:
     from osc2tx_runtime.behaviour.events import Event
     from osc2tx_runtime.context import ExecutionContext
 
-__all__ = ["Behaviour", "Leaf", "Node", "Status", "pulse_of"]
+__all__ = ["Activity", "Behaviour", "Leaf", "Node", "Status", "pulse_of"]
 
 RUNNING = Status.RUNNING
 SUCCESS = Status.SUCCESS
 FAILURE = Status.FAILURE
 INVALID = Status.INVALID
+
+
+class Activity:
+    """When a node ran, as other nodes may see it: what happens in a pass shows from the next on."""
+
+    def __init__(self) -> None:
+        self._active = self._was_active = False
+        self._changed = self._started = self._started_before = 0
+
+    def begin(self, tick: int) -> None:
+        """Note a start in pass `tick`."""
+        self._change(True, tick)
+        if self._started != tick:
+            self._started_before, self._started = self._started, tick
+
+    def end(self, tick: int) -> None:
+        """Note an end in pass `tick`."""
+        self._change(False, tick)
+
+    def started_since(self, begin: int, tick: int) -> bool:
+        """Return whether a start from pass `begin` on is visible in pass `tick`."""
+        started = self._started_before if self._started == tick else self._started
+        return 0 < begin <= started < tick
+
+    def is_active(self, tick: int) -> bool:
+        """Return whether the node is seen running in pass `tick`."""
+        return self._was_active if self._changed == tick else self._active
+
+    def _change(self, active: bool, tick: int) -> None:
+        if self._changed != tick:
+            self._was_active, self._changed = self._active, tick
+        self._active = active
 
 
 class Node(Behaviour):
@@ -38,7 +71,12 @@ class Node(Behaviour):
         label: Name that `@label.end` and its like refer to; None without one.
         open_ended: Never ends by itself; what surrounds it ends it.
         instant: Takes no time (emit, call, assignments), so it bounds no composition.
+        service: Accompanies the others (on, sampled variables); no interval rule counts it.
         synthetic: Not written in the module, so the sidecar map does not count it.
+        scope: Path of the nested scenario the node belongs to; empty in the scenario that runs.
+        listeners: (label, `start` | `end` | `fail`) of that scenario to the event waited for.
+        activity: When the node was last active; only kept where an `override` asks.
+        failed_at: Time in seconds of the last failure.
         context: The run; there from `setup` on.
     """
 
@@ -46,7 +84,12 @@ class Node(Behaviour):
     label: str | None = None
     open_ended: bool = False
     instant: bool = False
+    service: bool = False
     synthetic: bool = False
+    scope: str = ""
+    listeners: Mapping[tuple[str, str], Event] | None = None
+    activity: Activity | None = None
+    failed_at: float | None = None
     context: ExecutionContext
     _started: Event | None = None
     _ended: Event | None = None
@@ -56,7 +99,7 @@ class Node(Behaviour):
         """Take the `context` of the run."""
         self.context = kwargs["context"]
         if self.label is not None:
-            events = self.context.label_events
+            events = self.context.label_events if self.listeners is None else self.listeners
             self._started = events.get((self.label, "start"))
             self._ended = events.get((self.label, "end"))
             self._failed = events.get((self.label, "fail"))
@@ -67,6 +110,15 @@ class Node(Behaviour):
         Called again at the same instant it must change nothing, unless an event came.
         """
         raise NotImplementedError
+
+    def length(self) -> int | None:
+        """Return how many steps the node will take; None where only the run can tell."""
+        return 0 if self.instant else None
+
+    def generator(self, what: str) -> random.Random:
+        """Return a generator of this node's own: the same draws in whatever order nodes start."""
+        scope = f"{self.scope}/" if self.scope else ""
+        return self.context.random_for(f"{scope}{what}/{self.source}")
 
     def fail(self, reason: str) -> Status:
         """Return FAILURE and keep the reason for the verdict."""
@@ -91,9 +143,13 @@ class Node(Behaviour):
     def stop(self, new_status: Status = INVALID) -> None:
         """Leave the node; what runs inside is left first."""
         if self.status is RUNNING:
+            if new_status is FAILURE:
+                self.failed_at = self.context.time
             self._stop_children(new_status)
             self.terminate(new_status)
             self._post_life_event(new_status)
+            if self.activity is not None:
+                self.activity.end(self.context.tick)
         elif new_status is INVALID:
             self._stop_children(new_status)
         self.status = new_status
@@ -115,7 +171,14 @@ class Node(Behaviour):
         self.feedback_message = ""
         if self._started is not None:
             self.context.post(self._started)
-        self.initialise()
+        if self.activity is not None:
+            self.activity.begin(self.context.tick)
+            self.context.request_pass()
+        try:
+            self.initialise()
+        except ScenarioError as error:
+            error.source = error.source or self.source or None
+            raise
 
     def _post_life_event(self, new_status: Status) -> None:
         event = {SUCCESS: self._ended, FAILURE: self._failed}.get(new_status)
@@ -140,8 +203,7 @@ class Leaf(Node):
                 self._begin()
             status = self.update()
         except ScenarioError as error:
-            if error.source is None:
-                error.source = self.source or None
+            error.source = error.source or self.source or None
             raise
         if status is not RUNNING:
             self.stop(status)

@@ -1,9 +1,9 @@
-"""The compositions of the language: serial, parallel, one_of."""
+"""The compositions of the language but parallel: serial, one_of, and what all share."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
 from py_trees.common import ParallelPolicy
 from py_trees.composites import Parallel as ParallelComposite
@@ -21,10 +21,10 @@ from osc2tx_runtime.behaviour.base import (
 )
 from osc2tx_runtime.behaviour.limits import Duration, Limits
 from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.slots import place_key
 
-__all__ = ["Composition", "OneOf", "Overlap", "Parallel", "Serial"]
+__all__ = ["Composition", "OneOf", "Serial"]
 
-Overlap = Literal["equal", "start", "end", "initial", "final", "inside", "full", "any"]
 Member = tuple[Behaviour, Callable[[], Status]]
 
 
@@ -69,6 +69,15 @@ class Composition(Node):
         """Return whether the members never end by themselves."""
         raise NotImplementedError
 
+    def length(self) -> int | None:
+        """Return how many steps the composition takes, if its members tell."""
+        content = None if self._content_open else self._content_length()
+        return content if self._limits is None else self._limits.length(content, self._content_open)
+
+    def _content_length(self) -> int | None:
+        """Return how many steps the members take."""
+        return None
+
     def _advance(self) -> Status:
         """Run the members for one pass."""
         raise NotImplementedError
@@ -95,13 +104,18 @@ class Serial(Composition, SequenceComposite):
 
     def _is_open(self) -> bool:
         for child in self.children[:-1]:
-            if is_open(child):
+            if is_open(child) and not getattr(child, "may_end", False):
                 raise UnsupportedError(
                     f"{child.name} never ends by itself, so what follows it would never start;"
                     " give it a duration or an until",
                     getattr(child, "source", None) or None,
                 )
         return bool(self.children) and is_open(self.children[-1])
+
+    def _content_length(self) -> int | None:
+        lengths = [length_of(child) for child in self.children]
+        known = [length for length in lengths if length is not None]
+        return sum(known) if len(known) == len(lengths) else None
 
     def _advance(self) -> Status:
         members = self._members
@@ -112,108 +126,6 @@ class Serial(Composition, SequenceComposite):
                 return status
             self._index += 1
         return SUCCESS
-
-
-class Parallel(Composition, ParallelComposite):
-    """Members at the same time; ends when the last bounded member has ended.
-
-    Bounded are members that end by themselves and take time. Open-ended members end with the
-    last bounded one; without a bounded one they run on. A failing member fails the whole.
-
-    Args:
-        name: Label, or what the composition does.
-        *members: In the order of the source; it has no influence on the run.
-        overlap: `start`, or `equal`: the bounded members must end at one instant.
-        duration: Seconds, or (least, most) seconds, that the whole takes.
-        start_to_start: Not supported yet, except 0.
-        end_to_end: Not supported yet, except 0 with `equal`.
-    """
-
-    def __init__(
-        self,
-        name: str,
-        *members: Behaviour,
-        overlap: Overlap = "start",
-        duration: Duration | None = None,
-        start_to_start: Duration | None = None,
-        end_to_end: Duration | None = None,
-    ) -> None:
-        policy = ParallelPolicy.SuccessOnAll(synchronise=True)
-        super().__init__(name, policy=policy, children=members)
-        self._limit(duration)
-        self.overlap = overlap
-        self.start_to_start = start_to_start
-        self.end_to_end = end_to_end
-        self._active: list[Member] = []
-        self._bounding: frozenset[Behaviour] = frozenset()
-        self._left = 0
-        self._first_end: int | None = None
-
-    def setup(self, **kwargs: Any) -> None:
-        """Check what is supported, and find the members that bound the composition."""
-        self._check_supported()
-        super().setup(**kwargs)
-        self._bounding = frozenset(
-            child for child in self.children if not is_open(child) and not is_instant(child)
-        )
-
-    def initialise(self) -> None:
-        """Start with all members."""
-        super().initialise()
-        self._active = list(self._members)
-        self._left = len(self._bounding)
-        self._first_end = None
-
-    def _check_supported(self) -> None:
-        if self.overlap not in ("start", "equal"):
-            what = f"overlap: {self.overlap}"
-        elif self.start_to_start not in (None, 0, (0, 0)):
-            what = f"start_to_start: {self.start_to_start}"
-        elif self.end_to_end not in ((None, 0, (0, 0)) if self.overlap == "equal" else (None,)):
-            what = f"end_to_end: {self.end_to_end}"
-        else:
-            return
-        raise UnsupportedError(f"parallel({what}) is not supported yet", self.source or None)
-
-    def _is_open(self) -> bool:
-        # Zero-time members bound nothing: `parallel: drive(); emit e` goes on.
-        lasting = [child for child in self.children if not is_instant(child)]
-        return bool(lasting) and all(is_open(child) for child in lasting)
-
-    def _advance(self) -> Status:
-        running: list[Member] = []
-        failed = False
-        for member in self._active:
-            status = member[1]()
-            if status is RUNNING:
-                running.append(member)
-            elif status is FAILURE:
-                failed = True
-            elif member[0] in self._bounding:
-                self._left -= 1
-                self._first_end = self.context.step if self._first_end is None else self._first_end
-        self._active = running
-        if failed:
-            return FAILURE
-        if not running or (self._bounding and not self._left and not self._instants_run()):
-            return SUCCESS
-        if self.overlap == "equal" and self._first_end is not None and self._left:
-            return self._await_equal_end(self._first_end)
-        return RUNNING
-
-    def _instants_run(self) -> bool:
-        """Return whether a zero-time member still needs the next pass of this instant."""
-        return any(is_instant(child) for child, _ in self._active)
-
-    def _await_equal_end(self, first_end: int) -> Status:
-        if self.context.step == first_end and not self.context.settled:
-            self.context.request_settling()
-            return RUNNING
-        late = sorted(child.name for child, _ in self._active if child in self._bounding)
-        return self.fail(
-            f"overlap equal: the first member ended at {first_end * self.context.dt:.3f} s,"
-            f" still running: {', '.join(late)}"
-        )
 
 
 class OneOf(Composition, ParallelComposite):
@@ -240,7 +152,8 @@ class OneOf(Composition, ParallelComposite):
             return
         index = 0
         if self.context.one_of == "seeded":
-            generator = self.context.random_for(f"one_of/{self.source}/{self.name}")
+            scope = f"{self.scope}/" if self.scope else ""
+            generator = self.context.random_for(f"{scope}one_of/{self.source}/{self.name}")
             index = generator.randrange(len(self._members))
         self._members = (self._members[index],)
         self._content_open = is_open(self._members[0][0])
@@ -250,24 +163,39 @@ class OneOf(Composition, ParallelComposite):
         """Start the race."""
         super().initialise()
         self._active = list(self._members)
+        if self.context.one_of != "race" and self._members:
+            self._note(self._members[0][0])
+
+    def _note(self, chosen: Behaviour) -> None:
+        policy = self.context.one_of
+        self.context.trace.choice(self.name, policy, chosen.name, self.source)
+
+    def _content_length(self) -> int | None:
+        lengths = [length_of(child) for child, _ in self._members if not is_open(child)]
+        known = [length for length in lengths if length is not None]
+        return min(known, default=None) if len(known) == len(lengths) else None
 
     def _is_open(self) -> bool:
         return bool(self.children) and all(is_open(child) for child in self.children)
 
     def _advance(self) -> Status:
         running: list[Member] = []
-        winner: Behaviour | None = None
+        winners: list[Behaviour] = []
         for member in self._active:
             status = member[1]()
             if status is RUNNING:
                 running.append(member)
-            elif status is SUCCESS and winner is None:
-                winner = member[0]
-        if winner is not None:
+            elif status is SUCCESS:
+                winners.append(member[0])
+        if winners:
+            # The order of the source; where there are no lines, that of the names.
+            winner = min(winners, key=lambda c: place_key(getattr(c, "source", ""), c.name))
             for child, _ in running:
                 child.stop(INVALID)
             self._active = []
             self.current_child = winner
+            if self.context.one_of == "race":
+                self._note(winner)
             return SUCCESS
         self._active = running
         return RUNNING if running else FAILURE
@@ -281,3 +209,13 @@ def is_open(child: Behaviour) -> bool:
 def is_instant(child: Behaviour) -> bool:
     """Return whether a member takes no time."""
     return isinstance(child, Node) and child.instant
+
+
+def is_service(child: Behaviour) -> bool:
+    """Return whether a member only accompanies the others."""
+    return isinstance(child, Node) and child.service
+
+
+def length_of(child: Behaviour) -> int | None:
+    """Return how many steps a member takes, if that is known; behaviours not ours do not say."""
+    return child.length() if isinstance(child, Node) else None

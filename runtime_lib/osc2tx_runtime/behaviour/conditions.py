@@ -1,8 +1,9 @@
 """Conditions on the state of the world and on scenario time.
 
-A condition is sampled once per step, on the snapshot of that step; the passes of one instant see
-one value. It starts with its use: `rise` and `fall` take their first sample there, which is no
-edge; `elapsed` and `every` count steps from there.
+A condition is sampled once per snapshot: the state of the world is that of the step, and sampled
+variables may change between two passes of an instant (`context.snapshot` counts). It starts with
+its use: `rise` and `fall` take their first sample there, which is no edge; `elapsed` and `every`
+count steps from there.
 """
 
 from __future__ import annotations
@@ -15,7 +16,20 @@ from osc2tx_runtime.errors import ScenarioError
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
 
-__all__ = ["Condition", "Watch", "elapsed", "evaluate", "every", "fall", "rise", "watch_level"]
+__all__ = [
+    "EVALUATION_ERRORS",
+    "Condition",
+    "Watch",
+    "elapsed",
+    "evaluate",
+    "every",
+    "fall",
+    "rise",
+    "watch_level",
+]
+
+EVALUATION_ERRORS = (ArithmeticError, LookupError)
+"""What an expression of a scenario raises when it has no value."""
 
 Watch = Callable[[], bool]
 """Says whether something happened by the present pass."""
@@ -27,11 +41,18 @@ class Condition:
     Args:
         text: A few words for the name of the node.
         watch: Starts it: takes the context, returns the function to ask.
+        seconds: When it comes true after its start, if that is known.
     """
 
-    def __init__(self, text: str, watch: Callable[[ExecutionContext], Watch]) -> None:
+    def __init__(
+        self,
+        text: str,
+        watch: Callable[[ExecutionContext], Watch],
+        seconds: float | None = None,
+    ) -> None:
         self.text = text
         self.watch = watch
+        self.seconds = seconds
 
 
 def rise(function: Callable[[], bool]) -> Condition:
@@ -51,7 +72,7 @@ def elapsed(duration: float) -> Condition:
         due = context.step + context.steps(duration)
         return lambda: context.step >= due
 
-    return Condition(f"elapsed {duration:g} s", watch)
+    return Condition(f"elapsed {duration:g} s", watch, duration)
 
 
 def every(period: float, offset: float = 0.0) -> Condition:
@@ -81,25 +102,25 @@ def every(period: float, offset: float = 0.0) -> Condition:
 
 
 def watch_level(function: Callable[[], bool], context: ExecutionContext) -> Watch:
-    """Watch a function that counts while it is true, sampled once per step."""
+    """Watch a function that counts while it is true, sampled once per snapshot."""
     sampled, value = -1, False
 
     def happened() -> bool:
         nonlocal sampled, value
-        if context.step != sampled:
-            sampled, value = context.step, evaluate(function)
+        if context.snapshot != sampled:
+            sampled, value = context.snapshot, evaluate(function)
         return value
 
     return happened
 
 
 def _watch_edge(function: Callable[[], bool], target: bool, context: ExecutionContext) -> Watch:
-    sampled, value, edge = context.step, evaluate(function), False
+    sampled, value, edge = context.snapshot, evaluate(function), False
 
     def happened() -> bool:
         nonlocal sampled, value, edge
-        if context.step != sampled:
-            before, value, sampled = value, evaluate(function), context.step
+        if context.snapshot != sampled:
+            before, value, sampled = value, evaluate(function), context.snapshot
             edge = value is target and before is not target
         return edge
 
@@ -110,9 +131,9 @@ def evaluate(function: Callable[[], bool]) -> bool:
     """Return the truth of a function of the scenario.
 
     Raises:
-        ScenarioError: If its arithmetic fails, as in a division by zero.
+        ScenarioError: If it has no value, as in a division by zero or an index out of range.
     """
     try:
         return bool(function())
-    except ArithmeticError as error:
+    except EVALUATION_ERRORS as error:
         raise ScenarioError(f"the condition has no value: {error}") from error

@@ -1,19 +1,24 @@
-"""The directives of the language: wait, emit, call, until, on."""
+"""The directives of the language: wait, emit, call, until."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
-from py_trees.composites import Sequence
 from py_trees.decorators import Decorator
 
 from osc2tx_runtime.behaviour.base import RUNNING, SUCCESS, Behaviour, Leaf, Node, Status, pulse_of
-from osc2tx_runtime.behaviour.conditions import Watch
+from osc2tx_runtime.behaviour.conditions import EVALUATION_ERRORS, Condition, Watch
 from osc2tx_runtime.behaviour.events import Event, Trigger, describe, watch
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["Call", "Emit", "On", "Until", "Wait"]
+__all__ = ["Call", "Emit", "Until", "Wait"]
+
+CALL_ERRORS = (
+    *(ArithmeticError, AssertionError, AttributeError, LookupError, NameError),
+    *(OSError, RuntimeError, TypeError, ValueError),
+)
+"""What code of the user raises when it is wrong; reported with the place of the call."""
 
 
 class Wait(Leaf):
@@ -42,6 +47,13 @@ class Wait(Leaf):
         """Start watching."""
         self._happened = watch(self.trigger, self.condition, self.context)
 
+    def length(self) -> int | None:
+        """Return the steps of `elapsed`; every other trigger comes when it comes."""
+        trigger, condition = self.trigger, self.condition
+        if condition is None and isinstance(trigger, Condition) and trigger.seconds is not None:
+            return self.context.steps(trigger.seconds)
+        return None
+
     def update(self) -> Status:
         """Succeed when it happened."""
         return SUCCESS if self._happened() else RUNNING
@@ -52,7 +64,8 @@ class Emit(Leaf):
 
     Args:
         event: The event.
-        **arguments: Of the event; functions are called when the event is emitted.
+        **arguments: Of the event; functions are called when the event is emitted. Parameters
+            that are not given have their defaults.
     """
 
     instant = True
@@ -63,9 +76,23 @@ class Emit(Leaf):
         self.arguments = arguments
         self._posted = 0
 
+    def setup(self, **kwargs: Any) -> None:
+        """Take the context; check the names of the arguments."""
+        super().setup(**kwargs)
+        problem = self.event.problem(self.arguments)
+        if problem:
+            raise ScenarioError(problem, self.source or None)
+
     def initialise(self) -> None:
-        """Post the event."""
-        values = {key: v() if callable(v) else v for key, v in self.arguments.items()}
+        """Post the event.
+
+        Raises:
+            ScenarioError: If the arithmetic of an argument fails.
+        """
+        try:
+            values = self.event.complete(self.arguments)
+        except EVALUATION_ERRORS as error:
+            raise ScenarioError(f"an argument of {self.name} has no value: {error}") from error
         self.context.post(self.event, values)
         self._posted = self.context.tick
 
@@ -75,20 +102,32 @@ class Emit(Leaf):
 
 
 class Call(Leaf):
-    """Calls a function once, in no time; it must not change what other nodes read."""
+    """Calls a function once, in no time; it must not change what other nodes read.
+
+    Args:
+        function: What to call; with arguments: `Call(lambda: note(self.ego.speed))`.
+        label: Name for `@label.end` and its like.
+    """
 
     instant = True
 
     def __init__(self, function: Callable[[], object], *, label: str | None = None) -> None:
         super().__init__(
-            f"call {getattr(function, '__name__', 'function')}".replace("<lambda>", "")
+            f"call {getattr(function, '__name__', 'function')}".replace(" <lambda>", "")
         )
         self.function = function
         self.label = label
 
     def initialise(self) -> None:
-        """Call it."""
-        self.function()
+        """Call it.
+
+        Raises:
+            ScenarioError: If it raises something itself: it may be the user's own code.
+        """
+        try:
+            self.function()
+        except CALL_ERRORS as error:
+            raise ScenarioError(f"{self.name}: {type(error).__name__}: {error}") from error
 
     def update(self) -> Status:
         """Succeed at once."""
@@ -123,6 +162,16 @@ class Until(Node, Decorator):
         super().setup(**kwargs)
         self._pulse_child = pulse_of(self.decorated)
 
+    def length(self) -> int | None:
+        """Return the steps until the first known end, if nothing else can end it."""
+        known = [c.seconds if isinstance(c, Condition) else None for c in self.conditions]
+        lengths = [None if seconds is None else self.context.steps(seconds) for seconds in known]
+        child = self.decorated
+        if not (isinstance(child, Node) and child.open_ended):
+            lengths.append(child.length() if isinstance(child, Node) else None)
+        found = [length for length in lengths if length is not None]
+        return min(found) if len(found) == len(lengths) else None
+
     def initialise(self) -> None:
         """Start watching."""
         self._happened = [watch(condition, None, self.context) for condition in self.conditions]
@@ -143,59 +192,3 @@ class Until(Node, Decorator):
         except ScenarioError as error:
             error.source = error.source or self.source or None
             raise
-
-
-class On(Node, Sequence):
-    """Reacts whenever something happens, for as long as the composition around it runs.
-
-    Stands beside the behavior in a `Parallel`, which it does not keep from ending. At one instant
-    it reacts once, however often the event is emitted then.
-
-    Args:
-        trigger: An event, a condition or a boolean function (once per step while it is true).
-        *reactions: `Emit` and `Call`, in order.
-        condition: With an event: only an occurrence at which this is true counts.
-    """
-
-    open_ended = True
-
-    def __init__(
-        self,
-        trigger: Trigger,
-        *reactions: Behaviour,
-        condition: Callable[[], bool] | None = None,
-    ) -> None:
-        super().__init__(f"on {describe(trigger)}", memory=True, children=reactions)
-        self.trigger = trigger
-        self.condition = condition
-        self._happened: Watch = lambda: False
-        self._pulses: list[Callable[[], Status]] = []
-        self._next: int | None = None  # reaction that comes next; None between reactions
-        self._reacted = -1  # step of the last reaction
-
-    def setup(self, **kwargs: Any) -> None:
-        """Take the context; find out how to tick the reactions."""
-        super().setup(**kwargs)
-        self._pulses = [pulse_of(reaction) for reaction in self.children]
-
-    def initialise(self) -> None:
-        """Start watching."""
-        self._happened = watch(self.trigger, self.condition, self.context)
-        self._next, self._reacted = None, -1
-
-    def pulse(self) -> Status:
-        """React if it happened."""
-        if self.status is not RUNNING:
-            self._begin()
-        happened = self._happened()  # asked in every pass: what comes in between is used up
-        if happened and self._next is None and self._reacted != self.context.step:
-            self._next, self._reacted = 0, self.context.step
-        while self._next is not None:
-            status = self._pulses[self._next]()
-            if status is RUNNING:
-                break
-            if status is not SUCCESS:
-                self.stop(status)
-                return status
-            self._next = self._next + 1 if self._next + 1 < len(self._pulses) else None
-        return RUNNING

@@ -8,10 +8,11 @@ that starts after an emit does not.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.behaviour.conditions import Condition, Watch, evaluate, watch_level
+from osc2tx_runtime.errors import ScenarioError
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
@@ -26,24 +27,62 @@ class Event:
         trigger: Its specification: another event, a condition or a boolean function. It is
             watched where the event is used, from the start of that use on.
         only_if: The event occurs only if this is true as well.
+        parameters: Names of its parameters to their defaults: a value, a function that is called
+            when the event is emitted without the parameter, or None where it must be given.
+
+    In a condition, a reaction or a sample that the event sets off, `event["x"]` is the value of
+    the parameter `x` of that occurrence.
 
     Attributes:
         name: Name in trace and settings; the scenario fills in the attribute's name.
         arguments: Of the occurrence that a condition is being asked about.
+        alias: The event this one stands for, where that is in an invoked scenario.
     """
 
     def __init__(
-        self, trigger: Trigger | None = None, only_if: Callable[[], bool] | None = None
+        self,
+        trigger: Trigger | None = None,
+        only_if: Callable[[], bool] | None = None,
+        *,
+        parameters: Mapping[str, Any] | None = None,
     ) -> None:
         self.name = ""
         self.trigger = trigger
         self.only_if = only_if
+        self.parameters = parameters
         self.arguments: Mapping[str, Any] = {}
+        self.alias: Event | None = None
         self.occurred = 0
         self.occurrences: list[Mapping[str, Any]] = []
 
     def __repr__(self) -> str:
         return f"Event({self.name!r})"
+
+    def __getitem__(self, parameter: str) -> Any:
+        event = self.meant()
+        if parameter not in event.arguments:
+            raise ScenarioError(f"event {event.name} has no value {parameter} here")
+        return event.arguments[parameter]
+
+    def meant(self) -> Event:
+        """Return the event itself, or the one it stands for."""
+        return self if self.alias is None else self.alias.meant()
+
+    def problem(self, given: Iterable[str]) -> str:
+        """Return what is wrong with the names of arguments; nothing for an undeclared list."""
+        if self.parameters is None:
+            return ""
+        names = list(given)
+        unknown = [name for name in names if name not in self.parameters]
+        if unknown:
+            return f"event {self.name} has no parameter {', '.join(unknown)}"
+        missing = [n for n, default in self.parameters.items() if default is None if n not in names]
+        return f"event {self.name} needs {', '.join(missing)}" if missing else ""
+
+    def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return all arguments of an occurrence; functions are called now."""
+        both = {**(self.parameters or {}), **given}
+        return {name: value() if callable(value) else value for name, value in both.items()}
 
     def reset(self) -> None:
         """Forget all occurrences."""
@@ -74,7 +113,7 @@ def stable(value: Any) -> Any:
 def watch(trigger: Trigger, only_if: Callable[[], bool] | None, context: ExecutionContext) -> Watch:
     """Start watching: returns a function that says whether it happened by the present pass."""
     if isinstance(trigger, Event):
-        return watch_event(trigger, only_if, context)
+        return watch_event(trigger.meant(), only_if, context)
     happened = trigger.watch(context) if isinstance(trigger, Condition) else None
     if happened is None:
         happened = watch_level(trigger, context)  # type: ignore[arg-type]
@@ -88,56 +127,65 @@ def watch_event(
     event: Event, only_if: Callable[[], bool] | None, context: ExecutionContext
 ) -> Watch:
     """Watch the occurrences of an event, and its specification if it has one."""
-    emitted = watch_occurrences(event, only_if, context)
+    emitted = Occurrences(event, only_if, context)
     if event.trigger is None:
         return emitted
     specified = watch(event.trigger, event.only_if, context)
 
     def happened() -> bool:
-        if emitted():
-            return True
-        # No short cut: edges must be sampled in every step.
-        if specified() and (only_if is None or evaluate(only_if)):
+        # Both are asked: edges must be sampled in every step, occurrences used up.
+        came, came_true = emitted(), specified()
+        if came_true and not came and (only_if is None or evaluate(only_if)):
             if event.name:
                 context.trace.event(event.name)
             return True
-        return False
+        return came
 
     return happened
 
 
-def watch_occurrences(
-    event: Event, only_if: Callable[[], bool] | None, context: ExecutionContext
-) -> Watch:
-    """Watch what is posted: by emit, by a label, from outside. Each occurrence counts once."""
-    seen = context.tick
+class Occurrences:
+    """Watches what is posted: by emit, by a label, from outside. Each occurrence counts once.
 
-    def occurred() -> bool:
-        nonlocal seen
-        if event.occurred > seen:
-            seen = event.occurred
+    Attributes:
+        matching: Arguments of the occurrences when it was last true, in canonical order.
+    """
+
+    __slots__ = ("_context", "_only_if", "_seen", "event", "matching")
+
+    def __init__(
+        self, event: Event, only_if: Callable[[], bool] | None, context: ExecutionContext
+    ) -> None:
+        self.event = event
+        self.matching: list[Mapping[str, Any]] = []
+        self._only_if = only_if
+        self._context = context
+        self._seen = context.tick
+
+    def __call__(self) -> bool:
+        """Return whether the event occurred since it was last asked."""
+        event = self.event
+        if event.occurred <= self._seen:
+            return False
+        self._seen = event.occurred
+        condition = self._only_if
+        if condition is None:
+            self.matching = event.occurrences
             return True
-        return False
-
-    if only_if is None:
-        return occurred
-    condition = only_if
-
-    def happened() -> bool:
-        if not occurred() or event.occurred != context.tick:
+        self.matching = []
+        if event.occurred != self._context.tick:
             return False
         for arguments in event.occurrences:
             event.arguments = arguments
             if evaluate(condition):
-                return True
-        return False
-
-    return happened
+                self.matching.append(arguments)
+        return bool(self.matching)
 
 
 def describe(trigger: Trigger) -> str:
     """Return a few words for a trigger, where no sidecar map has better ones."""
     if isinstance(trigger, Event):
+        trigger = trigger.meant()
         if trigger.name or trigger.trigger is None:
             return f"@{trigger.name or 'event'}"
         return describe(trigger.trigger)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, SUCCESS, Status
+from osc2tx_runtime.slots import place_key
 
 if TYPE_CHECKING:
     from osc2tx_runtime.behaviour.base import Node
@@ -39,6 +40,18 @@ class Limits:
         self._low, self._high = (context.steps(seconds) for seconds in self._seconds)
         self.content_ended = False
 
+    def length(self, content: int | None, open_ended: bool) -> int | None:
+        """Return how many steps the node takes, given those of its content."""
+        low, high = (self._node.context.steps(seconds) for seconds in self._seconds)
+        if open_ended or (content is None and low == high):
+            return low
+        return None if content is None or content > high else max(content, low)
+
+    @property
+    def least(self) -> int:
+        """The least duration in steps."""
+        return self._node.context.steps(self._seconds[0])
+
     def judge(self, status: Status, open_ended: bool) -> Status:
         """Return the node's status for that of its content."""
         if status is FAILURE:
@@ -55,4 +68,15 @@ class Limits:
         if steps == self._high and not context.settled:
             context.request_settling()  # an event of this instant may still end the content
             return RUNNING
-        return self._node.fail(f"not finished within {self._seconds[1]:g} s")
+        return self._node.fail(f"not finished within {self._seconds[1]:g} s{self._unfinished()}")
+
+    def _unfinished(self) -> str:
+        """Return which leaves inside are still running, in the order of the source."""
+        leaves = [
+            (place_key(getattr(leaf, "source", ""), leaf.name), leaf)
+            for leaf in self._node.iterate()
+            if leaf.status is RUNNING and not leaf.children and leaf is not self._node
+            if not getattr(leaf, "synthetic", False)
+        ]
+        names = [leaf.name for _, leaf in sorted(leaves, key=lambda pair: pair[0])]
+        return f"; still running: {', '.join(names)}" if names else ""

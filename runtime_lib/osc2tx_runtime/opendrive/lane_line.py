@@ -29,9 +29,20 @@ class LaneLine:
 
     Attributes:
         length: Arc length of the centre line (m).
+        turn: Angle (rad) that the reference line turns through.
     """
 
-    __slots__ = ("begin", "end", "length", "nodes", "offset_max", "offset_min", "psi", "rows")
+    __slots__ = (
+        "begin",
+        "end",
+        "length",
+        "nodes",
+        "offset_max",
+        "offset_min",
+        "psi",
+        "rows",
+        "turn",
+    )
 
     def __init__(self, lane: Lane) -> None:
         section = lane.section
@@ -49,7 +60,7 @@ class LaneLine:
                 self._piece(lane, begin, end, total)
         else:
             self.nodes, self.rows, self.psi = [self.begin], [(0, 0, 0, 0)], [(0, 0, 0, 0)]
-        self.length = total[0]
+        self.length, self.turn = total
 
     def _breaks(self, lane: Lane) -> list[float]:
         starts = [*lane.road.reference.starts, *lane.centre.starts]
@@ -150,6 +161,8 @@ class LaneLine:
             pa, pb, pc, pd = self.psi[low]
             a, b, c, d = a - offset * pa, b - offset * pb, c - offset * pc, d - offset * pd
         u, limit = 0.0, end - begin
+        if c == 0.0 and d == 0.0 and b > _FLOOR:  # straight lines and arcs of constant width
+            return begin + min(max((length - a) / b, 0.0), limit)
         for _ in range(20):
             gap = length - (a + u * (b + u * (c + u * d)))
             rate = b + u * (2.0 * c + u * 3.0 * d)

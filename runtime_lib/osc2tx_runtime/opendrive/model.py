@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from .polynomials import ZERO, Piecewise, combine
 
@@ -48,8 +48,7 @@ DRIVING: frozenset[str] = frozenset(
 """Lane types that vehicles drive on."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(NamedTuple):
     """Position (m) and attitude (rad, ISO 8855: nose down and right side down are positive)."""
 
     x: float
@@ -69,8 +68,7 @@ class LaneKey:
     lane: int
 
 
-@dataclass(frozen=True, slots=True)
-class LanePosition:
+class LanePosition(NamedTuple):
     """A place on a lane.
 
     Attributes:
@@ -86,8 +84,7 @@ class LanePosition:
     offset: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Advance:
+class Advance(NamedTuple):
     """Result of moving along a lane: where, and how far it was possible to go (m, signed)."""
 
     position: LanePosition

@@ -97,6 +97,13 @@ def advance(
     if not math.isfinite(distance):
         raise ValueError(f"cannot move by {distance} m; give a finite distance")
     forwards = distance >= 0.0
+    # Nearly every step of an actor stays in its lane, so that case comes first.
+    line, offset = lane.line or lane_line(lane), p.offset * lane.direction
+    if line.offset_min <= offset <= line.offset_max:
+        there = line.length_at(p.s, offset) + distance * lane.direction
+        if 0.0 <= there < line.length - offset * line.turn:
+            s = line.s_at(there, offset)
+            return Advance(LanePosition(p.road, p.lane, s, p.offset), distance)
     motion = _Motion(lane, p.s, p.offset, abs(distance))
     idle = 0
     while idle < _IDLE_HOPS:

@@ -53,6 +53,7 @@ class RoadMap:
         self._signals = content.signals
         self._controllers = content.controllers
         self._forks = Forks()
+        self._recent: dict[tuple[str, int], Lane] = {}  # section of the last look-up
         connect_lanes(content.roads, content.junctions)
 
     # --- places -------------------------------------------------------------------------------
@@ -273,6 +274,9 @@ class RoadMap:
 
     def _lane(self, road: str, lane: int, s: float) -> tuple[Lane, float]:
         """Lane at s, and s limited to the road."""
+        recent = self._recent.get((road, lane))
+        if recent is not None and recent.section.begin <= s < recent.section.end:
+            return recent, s
         found = self._roads.get(road) or self._road(road)
         s = 0.0 if s < 0.0 else min(s, found.length)
         section = found.section_at(s)
@@ -282,6 +286,7 @@ class RoadMap:
             raise MapError(
                 self._file, f"road `{road}` has no lane {lane} at s = {s:.3f} m; it has {known}"
             )
+        self._recent[road, lane] = result
         return result, s
 
     def _keyed(self, key: LaneKey) -> Lane:

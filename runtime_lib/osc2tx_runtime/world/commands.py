@@ -9,17 +9,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from .curve import Curve
 from .profiles import DynamicProfile
 
 __all__ = [
     "Accelerate",
+    "AccelerationChange",
+    "Beside",
+    "Careful",
     "Command",
+    "FollowCourse",
     "FollowSpeed",
     "GapMeasure",
     "KeepGap",
     "KeepLane",
+    "KeepSchedule",
     "LaneChange",
     "LaneOffset",
+    "ReplayCourse",
+    "ReplayTrajectory",
+    "Sideways",
     "SpeedChange",
     "Standstill",
     "Turn",
@@ -42,19 +51,76 @@ class SpeedChange(Command):
         profile: Shape of the acceleration.
         rate_peak: Its peak (m/s^2); None: from the duration or the limits of the actor.
         duration: Length of the change (s); None: from the peak.
+        start: Speed to begin with (m/s), at once; None: the present one.
     """
 
     target: float
     profile: DynamicProfile = "none"
     rate_peak: float | None = None
     duration: float | None = None
+    start: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Accelerate(Command):
-    """Longitudinal: a constant acceleration (m/s^2); ends at standstill."""
+    """Longitudinal: a constant acceleration (m/s^2); ends at standstill.
+
+    Attributes:
+        acceleration: m/s^2.
+        start: Speed to begin with (m/s), at once; None: the present one.
+    """
 
     acceleration: float
+    start: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AccelerationChange(Command):
+    """Longitudinal: reach an acceleration, then hold it; ends at standstill.
+
+    Attributes:
+        target: Acceleration (m/s^2).
+        profile: Shape of the jerk.
+        rate_peak: Its peak (m/s^3); None: from the duration or the limits of the actor.
+        duration: Length of the change (s); None: from the peak.
+        start: Acceleration to begin with (m/s^2); None: the present one.
+    """
+
+    target: float
+    profile: DynamicProfile = "none"
+    rate_peak: float | None = None
+    duration: float | None = None
+    start: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Careful(Command):
+    """Longitudinal: another command, but never so fast as to run into what is ahead.
+
+    Attributes:
+        course: What to do with a free road; None: hold the speed.
+        headway: Seconds to keep behind what is ahead.
+        gap: Metres to keep behind it at standstill.
+    """
+
+    course: Command | None
+    headway: float = 1.5
+    gap: float = 2.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeepSchedule(Command):
+    """Longitudinal: be along a curve over time when it says so, as the limits allow.
+
+    Attributes:
+        curve: Its parameter is the time (s).
+        begin: Time on it at which the command starts (s).
+        end: Time at which it ends (s).
+    """
+
+    curve: Curve
+    begin: float
+    end: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,3 +195,59 @@ class Turn(Command):
     """Lateral, actors off the lanes only: take a heading (rad, world)."""
 
     heading: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sideways(Command):
+    """Lateral: a constant speed (m/s) to the left across the lane."""
+
+    speed: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Beside(Command):
+    """Lateral: reach and hold a distance across the lane to another actor.
+
+    Attributes:
+        reference: The other actor.
+        left: Metres that the own reference point is to be left of the other one.
+        time: Instead: seconds in which the sides would meet at the lateral speed; the actor
+            approaches the reference with the gap over this time.
+    """
+
+    reference: str
+    left: float | None = None
+    time: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowCourse(Command):
+    """Lateral: leave the lanes and steer along a curve, as the limits allow.
+
+    Attributes:
+        curve: Where to.
+        begin: Arc length on it at which to begin (m).
+        end: Arc length at which the goal is reached (m).
+    """
+
+    curve: Curve
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReplayCourse(Command):
+    """Lateral: be on a curve exactly, at the own speed; attributes as of `FollowCourse`."""
+
+    curve: Curve
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReplayTrajectory(Command):
+    """Both slots: be on a curve over time exactly; attributes as of `KeepSchedule`."""
+
+    curve: Curve
+    begin: float
+    end: float

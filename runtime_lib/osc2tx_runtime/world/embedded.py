@@ -9,9 +9,10 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
 from .collision import Box, box_of, swept_contacts
-from .commands import Command
-from .distances import along_lanes
+from .commands import Command, Standstill
+from .distances import along_lanes, lateral_on_road
 from .motion import Body
+from .obstacles import nearest_ahead
 from .protocol import (
     LONGITUDINAL,
     LOW_BEAM_SUN_ELEVATION,
@@ -21,17 +22,26 @@ from .protocol import (
     Progress,
 )
 from .state import ActorState
+from .towing import drawn
 
 __all__ = ["EmbeddedWorld"]
 
 _CAPABILITIES = frozenset(
     {
         "Accelerate",
+        "AccelerationChange",
+        "Beside",
+        "Careful",
+        "FollowCourse",
         "FollowSpeed",
         "KeepGap",
         "KeepLane",
+        "KeepSchedule",
         "LaneChange",
         "LaneOffset",
+        "ReplayCourse",
+        "ReplayTrajectory",
+        "Sideways",
         "SpeedChange",
         "Standstill",
         "Turn",
@@ -41,6 +51,7 @@ _CAPABILITIES = frozenset(
         "collisions",
         "environment",
         "lights",
+        "trailers",
     }
 )
 
@@ -60,6 +71,7 @@ class EmbeddedWorld:
         self._bodies: dict[str, Body] = {}
         self._boxes: list[Box] = []
         self._assigned: dict[str, dict[str, float | LanePosition | Pose]] = {}
+        self._towed: dict[str, str] = {}  # towing vehicle to trailer
         self._lights: dict[str, LightState] = {}
         self._next_lights: dict[str, LightState] = {}
         self._environment: dict[str, float] = {}
@@ -115,6 +127,14 @@ class EmbeddedWorld:
         """Route distance (m) from a to b; None if not connected."""
         return along_lanes(self.map, a, b)
 
+    def aside(self, a: ActorState, b: ActorState) -> float | None:
+        """How far (m) b is left of a, across the lane of a; None if not connected."""
+        return lateral_on_road(self.map, a, b)
+
+    def obstacle(self, me: ActorState) -> tuple[float, float] | None:
+        """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
+        return nearest_ahead(self.map, me, [body.state for body in self._bodies.values()])
+
     def progress(self, actor: str, slot: str) -> Progress:
         """Progress of the command in a slot."""
         body = self._body(actor)
@@ -141,6 +161,8 @@ class EmbeddedWorld:
     def command(self, actor: str, slot: str, command: Command | None) -> None:
         """Sets what a slot pursues; None: hold the speed, keep the lane."""
         body = self._body(actor)
+        if command is not None and actor in self._towed.values():
+            raise ScenarioError(f"{actor} is towed, so it cannot move by itself")
         if slot == LONGITUDINAL:
             body.pursue_speed(command)
         else:
@@ -160,6 +182,19 @@ class EmbeddedWorld:
         for name, value in (("speed", speed), ("at", at), ("heading", heading)):
             if value is not None:
                 wishes[name] = value
+
+    def attach(self, tow: str, trailer: str | None) -> None:
+        """Couples a trailer to a vehicle, from the next step on; None uncouples what it tows."""
+        before = self._towed.pop(tow, None)
+        if before is not None:
+            self._body(before).pursue_speed(Standstill())
+        if trailer is not None:
+            self._body(trailer).unbind()
+            self._towed[tow] = trailer
+
+    def trailer_of(self, tow: str) -> str | None:
+        """Id of the trailer that a vehicle tows."""
+        return self._towed.get(tow)
 
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
         """Switches lights from the next step on; returns what they will be."""
@@ -192,18 +227,35 @@ class EmbeddedWorld:
         # All read the snapshot; none is replaced before every actor has moved.
         jumped = {actor for actor, wishes in self._assigned.items() if "at" in wishes}
         states = [self._next_state(body) for body in bodies]
+        if self._towed:
+            self._draw_trailers(states)
         boxes = []
         for i, (body, state) in enumerate(zip(bodies, states, strict=True)):
             boxes.append(self._boxes[i] if state is body.state else box_of(state))
             body.state = state
-            if body.spec.id in jumped:
+            if body.jumped or body.spec.id in jumped:
                 self._boxes[i] = boxes[i]  # a jump touches nothing on its way
         self._find_collisions(boxes)
         self._boxes = boxes
         self._lights.update(self._next_lights)
         self._environment.update(self._next_environment)
 
+    def _draw_trailers(self, states: list[ActorState]) -> None:
+        """Puts trailers behind the new states of what tows them, the foremost first."""
+        place = {actor: i for i, actor in enumerate(self._bodies)}
+        waiting = [tow for tow in self._towed if tow not in self._towed.values()]
+        for tow in waiting:
+            trailer = self._towed[tow]
+            body, new = self._bodies[trailer], states[place[tow]]
+            pose, speed = drawn(body.state, new, self._bodies[tow].state, self.dt)
+            a = (speed - body.state.v) / self.dt
+            states[place[trailer]] = body.free_state(pose, speed, a, self.map)
+            if trailer in self._towed:
+                waiting.append(trailer)
+
     def _next_state(self, body: Body) -> ActorState:
+        if self._towed and body.spec.id in self._towed.values():
+            return body.state  # `_draw_trailers` moves it
         wishes = self._assigned.pop(body.spec.id, None) if self._assigned else None
         if wishes is None:
             return body.moved(self, self.map) if body.spec.movable else body.state
@@ -225,7 +277,7 @@ class EmbeddedWorld:
             pose = self.map.pose(at)
         elif isinstance(at, Pose):
             pose = at
-            body.bound = None
+            body.unbind()
         if isinstance(heading, float):
             pose = Pose(pose.x, pose.y, pose.z, heading)
         return body.free_state(pose, state.v, 0.0, self.map)
@@ -233,7 +285,10 @@ class EmbeddedWorld:
     def _find_collisions(self, boxes: list[Box]) -> None:
         ids = tuple(self._bodies)
         touching = swept_contacts(self._boxes, boxes)
-        before = self._touching
+        before = self._touching | {
+            (min(ids.index(one), ids.index(two)), max(ids.index(one), ids.index(two)))
+            for one, two in self._towed.items()  # coupled ones may touch
+        }
         self._collisions = tuple(
             sorted(
                 (min(ids[i], ids[j]), max(ids[i], ids[j]))

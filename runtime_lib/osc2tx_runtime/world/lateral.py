@@ -14,10 +14,14 @@ from typing import Protocol
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
+from .beside import BesideRun, SidewaysRun
 from .catalogue import Limits
-from .commands import Command, KeepLane, LaneChange, LaneOffset
+from .commands import Beside, Command, KeepLane, LaneChange, LaneOffset, Sideways
+from .lateral_limits import HEADING_LIMIT, SIDEWAYS
 from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
 from .protocol import PENDING, REACHED, Progress
+from .senses import Senses
+from .state import ActorState
 
 __all__ = [
     "HEADING_LIMIT",
@@ -27,8 +31,11 @@ __all__ = [
     "HoldOffset",
     "Impossible",
     "Lateral",
+    "Shift",
+    "excessive_shift",
     "lateral_of",
     "offset_from",
+    "shift_profile",
 ]
 
 LANE_CHANGE_TIME = 3.0
@@ -37,25 +44,22 @@ LANE_CHANGE_TIME = 3.0
 LANE_CHANGE_WIDTH = 3.5
 """Metres; other distances take longer or shorter with their square root."""
 
-HEADING_LIMIT = 0.5
-"""Radians between the heading of a vehicle and its lane."""
-
-SIDEWAYS = math.sin(HEADING_LIMIT)
-"""Largest share of the driven path that goes sideways."""
-
 _AT_REST = 1e-6  # m/s of lateral speed
 
 
 class Lateral(Protocol):
     """A command at work on one actor."""
 
-    def offset_after(self, offset: float, path: float, dt: float) -> tuple[float, float]:
+    def offset_after(
+        self, offset: float, path: float, me: ActorState, senses: Senses
+    ) -> tuple[float, float]:
         """Offset (m) and lateral speed (m/s) at the next step; called once per step.
 
         Args:
             offset: Offset at the present step (m).
             path: Metres driven in this step.
-            dt: Length of the step (s).
+            me: State at the present step.
+            senses: What can be read at the present step.
         """
 
     def progress(self) -> Progress:
@@ -67,7 +71,9 @@ class HoldOffset:
 
     __slots__ = ()
 
-    def offset_after(self, offset: float, path: float, dt: float) -> tuple[float, float]:
+    def offset_after(
+        self, offset: float, path: float, me: ActorState, senses: Senses
+    ) -> tuple[float, float]:
         """The same offset."""
         return offset, 0.0
 
@@ -101,8 +107,13 @@ class Shift:
         self._time = 0.0
         self.end = end
 
-    def offset_after(self, offset: float, path: float, dt: float) -> tuple[float, float]:
+    def offset_after(
+        self, offset: float, path: float, me: ActorState, senses: Senses
+    ) -> tuple[float, float]:
         """Value of the profile, at a time that does not run on where the actor is too slow."""
+        if self._time >= self._profile.duration:
+            return self.end, 0.0
+        dt = senses.dt
         self._steps += 1
         if path == 0.0:
             self._lag += dt
@@ -201,6 +212,15 @@ def lateral_of(
             end = command.offset
         case LaneOffset():
             target, end = physical, command.offset
+        case Beside():
+            return bound, BesideRun(command, limits, rate)
+        case Sideways():
+            return bound, SidewaysRun(command)
+        case None | KeepLane() if isinstance(before, BesideRun | SidewaysRun):
+            # It may have come to another lane; what is left of the lateral speed runs out.
+            target = physical
+            start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
+            end = start + 0.4 * rate
         case None | KeepLane():
             if not isinstance(before, Shift) or before.progress().done:
                 return bound, HoldOffset()
@@ -215,6 +235,34 @@ def lateral_of(
         course = (command.profile, command.rate_peak, command.duration)
     profile = shift_profile(start, end, rate, course, limits)
     return LanePosition(target.road, target.lane, target.s, start), Shift(profile, end)
+
+
+def excessive_shift(
+    road_map: RoadMap,
+    me: ActorState,
+    target: LanePosition,
+    offset: float,
+    duration: float,
+    limits: Limits,
+) -> str | None:
+    """Why a change of the place across the road cannot be driven in a time; None if it can.
+
+    Args:
+        road_map: The map.
+        me: The actor.
+        target: Lane in which it ends.
+        offset: Metres left of its centre.
+        duration: Seconds.
+        limits: Of the actor.
+    """
+    here = offset_from(road_map, LanePosition(target.road, target.lane, target.s), me.x, me.y)
+    least = quintic_duration(abs(offset - here), rate_peak=None, curve_peak=limits.lateral)
+    if duration >= least - 1e-9:
+        return None
+    return (
+        f"{abs(offset - here):.1f} m sideways in {duration:g} s takes more than"
+        f" {limits.lateral:g} m/s^2; {least:.2f} s are possible"
+    )
 
 
 def _lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:

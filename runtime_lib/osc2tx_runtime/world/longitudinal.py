@@ -7,39 +7,41 @@ from typing import Protocol
 
 from osc2tx_runtime.errors import UnsupportedError
 
+from .acceleration import AccelerationRun, ConstantAcceleration
 from .catalogue import COMFORT, RATE_CAP, Limits
+from .caution import Cautious, Hold
 from .commands import (
     Accelerate,
+    AccelerationChange,
+    Careful,
     Command,
     FollowSpeed,
     KeepGap,
+    KeepSchedule,
+    ReplayTrajectory,
     SpeedChange,
     Standstill,
 )
 from .distances import gap_between, headway_between
 from .profiles import Linear, Profile, Quintic, SCurve, quintic_duration
 from .protocol import PENDING, REACHED, Progress
+from .schedule import Schedule, towards
+from .senses import Senses
 from .state import ActorState
 
-__all__ = ["Longitudinal", "Senses", "longitudinal_of", "speed_profile"]
+__all__ = [
+    "Longitudinal",
+    "excessive_acceleration",
+    "excessive_rate",
+    "longitudinal_of",
+    "speed_profile",
+]
 
 _SPEED_TOLERANCE = 0.05  # m/s at which a followed speed or gap counts as reached
 _GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
 _GAP_STEPS = 4  # steps for which it must stay so
 _GAP_RATE = 0.6  # 1/s: how fast small gap errors decay
 _RESPONSE = 0.3  # s in which the gap controller corrects the speed
-
-
-class Senses(Protocol):
-    """What a command at work may read: the snapshot of the present step."""
-
-    dt: float
-
-    def state(self, actor: str) -> ActorState:
-        """State of an actor."""
-
-    def along(self, a: ActorState, b: ActorState) -> float | None:
-        """Route distance (m) from a to b; None if not connected."""
 
 
 class Longitudinal(Protocol):
@@ -73,27 +75,6 @@ class _ProfileRun:
         return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING
 
 
-class _Acceleration:
-    """Constant acceleration from the speed at the start; does not go through standstill."""
-
-    __slots__ = ("_acceleration", "_start", "_steps")
-
-    def __init__(self, acceleration: float, start: float) -> None:
-        self._acceleration = acceleration
-        self._start = start
-        self._steps = 0
-
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
-        """Start speed plus acceleration times time."""
-        self._steps += 1
-        speed = self._start + self._acceleration * self._steps * senses.dt
-        return 0.0 if self._start >= 0.0 > speed or self._start < 0.0 < speed else speed
-
-    def progress(self) -> Progress:
-        """Never done: there is no goal."""
-        return PENDING
-
-
 class _Following:
     """Feedback: the speed of another actor, approached within comfortable limits."""
 
@@ -108,22 +89,13 @@ class _Following:
         """A step towards the speed of the reference at the present step."""
         command = self._command
         wanted = senses.state(command.reference).v * command.factor + command.difference
-        speed = _towards(me.v, wanted, self._limits, COMFORT, senses.dt)
+        speed = towards(me.v, wanted, self._limits, COMFORT, senses.dt)
         self._done = abs(speed - wanted) < _SPEED_TOLERANCE
         return speed
 
     def progress(self) -> Progress:
         """Done while the speeds agree."""
         return REACHED if self._done else PENDING
-
-
-def _towards(speed: float, wanted: float, limits: Limits, share: float, dt: float) -> float:
-    """Speed one step on, within a share of the limits."""
-    rise = share * limits.acceleration * dt
-    fall = share * limits.deceleration * dt
-    if speed < 0.0:
-        rise, fall = fall, rise
-    return min(max(wanted, speed - fall), speed + rise)
 
 
 class _Gap:
@@ -156,7 +128,7 @@ class _Gap:
         closing = min(_GAP_RATE * abs(error), math.sqrt(2.0 * brake * abs(error)))
         goal = max(other.v + math.copysign(closing, error), 0.0)
         blend = min(1.0, senses.dt / _RESPONSE)
-        speed = _towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, senses.dt)
+        speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, senses.dt)
         near = abs(error) < _GAP_TOLERANCE and abs(me.v - other.v) < 4.0 * _SPEED_TOLERANCE
         self._settled = self._settled + 1 if near else 0
         return speed
@@ -215,30 +187,61 @@ def _limit(speed: float, target: float, limits: Limits) -> float:
     return limits.acceleration if abs(target) > abs(speed) else limits.deceleration
 
 
-def excessive_rate(command: SpeedChange, speed: float) -> str | None:
-    """Why a speed change cannot be driven; None if it can."""
-    if command.rate_peak is not None and not 0.0 < command.rate_peak <= RATE_CAP:
-        return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {RATE_CAP:g} m/s^2"
+def excessive_rate(command: SpeedChange, speed: float, limits: Limits | None = None) -> str | None:
+    """Why a speed change cannot be driven; None if it can.
+
+    Args:
+        command: The change.
+        speed: Speed at its start (m/s).
+        limits: Of the actor, where they must hold; None: only those of tyres do.
+    """
+    cap = RATE_CAP if limits is None else _limit(speed, command.target, limits)
+    if command.rate_peak is not None and not 0.0 < command.rate_peak <= cap:
+        return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {cap:g} m/s^2"
     if command.duration is not None and command.profile != "asap":
         factor = 1.0 if command.profile == "constant" else 1.875
         change = factor * abs(command.target - speed)
-        if change > RATE_CAP * command.duration:
+        if change > cap * command.duration * (1.0 + 1e-9):
             return (
                 f"{speed:.1f} to {command.target:.1f} m/s in {command.duration:g} s takes more"
-                f" than {RATE_CAP:g} m/s^2"
+                f" than {cap:g} m/s^2"
             )
     return None
 
 
-def longitudinal_of(command: Command, speed: float, limits: Limits) -> Longitudinal:
-    """Puts a longitudinal command to work at the present speed (m/s)."""
+def excessive_acceleration(value: float, speed: float, limits: Limits | None = None) -> str | None:
+    """Why an acceleration (m/s^2) cannot be; None if it can. Arguments as above."""
+    gaining = value * speed >= 0.0
+    cap = RATE_CAP
+    if limits is not None:
+        cap = limits.acceleration if gaining else limits.deceleration
+    if abs(value) <= cap * (1.0 + 1e-9):
+        return None
+    return f"an acceleration of {value:.2f} m/s^2 is beyond the {cap:g} m/s^2 it can do"
+
+
+def longitudinal_of(command: Command, me: ActorState, limits: Limits) -> Longitudinal:
+    """Puts a longitudinal command to work on an actor in its present state."""
+    speed = me.v
     match command:
         case SpeedChange():
-            return _ProfileRun(speed_profile(command, speed, limits))
+            start = speed if command.start is None else command.start
+            return _ProfileRun(speed_profile(command, start, limits))
         case Standstill():
             return _ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk))
         case Accelerate():
-            return _Acceleration(command.acceleration, speed)
+            start = speed if command.start is None else command.start
+            return ConstantAcceleration(command.acceleration, start)
+        case AccelerationChange():
+            return AccelerationRun(command, me, limits)
+        case Careful():
+            course = command.course
+            inner = None if course is None else longitudinal_of(course, me, limits)
+            return Cautious(command, inner, speed, limits)
+        case KeepSchedule():
+            return Schedule(command, me, limits)
+        case ReplayTrajectory():
+            return Hold(speed)
         case FollowSpeed():
             return _Following(command, limits)
         case KeepGap():

@@ -8,16 +8,30 @@ from dataclasses import dataclass, field
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
 
-from .commands import Command, KeepLane, Turn
-from .lateral import SIDEWAYS, HoldOffset, Lateral, lateral_of, offset_from
-from .longitudinal import Longitudinal, Senses, longitudinal_of
+from .commands import Command, KeepLane, SpeedChange, Turn
+from .courses import TURN_RATE, Course, Steering, course_of
+from .curve import turn_between
+from .lateral import (
+    SIDEWAYS,
+    HoldOffset,
+    Impossible,
+    Lateral,
+    Shift,
+    lateral_of,
+    offset_from,
+    shift_profile,
+)
+from .longitudinal import Longitudinal, longitudinal_of
 from .protocol import PENDING, REACHED, ActorSpec, Progress
+from .senses import Senses
 from .state import ActorState
 
-__all__ = ["ANY_LANE", "TURN_RATE", "Body"]
+__all__ = ["ANY_LANE", "CRUISE", "Body"]
 
-TURN_RATE = math.pi
-"""Radians per second at which actors off the lanes turn."""
+CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
+"""Speed (m/s) at which those who stand set out on a course; vehicles: `CRUISE_VEHICLE`."""
+
+CRUISE_VEHICLE = 5.0
 
 ANY_LANE = DRIVING | {
     "shoulder", "sidewalk", "walking", "biking", "parking", "border", "curb", "median", "stop",
@@ -27,6 +41,8 @@ ANY_LANE = DRIVING | {
 
 _NEAR = 0.5  # m: how far outside a lane an actor is still on it
 _STILL = 1e-9  # m/s
+_BACK = 5.0  # m beside a lane from where a vehicle returns to it after a course
+_ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 
 @dataclass(slots=True)
@@ -39,6 +55,7 @@ class Body:
         bound: Lane it follows, with its offset from there; None off the lanes.
         route: Decides at forks; None: the smallest change of heading.
         blocked: Why it cannot go on; None while it can.
+        jumped: In the last step it was put somewhere instead of moving there.
     """
 
     spec: ActorSpec
@@ -46,6 +63,9 @@ class Body:
     bound: LanePosition | None
     route: Route | None = None
     blocked: str | None = None
+    jumped: bool = False
+    _course: Course | None = None
+    _home: LanePosition | None = None  # lane it returns to
     _speed: Longitudinal | None = None
     _side: Lateral = field(default_factory=HoldOffset)
     _heading: float | None = None
@@ -57,20 +77,38 @@ class Body:
         if command is None:
             self._speed = None
             return
-        self._speed = longitudinal_of(command, self.state.v, self.spec.limits)
+        self._speed = longitudinal_of(command, self.state, self.spec.limits)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
-        """Puts a lateral command to work; None keeps the lane."""
+        """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        course = course_of(command, self.state, self.spec.limits)
+        if course is not None:
+            self._course, self.bound, self._home = course, None, None
+            self._side = HoldOffset()
+            return
+        returned = self._course is not None
+        if returned:
+            self._course = None
+            self._return_to_lane(road_map)
+            if self.bound is not None and (command is None or isinstance(command, KeepLane)):
+                return  # on its way to the middle of the lane
+        if self._home is not None:
+            held = command is None or isinstance(command, KeepLane)
+            self._side = HoldOffset() if held else Impossible(f"{self.spec.id} is in no lane yet")
+            return
         if self.bound is None:
             self._pursue_heading(command)
             return
-        here, state = self.state.lane_position or self.bound, self.state
+        state = self.state
+        here, rate = state.lane_position or self.bound, state.lateral_speed
+        if returned:
+            here, rate = self.bound, state.v * math.sin(self._turn_from(self.bound, road_map))
         self.bound, self._side = lateral_of(
             command,
             road_map,
             self.bound,
             here,
-            (state.x, state.y, state.lateral_speed),
+            (state.x, state.y, rate),
             self._side,
             self.spec.limits,
         )
@@ -95,9 +133,11 @@ class Body:
         """Progress of the lateral command."""
         if self.blocked is not None:
             return Progress(False, self.blocked)
-        if self.bound is not None:
+        if self._course is not None:
+            return self._course.progress()
+        if self.bound is not None or self._home is not None:
             return self._side.progress()
-        turned = self._heading is None or abs(_turn(self.state.h, self._heading)) < 1e-9
+        turned = self._heading is None or abs(turn_between(self.state.h, self._heading)) < 1e-9
         return REACHED if turned else PENDING
 
     # --- motion -------------------------------------------------------------------------------
@@ -105,18 +145,27 @@ class Body:
     def moved(self, senses: Senses, road_map: RoadMap) -> ActorState:
         """State at the next step; the snapshot itself stays as it is."""
         state, dt = self.state, senses.dt
+        if self._course is not None and self._speed is None and state.v == 0.0:
+            self.pursue_speed(SpeedChange(CRUISE.get(self.spec.kind, CRUISE_VEHICLE)))
         speed = state.v if self._speed is None else self._speed.speed_after(state, senses)
         path = 0.5 * (state.v + speed) * dt
+        self.jumped = False
+        if self._home is not None:
+            self._return_to_lane(road_map)
         if self.bound is not None:
-            return self._along_lane(speed, path, road_map, dt)
+            return self._along_lane(speed, path, road_map, senses)
+        if self._course is not None:
+            return self._on_course(self._course, speed, path, road_map, dt)
         if path == 0.0 and self._heading is None:
             return self._standing(speed, dt)
         return self._straight_on(speed, path, road_map, dt)
 
-    def _along_lane(self, speed: float, path: float, road_map: RoadMap, dt: float) -> ActorState:
-        bound = self.bound
+    def _along_lane(
+        self, speed: float, path: float, road_map: RoadMap, senses: Senses
+    ) -> ActorState:
+        bound, dt = self.bound, senses.dt
         assert bound is not None
-        offset, rate = self._side.offset_after(bound.offset, path, dt)
+        offset, rate = self._side.offset_after(bound.offset, path, self.state, senses)
         aside = offset - bound.offset
         if path == 0.0 and aside == 0.0:
             return self._standing(speed, dt)
@@ -183,29 +232,88 @@ class Body:
     def _straight_on(self, speed: float, path: float, road_map: RoadMap, dt: float) -> ActorState:
         state = self.state
         h = state.h
+        if self._home is not None:
+            pose = self._towards_lane(self._home, path, road_map)
+            return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
         if self._heading is not None:
-            turn = _turn(h, self._heading)
+            turn = turn_between(h, self._heading)
             h += math.copysign(min(abs(turn), TURN_RATE * dt), turn)
             h = math.pi - (math.pi - h) % math.tau
         pose = Pose(state.x + path * math.cos(h), state.y + path * math.sin(h), state.z, h)
         return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
 
+    # --- courses off the lanes ----------------------------------------------------------------
+
+    def _on_course(
+        self, course: Course, speed: float, path: float, road_map: RoadMap, dt: float
+    ) -> ActorState:
+        state = self.state
+        pose, speed = course.after(state, speed, path, dt)
+        way = math.hypot(pose.x - state.x, pose.y - state.y)
+        self.jumped = way > max(abs(path), abs(speed) * dt) + _NEAR
+        return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
+
+    def _lane_near(self, road_map: RoadMap) -> LanePosition | None:
+        """The driving lane to return to; None if there is none close by in this direction."""
+        state = self.state
+        if not self.spec.lane_bound:
+            return None
+        on = road_map.locate(state.x, state.y, state.z, state.h, max_distance=_BACK)
+        if on is None or math.cos(self._turn_from(on, road_map)) <= 0.0:
+            return None
+        return LanePosition(on.road, on.lane, on.s)
+
+    def _abreast(self, lane: LanePosition, road_map: RoadMap) -> LanePosition | None:
+        """Where it is along a lane; None behind its end."""
+        pose, state = road_map.pose(lane), self.state
+        along = (state.x - pose.x) * math.cos(pose.h) + (state.y - pose.y) * math.sin(pose.h)
+        step = road_map.advance(lane, along, self.route)
+        return step.position if abs(step.travelled - along) < 1e-3 else None
+
+    def _return_to_lane(self, road_map: RoadMap) -> None:
+        """Is in its lane again if it stands in it and along it, else on the way there, if any."""
+        state, home = self.state, self._home
+        home = self._lane_near(road_map) if home is None else self._abreast(home, road_map)
+        self._home = home
+        if home is None:
+            return
+        turn = self._turn_from(home, road_map)
+        offset = offset_from(road_map, home, state.x, state.y)
+        inside = abs(offset) <= 0.5 * road_map.lane_width(home.road, home.lane, home.s)
+        if inside and abs(turn) <= (_ALIGNED if state.v > 0.5 else 1e-3):
+            rate = state.v * math.sin(turn)
+            profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.spec.limits)
+            self.bound = LanePosition(home.road, home.lane, home.s, offset)
+            self._side, self._home = Shift(profile, 0.0), None
+
+    def _turn_from(self, lane: LanePosition, road_map: RoadMap) -> float:
+        return turn_between(road_map.pose(lane).h, self.state.h)
+
+    def _towards_lane(self, home: LanePosition, path: float, road_map: RoadMap) -> Pose:
+        """Steers at the centre of the lane, some way ahead."""
+        state = self.state
+        steering = Steering(state.shape, self.spec.limits)
+        ahead = road_map.advance(home, steering.look_ahead(state.v), self.route).position
+        goal = road_map.pose(ahead)
+        return steering.towards(state, goal.x, goal.y, path)
+
     def free_state(self, pose: Pose, speed: float, a: float, road_map: RoadMap) -> ActorState:
         """State off the lanes: where it is, and which lane is under it, if any."""
         hint = self.state.lane_position
+        heading = pose.h if self.spec.lane_bound else None
         on = road_map.locate(
-            pose.x, pose.y, pose.z, hint=hint, lane_types=ANY_LANE, max_distance=_NEAR
+            pose.x, pose.y, pose.z, heading, hint=hint, lane_types=ANY_LANE, max_distance=_NEAR
         )
         z = pose.z if on is None else road_map.pose(on).z
         return ActorState(pose.x, pose.y, z, pose.h, speed, a, on, 0.0, self.spec.shape)
 
+    def unbind(self) -> None:
+        """Is on no lane any more, and goes straight on."""
+        self.bound, self._course, self._home = None, None, None
+
     def rebind(self, bound: LanePosition, speed: float, road_map: RoadMap) -> ActorState:
         """State after a jump to a place on a lane."""
         self.bound, self.blocked = bound, None
+        self._course, self._home = None, None
         self._side = HoldOffset()
         return self._state_on_lane(bound, speed, 0.0, 0.0, road_map)
-
-
-def _turn(here: float, there: float) -> float:
-    """Smallest angle (rad) from one heading to another."""
-    return (there - here + math.pi) % math.tau - math.pi

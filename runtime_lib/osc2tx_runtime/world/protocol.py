@@ -130,6 +130,12 @@ class World(Protocol):
     ) -> None:
         """Changes a state at once; it can be seen from the next step on."""
 
+    def attach(self, tow: str, trailer: str | None) -> None:
+        """Couples a trailer to a vehicle, from the next step on; None uncouples what it tows."""
+
+    def trailer_of(self, tow: str) -> str | None:
+        """Id of the trailer that a vehicle tows."""
+
     def set_route(self, actor: str, route: Route | None) -> None:
         """Decides which branch the actor takes at forks."""
 

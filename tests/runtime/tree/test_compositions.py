@@ -200,26 +200,6 @@ def test_an_event_of_the_last_instant_still_ends_the_content() -> None:
     assert run(tree).outcome.status == "success"
 
 
-def test_equal_overlap() -> None:
-    same = Parallel("p", Task(HERO, 4), Task(NPC, 4), Drive(HERO), overlap="equal")
-    assert run(same).outcome.status == "success"
-    done = run(Parallel("p", Task(HERO, 4), Task(NPC, 6), overlap="equal"))
-    assert done.outcome.reason == (
-        "p failed at 0.200 s: overlap equal: the first member ended at 0.200 s,"
-        " still running: npc task"
-    )
-
-
-@pytest.mark.parametrize(
-    "options", [{"overlap": "inside"}, {"start_to_start": 1.0}, {"end_to_end": (0, 2)}]
-)
-def test_other_overlaps_are_refused_before_the_run(options: Any) -> None:
-    tree = Parallel("p", Task(HERO, 4), **options)
-    tree.source = "x.osc:5"
-    with pytest.raises(UnsupportedError, match=r"x.osc:5: parallel\(.*\) is not supported yet"):
-        run(tree)
-
-
 def test_exception_in_a_leaf_leaves_nothing_running() -> None:
     class Broken(Task):
         def on_update(self) -> Status:

@@ -60,8 +60,11 @@ def test_success(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert lines[0] == {
         **{"kind": "header", "version": 1, "scenario": "waits", "source": "waits.osc"},
         **{"map": "fake", "dt": 0.05, "seed": 0, "parameters": {"time": 1.0, "bad": False}},
-        "actors": {},
+        **{"actors": {}, "one_of": "race"},
     }
+    assert {"t": 1.0, "kind": "choice", "name": "first", "policy": "race"}.items() <= next(
+        line for line in lines if line["kind"] == "choice"
+    ).items()
     assert lines[-1] == {"kind": "result", "status": "success", "reason": "", "steps": 40}
     assert trace.read_bytes().endswith(b"}\n")
 
@@ -146,6 +149,23 @@ def test_an_error_still_writes_the_trace(tmp_path: Path) -> None:
     trace = tmp_path / "t.jsonl"
     assert main(Broken, argv=["--trace", str(trace)]) == 5
     assert '"status":"error"' in trace.read_text().splitlines()[-1]
+
+
+def test_an_interrupt_is_no_traceback(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    def interrupted(world: FakeWorld) -> None:
+        world.k += 1
+        if world.k == 7:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(FakeWorld, "step", interrupted)
+    trace = tmp_path / "t.jsonl"
+    assert main(Waits, argv=["--trace", str(trace)]) == 130
+    out = capsys.readouterr()
+    assert (out.out, out.err) == ("", "waits: interrupted\n")
+    last = json.loads(trace.read_text().splitlines()[-1])
+    assert (last["status"], last["reason"]) == ("error", "interrupted at 0.3 s")
 
 
 def test_require_api() -> None:

@@ -187,7 +187,7 @@ def test_setting_one_parameter_does_not_change_another() -> None:
 )
 def test_settings_that_name_nothing(settings: Any, message: str) -> None:
     with pytest.raises(SettingsError) as caught:
-        Small(RunSettings(**settings))
+        Small(RunSettings(**settings)).create_tree()
     assert message in caught.value.message
 
 

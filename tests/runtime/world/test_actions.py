@@ -10,20 +10,17 @@ import pytest
 
 from osc2tx_runtime import (
     Behaviour,
-    Environment,
     Map,
     Parallel,
     Person,
     Point,
     Scenario,
     Serial,
-    Vehicle,
     Wait,
     elapsed,
 )
 from osc2tx_runtime.errors import ScenarioError, SlotConflict, UnsupportedError
 from osc2tx_runtime.modifiers import (
-    Modifier,
     acceleration,
     keep_lane,
     lane,
@@ -33,36 +30,9 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
+from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]
-
-
-class TwoCars(Scenario):
-    """Car `a` at 50 m in lane 2 with 10 m/s, car `b` 40 m ahead of it with 12 m/s."""
-
-    name = "two_cars"
-    source = "two_cars.osc"
-    b_lane: tuple[Modifier, ...] = ()
-
-    def declare(self) -> None:
-        self.road = Map(map_file="highway")
-        self.sky = Environment()
-        self.a = Vehicle()
-        self.b = Vehicle()
-
-    def placement(self) -> None:
-        self.place(self.a, lane(2), position(distance=50.0), speed(10.0))
-        self.place(
-            self.b, lane(same_as=self.a), position(distance=40.0, ahead_of=self.a), speed(12.0)
-        )
-
-
-def scenario(body: Callable[[TwoCars], Behaviour]) -> type[Scenario]:
-    class Made(TwoCars):
-        def behavior(self) -> Behaviour:
-            return body(self)
-
-    return Made
 
 
 @pytest.mark.parametrize(
@@ -179,7 +149,7 @@ def test_drive_jumps_where_it_may(run: Run) -> None:
 
 
 def test_drive_in_a_lane_with_an_offset(run: Run) -> None:
-    done = run(scenario(lambda s: s.a.drive(lane(3), lateral(0.4, "right"), duration=6.0)))
+    done = run(scenario(lambda s: s.a.drive(lane(3), lateral(0.4, side="right"), duration=6.0)))
     last = done.states("a")[-1]
     assert (last["lane"], last["offset"]) == (-2, pytest.approx(-0.4))
 
@@ -296,8 +266,8 @@ def test_person_walks_across(run: Run) -> None:
         (lambda s: s.a.drive(yaw(1.0)), "does not take the modifier"),
         (lambda s: s.a.drive(lane(1), keep_lane()), "lane and keep_lane speak of the same thing"),
         (
-            lambda s: s.a.change_space_gap(target=1.0, direction="left", reference=s.b),
-            "direction left is not there yet",
+            lambda s: s.a.change_space_gap(target=1.0, direction="up", reference=s.b),
+            "direction `up` is none of ahead, behind, left",
         ),
     ],
 )

@@ -14,7 +14,7 @@ def span_of(source: SourceFile, part: str) -> Span:
 
 
 def error(span: Span | None, **more: object) -> Diagnostic:
-    return Diagnostic("OSC109", Severity.ERROR, "no such thing", span, **more)  # type: ignore[arg-type]
+    return Diagnostic("OSC213", Severity.ERROR, "no such thing", span, **more)  # type: ignore[arg-type]
 
 
 def rows(text: str, part: str) -> list[str]:
@@ -26,7 +26,7 @@ def rows(text: str, part: str) -> list[str]:
 def test_place_severity_code_message_line_and_carets() -> None:
     source = SourceFile("a.osc", "scenario top:\n  hero: vehicel\n")
     assert render_text(error(span_of(source, "vehicel"))) == (
-        "a.osc:2:9: error[OSC109]: no such thing\n"
+        "a.osc:2:9: error[OSC213]: no such thing\n"
         "   2 |   hero: vehicel\n"
         "     |         ^^^^^^^\n"
     )
@@ -40,7 +40,7 @@ def test_section_of_the_standard_stands_behind_the_message() -> None:
 def test_labels_notes_and_help_follow_in_this_order() -> None:
     source = SourceFile("a.osc", "hero: vehicle\n" + "\n" * 9 + "hero: person\n")
     diagnostic = Diagnostic(
-        "OSC109",
+        "OSC213",
         Severity.WARNING,
         "declared twice",
         Span(source, 23, 27),
@@ -49,7 +49,7 @@ def test_labels_notes_and_help_follow_in_this_order() -> None:
         help="rename one",
     )
     assert render_text(diagnostic) == (
-        "a.osc:11:1: warning[OSC109]: declared twice\n"
+        "a.osc:11:1: warning[OSC213]: declared twice\n"
         "   11 | hero: person\n"
         "      | ^^^^\n"
         "  a.osc:1:1: first declared here\n"
@@ -89,11 +89,16 @@ def test_span_over_many_lines_leaves_out_the_middle() -> None:
     ]
 
 
-@pytest.mark.parametrize("text", ["", "abc", "abc\n"])
+@pytest.mark.parametrize("text", ["abc", "abc\n"])
 def test_empty_span_at_the_end_gets_one_caret(text: str) -> None:
     source = SourceFile("a.osc", text)
     end = Span(source, len(text), len(text))
     assert render_text(error(end)).splitlines()[-1].count("^") == 1
+
+
+def test_a_text_that_is_not_there_is_not_shown() -> None:
+    end = Span(SourceFile("a.osc", ""), 0, 0)
+    assert render_text(error(end)) == "a.osc:1:1: error[OSC213]: no such thing\n"
 
 
 def test_span_of_a_line_end_points_behind_the_line() -> None:
@@ -109,7 +114,7 @@ def test_long_line_is_cut_around_the_span() -> None:
 
 def test_nothing_in_a_source_steers_the_terminal() -> None:
     source = SourceFile("a\x1b[2J.osc", "a \x1b[31m\u202e bad\n")
-    diagnostic = Diagnostic("OSC109", Severity.ERROR, "no `\x07`\nat all", span_of(source, "bad"))
+    diagnostic = Diagnostic("OSC213", Severity.ERROR, "no `\x07`\nat all", span_of(source, "bad"))
     text = render_text(diagnostic)
     assert not {"\x1b", "\x07", "\u202e"} & set(text)
     assert text.count("\n") == 3
@@ -119,7 +124,7 @@ def test_color_only_when_asked_for() -> None:
     source = SourceFile("a.osc", "bad\n")
     diagnostic = error(span_of(source, "bad"))
     assert "\x1b[" not in render_text(diagnostic)
-    assert "\x1b[31merror[OSC109]" in render_text(diagnostic, color=True)
+    assert "\x1b[31merror[OSC213]" in render_text(diagnostic, color=True)
 
 
 def test_several_are_separated_by_an_empty_line() -> None:

@@ -78,7 +78,7 @@ def test_a_correct_module_passes() -> None:
             module(variable("a", field("b")), variable("b", quantity(1)), body=wait_for("go")),
             "reference to field 'b'",
         ),
-        (replace(GOOD, scenarios=GOOD.scenarios * 2), "'case' stands twice"),
+        (replace(GOOD, scenarios=GOOD.scenarios * 2), "'case.osc:0' stands twice"),
     ],
 )
 def test_a_broken_module_is_our_bug(broken: ir.Module, message: str) -> None:

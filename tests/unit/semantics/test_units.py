@@ -7,16 +7,13 @@ import sys
 import pytest
 
 from osc2tx.semantics import SemanticModel
-from osc2tx.semantics.dialects import ASAM
 from osc2tx.semantics.library import shared_library
 from osc2tx.semantics.symbols import UnitSymbol
 from osc2tx.semantics.units import to_si, to_si_with_pint
 from osc2tx.syntax import ast
 from tests.unit.semantics.support import build_text
 
-UNITS = sorted(
-    shared_library("2.1", ASAM.name, "all").scope.all_units(), key=lambda unit: unit.name
-)
+UNITS = sorted(shared_library("2.1", "asam", "all").scope.all_units(), key=lambda unit: unit.name)
 
 
 def only_unit(model: SemanticModel) -> tuple[ast.PhysicalLiteral, UnitSymbol]:

@@ -160,3 +160,30 @@ def test_damaged_scenarios_can_be_parsed(data: st.DataObject) -> None:
     end = data.draw(st.integers(start, min(start + 12, len(GOOD))))
     file, _ = parsed(GOOD[:start] + data.draw(st.sampled_from(["", *WORDS, "\n"])) + GOOD[end:])
     assert dump_ast(file)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (
+            "    var limit: speed = slow\n&&\n        speed(limit)\n",
+            [(1, "OSC100"), (1, "OSC108"), (2, "OSC102")],
+        ),
+        ("&&\n    x: int\nstruct t\n", [(1, "OSC102")]),
+        ("&&\n    &&\n        x: int\n    &&\n        &&\n", [(n, "OSC102") for n in (1, 2, 4, 5)]),
+        ("struct r:\n&&\n    x: int\n    y int\nstruct t\n", [(2, "OSC102"), (4, "OSC100")]),
+        ("scenario s:\n    x: int\n    &&\n        y: int\n    z: int\n", [(3, "OSC102")]),
+        (
+            "scenario s:\n    do serial:\n        &\n            a.b()\n        c.d()\n",
+            [(3, "OSC102")],
+        ),
+    ],
+)
+def test_a_block_under_a_line_of_unknown_characters_is_passed_over(
+    text: str, expected: list[tuple[int, str]]
+) -> None:
+    assert reports(text) == expected
+    assert (
+        len(parsed(text + "struct last\n")[0].statements)
+        == text.count("struct") + text.count("scenario") + 1
+    )

@@ -21,6 +21,7 @@ from osc2tx_runtime import (
     main,
     require_api,
     rise,
+    within,
 )
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import kph, m, s
@@ -47,6 +48,7 @@ class Conditions(Scenario):
             )
         )
         self.help_needed = Event()
+        self.wait_time = self.parameter("wait time", within(1 * s, 2 * s))
 
     def behavior(self) -> Behaviour:  # input.osc:13
         return Parallel(
@@ -61,7 +63,7 @@ class Conditions(Scenario):
             Wait(self.close),
             Wait(self.help_needed, lambda: self.ego.speed > 10 * kph),
             Wait(fall(lambda: self.ego.speed > 30 * kph and self.other.speed != 0 * kph)),
-            Wait(elapsed(1.5 * s)),
+            Wait(elapsed(self.wait_time)),
             Wait(every(2 * s, offset=1 * s)),
             Wait(lambda: self.ego.speed < self.other.speed),
             self.ego.keep_speed(duration=3 * s, label="first"),

@@ -20,7 +20,7 @@ class Methods(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         # Holds in all scenarios of a run
-        self.limit = self.parameter("limit", 50 * kph)
+        self.limit = self.global_parameter("limit", 50 * kph)
         self.road = Map(map_file="highway.xodr")
         self.ego = Vehicle()
         self.other = Vehicle()

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic, Severity
+from osc2tx.diagnostics.report import display_name
 from osc2tx.diagnostics.source import SourceFile, Span
 
 TAB_WIDTH = 4
@@ -43,7 +44,7 @@ def render_text(diagnostic: Diagnostic, *, color: bool = False, folder: Path | N
     severity = diagnostic.severity
     head = paint(f"{severity.value}[{diagnostic.code}]", _SEVERITY_COLORS[severity])
     section = CODES[diagnostic.code].section if diagnostic.code in CODES else ""
-    message = _clean(diagnostic.message) + (f" (§{section})" if section else "")
+    message = clean(diagnostic.message) + (f" (§{section})" if section else "")
     spans = [s for s in (diagnostic.primary, *(x.span for x in diagnostic.labels)) if s is not None]
     gutter = max((len(str(_end_line(span))) for span in spans), default=1) + 1
 
@@ -53,14 +54,14 @@ def render_text(diagnostic: Diagnostic, *, color: bool = False, folder: Path | N
     else:
         place = _place(diagnostic.primary, folder)
         lines.append(f"{paint(place, _BOLD)}: {head}: {paint(message, _BOLD)}")
-        marks = _snippet(diagnostic.primary, gutter)
+        marks = _snippet(diagnostic.primary, gutter) if diagnostic.primary.source.text else []
         lines += [paint(text, _SEVERITY_COLORS[severity]) if m else text for m, text in marks]
     for label in diagnostic.labels:
-        lines.append(f"  {_place(label.span, folder)}: {_clean(label.message)}")
+        lines.append(f"  {_place(label.span, folder)}: {clean(label.message)}")
         lines += [paint(text, _BLUE) if m else text for m, text in _snippet(label.span, gutter)]
-    lines += [f"  note: {_clean(note)}" for note in diagnostic.notes]
+    lines += [f"  note: {clean(note)}" for note in diagnostic.notes]
     if diagnostic.help is not None:
-        lines.append(f"  {paint('help', _BOLD)}: {_clean(diagnostic.help)}")
+        lines.append(f"  {paint('help', _BOLD)}: {clean(diagnostic.help)}")
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -73,15 +74,7 @@ def _paint(text: str, style: str) -> str:
 
 
 def _place(span: Span, folder: Path | None) -> str:
-    return _clean(f"{display_name(span.source, folder)}:{span.line}:{span.column}")
-
-
-def display_name(source: SourceFile, folder: Path | None) -> str:
-    """Return how to cite a file to somebody who works in `folder`."""
-    if folder is None or source.path is None:
-        return source.name
-    path = source.path.resolve()
-    return path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path)
+    return clean(f"{display_name(span.source, folder)}:{span.line}:{span.column}")
 
 
 def _end_line(span: Span) -> int:
@@ -150,7 +143,7 @@ def _visible(char: str) -> str:
 _INVISIBLE = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
 
 
-def _clean(text: str) -> str:
+def clean(text: str) -> str:
     """Return text that stays on its line and does not steer the terminal."""
     return "".join(map(_visible, text))
 

@@ -1,0 +1,39 @@
+"""Entry of the analysis."""
+
+from __future__ import annotations
+
+from osc2tx.analysis.conditions import report_conditions
+from osc2tx.analysis.constraints import ConstraintAnalysis, analyse_constraints
+from osc2tx.analysis.ending import find_endings
+from osc2tx.analysis.levels import ScenarioLevel, find_levels
+from osc2tx.analysis.liveness import report_liveness
+from osc2tx.analysis.report_constraints import report_constraints
+from osc2tx.analysis.usage import find_usage, report_usage
+from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.light_dataclass import dataclass
+from osc2tx.semantics import SemanticModel
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Analysis:
+    """What was found out about a program.
+
+    Attributes:
+        constraints: What its constraints fix, bound and leave open.
+        levels: How far each scenario of the root file is worked out.
+    """
+
+    constraints: ConstraintAnalysis
+    levels: tuple[ScenarioLevel, ...]
+
+
+def analyse(model: SemanticModel, sink: DiagnosticSink) -> Analysis:
+    """Analyse a program without errors; report contradictions, and what can never happen."""
+    usage = find_usage(model)
+    constraints = analyse_constraints(model)
+    report_constraints(model, constraints, usage.settings, sink)
+    endings = find_endings(model)
+    report_liveness(model, endings, frozenset(usage.invoked), sink)
+    report_usage(model, usage, sink)
+    report_conditions(model, usage, sink)
+    return Analysis(constraints, find_levels(model, constraints, endings))

@@ -1,0 +1,248 @@
+"""The constraints that hold in a type, in the order of the text (§7.3.11, §7.6.2.3).
+
+For a type these are: the `keep`s of its body and of its bases, defaults and `with` blocks of its
+fields, arguments and `with` blocks of its invocations and modifier applications; and for fields
+and invocations of user-defined types what these demand of their own members.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TypeAlias
+
+from osc2tx.analysis.locate import Place
+from osc2tx.analysis.tape import Key, Tape, TapeWriter
+from osc2tx.analysis.trees import do_members
+from osc2tx.diagnostics import Span
+from osc2tx.light_dataclass import dataclass
+from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.scope import supertypes
+from osc2tx.syntax import ast
+
+Op = ast.BinaryOperator
+
+DEEPEST_MEMBER = 4  # levels of user-defined structs below a field
+
+Instance: TypeAlias = ast.Invocation | ast.ModifierApplication
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Constraint:
+    """One constraint as it applies to one instance.
+
+    Attributes:
+        node: The `keep`, the default value or the argument.
+        span: What to show of it.
+        origin: `"keep"`, `"default value"` or `"argument"`.
+        is_default: Whether a later one may replace it.
+        subject: The parameter alone on its left side, if it is an equality or a range.
+        value: What the subject is set to, or the range or list that it is in.
+        tape: The whole of it.
+        place: Where the names in `value` are looked up.
+    """
+
+    node: ast.Node
+    span: Span
+    origin: str
+    is_default: bool
+    subject: Key | None
+    value: ast.Expression | None
+    tape: Tape
+    place: Place
+
+    @property
+    def is_range(self) -> bool:
+        """Whether the value is a set of values rather than the value itself."""
+        return self.tape.root.name in ("in range", "in list")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Removal:
+    """`remove_default(parameter)`."""
+
+    subject: Key
+
+
+Entry: TypeAlias = Constraint | Removal
+
+
+class Collector:
+    """Collects the constraints of types."""
+
+    def __init__(self, model: SemanticModel) -> None:
+        """Take the checked program."""
+        self._model = model
+        self._writer = TapeWriter(model)
+
+    def collect(self, owner: sym.TypeSymbol) -> list[Entry]:
+        """Return what constrains an instance of a type, in the order of the text."""
+        it = None if isinstance(owner, sym.ModifierSymbol) else ()
+        place = Place(model=self._model, owner=owner, prefix=(), it=it)
+        own = list(self._of_type(place, owner, depth=0))
+        return [*self._of_globals(own), *own]
+
+    def _of_globals(self, entries: list[Entry]) -> list[Entry]:
+        """Return what constrains the global parameters that some constraints mention."""
+        place = Place(model=self._model, owner=None, prefix=(), it=None)
+        found: list[Entry] = []
+        seen: set[Key] = set()
+        while entries:
+            keys = {(k[0],) for e in entries if isinstance(e, Constraint) for k in e.tape.keys}
+            entries = []
+            for key in sorted(keys - seen, key=lambda k: k[0].span.start):
+                seen.add(key)
+                match key[0]:
+                    case sym.FieldSymbol(owner=None, node=ast.ParameterDeclaration() as node):
+                        entries += self._of_field(place, key[0], node, depth=0)
+            found = [*entries, *found]
+        return found
+
+    def _of_type(self, place: Place, owner: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
+        for ancestor in reversed(list(supertypes(owner))):
+            for statement in ancestor.statements:
+                yield from self._of_statement(place, ancestor, statement, depth)
+
+    def _of_statement(
+        self, place: Place, ancestor: sym.TypeSymbol, statement: ast.Statement, depth: int
+    ) -> Iterator[Entry]:
+        match statement:
+            case ast.ParameterDeclaration():
+                for member in ancestor.members.values():
+                    if isinstance(member, sym.FieldSymbol) and member.node is statement:
+                        yield from self._of_field(place, member, statement, depth)
+            case ast.KeepConstraint() | ast.RemoveDefault():
+                yield from self._of_rule(place, statement)
+            case ast.ModifierApplication():
+                yield from self._of_instance(place, statement, statement.arguments)
+            case ast.DoDirective() if depth == 0:
+                yield from self._of_tree(place, statement)
+
+    def _of_field(
+        self, place: Place, field: sym.FieldSymbol, node: ast.ParameterDeclaration, depth: int
+    ) -> Iterator[Entry]:
+        key = (*place.prefix, field)
+        type_ = symbol_of(field.type)
+        is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
+            t.origin == "user" for t in supertypes(type_)
+        )
+        if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
+            inner = replace(place, owner=type_, prefix=key, it=key)
+            yield from self._of_type(inner, type_, depth + 1)
+        if node.default is not None:
+            yield self._setting(place, key, field.type, node.default, "default value")
+        inside = replace(place, it=key, it_type=type_)
+        for rule in node.constraints:
+            if isinstance(rule, ast.KeepConstraint | ast.RemoveDefault):
+                yield from self._of_rule(inside, rule)
+
+    def _of_rule(
+        self, place: Place, rule: ast.KeepConstraint | ast.RemoveDefault
+    ) -> Iterator[Entry]:
+        if isinstance(rule, ast.RemoveDefault):
+            removed = place.locate(rule.parameter)
+            if removed is not None:
+                yield Removal(removed)
+            return
+        expression = rule.expression
+        subject, value = None, None
+        if isinstance(expression, ast.Binary) and expression.operator in (Op.EQUAL, Op.IN):
+            subject = place.locate(expression.left)
+            value = expression.right if subject is not None else None
+        yield Constraint(
+            node=rule,
+            span=expression.span,
+            origin="keep",
+            is_default=rule.strength is ast.KeepStrength.DEFAULT,
+            subject=subject,
+            value=value,
+            tape=self._writer.write(expression, place.locate),
+            place=place,
+        )
+
+    def _setting(
+        self, place: Place, key: Key, type_: types.Type, value: ast.Expression, origin: str
+    ) -> Constraint:
+        """Return `key == value`, or `key in value` for a range given to a number."""
+        tape = Tape()
+        left = self._writer.append_variable(tape, key, type_, value)
+        if isinstance(value, ast.RangeLiteral) and not isinstance(type_, types.RangeType):
+            lower = self._writer.append(tape, value.lower, place.locate)
+            upper = self._writer.append(tape, value.upper, place.locate)
+            self._writer.append_comparison(tape, "in range", left, [lower, upper], value)
+        else:
+            right = self._writer.append(tape, value, place.locate)
+            self._writer.append_comparison(tape, "==", left, [right], value)
+        return Constraint(
+            node=value,
+            span=value.span,
+            origin=origin,
+            is_default=origin == "default value",
+            subject=key,
+            value=value,
+            tape=tape,
+            place=place,
+        )
+
+    # --- invocations ---
+
+    def _of_tree(self, place: Place, directive: ast.DoDirective) -> Iterator[Entry]:
+        for member in do_members(directive.member):
+            match member:
+                case ast.Invocation():
+                    yield from self._of_instance(place, member, member.arguments)
+                    yield from self._of_with(place, member, member.with_members)
+                case ast.Composition():
+                    yield from self._of_with(place, member, member.with_members)
+                case _:
+                    continue
+
+    def _of_with(
+        self,
+        place: Place,
+        node: ast.Invocation | ast.Composition,
+        members: tuple[ast.WithMember, ...],
+    ) -> Iterator[Entry]:
+        binding = self._model.bindings.get(node)
+        callee = binding.callee if binding is not None else None
+        it_type = callee if isinstance(callee, sym.TypeSymbol) else None
+        inside = replace(place, it=(*place.prefix, node), it_type=it_type)
+        for member in members:
+            match member:
+                case ast.KeepConstraint() | ast.RemoveDefault():
+                    yield from self._of_rule(inside, member)
+                case ast.ModifierApplication():
+                    yield from self._of_instance(inside, member, member.arguments)
+                case ast.UntilDirective():
+                    continue
+
+    def _of_instance(
+        self, place: Place, node: Instance, arguments: tuple[ast.Argument, ...]
+    ) -> Iterator[Entry]:
+        """Yield what the callee demands of its parameters, and what the arguments say."""
+        binding = self._model.bindings.get(node)
+        if binding is None or not isinstance(binding.callee, sym.BehaviorSymbol):
+            return
+        callee = binding.callee
+        prefix = (*place.prefix, node)
+        if callee.origin == "user":
+            it = None if isinstance(callee, sym.ModifierSymbol) else prefix
+            inner = replace(place, owner=callee, prefix=prefix, it=it, it_type=None)
+            yield from self._of_type(inner, callee, depth=1)
+        elif not _can_be_constrained(node):
+            return
+        for parameter, value in binding.arguments:
+            if isinstance(parameter, sym.FieldSymbol):
+                key = (*prefix, parameter)
+                yield self._setting(place, key, parameter.type, value, "argument")
+
+
+def _can_be_constrained(node: Instance) -> bool:
+    """Whether some constraint can mention the parameters of a library behavior or modifier."""
+    if isinstance(node, ast.ModifierApplication):
+        return False
+    return node.label is not None or any(
+        isinstance(member, ast.KeepConstraint) for member in node.with_members
+    )

@@ -1,0 +1,210 @@
+"""What the constraints of a program fix, bound and leave open.
+
+`ConstraintAnalysis` is the result for later stages. Ask it for a parameter of a scenario:
+
+    found = analysis.parameter(scenario, field)         # or a path: (scenario, pose, position, x)
+    match found.state:
+        case State.FIXED:    found.value                # in SI; enum members as symbols
+        case State.BOUNDED:  found.domain, found.range  # interval or set; the range as written
+        case State.DEFINED:  found.definition           # an expression to evaluate at the start
+        case State.FREE:     ...                        # neither value nor finite range
+
+`definition` is also there for a `FIXED` parameter that is set by an expression, `v + 10kph`: the
+expression in force, all overriding done, so that a backend can write it as authored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+from enum import Enum
+
+from osc2tx.analysis.collect import Collector, Constraint
+from osc2tx.analysis.domains import Choice, Domain, Interval, Value, close, is_void
+from osc2tx.analysis.locate import name_of
+from osc2tx.analysis.overrides import InForce, apply_overrides
+from osc2tx.analysis.solver import smallest_conflict, solve
+from osc2tx.analysis.tape import Key, domain_of_type
+from osc2tx.light_dataclass import dataclass
+from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.scope import supertypes
+from osc2tx.syntax import ast
+
+MOST_CONFLICTS = 10  # reported for one type
+
+
+class State(Enum):
+    """How much is known of a parameter when compiling."""
+
+    FIXED = "fixed"
+    BOUNDED = "bounded"
+    DEFINED = "defined"
+    FREE = "free"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ParameterDomain:
+    """What is known of one parameter.
+
+    Attributes:
+        key: The fields that lead to it.
+        type: Its type.
+        state: How much is known.
+        domain: The values that are left; all of its type if it is free.
+        definition: What it is set to by the equality in force.
+        range: The range or list that it must be in, as written.
+        constraints: Those in force that mention it, in the order of the text.
+        replaced: The defaults of it that are not in force any more.
+    """
+
+    key: Key
+    type: types.Type
+    state: State
+    domain: Domain
+    definition: ast.Expression | None = None
+    range: ast.Expression | None = None
+    constraints: tuple[Constraint, ...] = ()
+    replaced: tuple[Constraint, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The path as one would write it."""
+        return name_of(self.key)
+
+    @property
+    def value(self) -> Value | sym.EnumMemberSymbol | None:
+        """The one value of a fixed parameter, in SI; the member of an enum."""
+        number = single_value(self.domain) if self.state is State.FIXED else None
+        if isinstance(self.type, types.EnumType):
+            members = self.type.symbol.members.values()
+            return next((m for m in members if m.value == number), None)
+        return number
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TypeConstraints:
+    """The constraints of one type.
+
+    Attributes:
+        owner: The type.
+        in_force: Its constraints after overriding.
+        domains: What is left of each parameter that a constraint mentions.
+        conflicts: Groups of constraints that cannot hold together.
+    """
+
+    owner: sym.TypeSymbol
+    in_force: InForce
+    domains: Mapping[Key, Domain]
+    conflicts: tuple[tuple[Constraint, ...], ...]
+    by_key: Mapping[Key, tuple[Constraint, ...]] = field(default_factory=dict)
+
+    def parameter(self, key: Key, type_: types.Type) -> ParameterDomain:
+        """Return what is known of a parameter."""
+        mentioned = self.by_key.get(key, ())
+        settings = [c for c in mentioned if c.subject == key and c.value is not None]
+        definition = next((c.value for c in reversed(settings) if not c.is_range), None)
+        within = next((c.value for c in reversed(settings) if c.is_range), None)
+        domain = self.domains.get(key, domain_of_type(type_))
+        if single_value(domain) is not None:
+            state = State.FIXED
+        elif definition is not None:
+            state = State.DEFINED
+        elif within is not None or _is_bounded(domain, type_):
+            state = State.BOUNDED
+        else:
+            state = State.FREE
+        return ParameterDomain(
+            key=key,
+            type=type_,
+            state=state,
+            domain=domain,
+            definition=definition,
+            range=within,
+            constraints=mentioned,
+            replaced=tuple(c for c in self.in_force.replaced if c.subject == key),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ConstraintAnalysis:
+    """The constraints of all types that the user's files declare or extend."""
+
+    types: Mapping[sym.TypeSymbol, TypeConstraints]
+
+    def parameter(
+        self, owner: sym.TypeSymbol, root: sym.FieldSymbol, *members: sym.FieldSymbol
+    ) -> ParameterDomain:
+        """Return what is known, in a scenario or other type, of a field or a path below it."""
+        return self.types[owner].parameter((root, *members), (root, *members)[-1].type)
+
+    def parameters(self, owner: sym.TypeSymbol) -> Iterator[ParameterDomain]:
+        """Yield all plain parameters of a type, those of its bases first."""
+        for ancestor in reversed(list(supertypes(owner))):
+            for member in ancestor.members.values():
+                if not isinstance(member, sym.FieldSymbol) or member.is_variable:
+                    continue
+                if not isinstance(member.type, types.ActorType | types.StructType):
+                    yield self.parameter(owner, member)
+
+
+def analyse_constraints(model: SemanticModel) -> ConstraintAnalysis:
+    """Collect and propagate the constraints of every type in the user's files."""
+    collector = Collector(model)
+    return ConstraintAnalysis(
+        {owner: _analyse(collector, owner) for owner in declared_types(model)}
+    )
+
+
+def declared_types(model: SemanticModel) -> list[sym.TypeSymbol]:
+    """Return the types of the user's files; scenarios last, as they use the others."""
+    found = [s for s in model.symbols if isinstance(s, sym.TypeSymbol) and s.origin == "user"]
+    return sorted(found, key=lambda symbol: isinstance(symbol, sym.ScenarioSymbol))
+
+
+def _analyse(collector: Collector, owner: sym.TypeSymbol) -> TypeConstraints:
+    in_force = apply_overrides(collector.collect(owner))
+    constraints = in_force.constraints
+    tapes = [constraint.tape for constraint in constraints]
+    active = list(range(len(constraints)))
+    conflicts: list[tuple[Constraint, ...]] = []
+    solution = solve(tapes, active)
+    while solution.conflict and len(conflicts) < MOST_CONFLICTS:
+        core = smallest_conflict(tapes, solution.conflict)
+        conflicts.append(tuple(constraints[index] for index in core))
+        active = [index for index in active if index != core[-1]]
+        solution = solve(tapes, active)
+    by_key: dict[Key, list[Constraint]] = {}
+    for constraint in constraints:
+        for key in constraint.tape.keys:
+            by_key.setdefault(key, []).append(constraint)
+    return TypeConstraints(
+        owner=owner,
+        in_force=in_force,
+        domains=solution.domains,
+        conflicts=tuple(conflicts),
+        by_key={key: tuple(found) for key, found in by_key.items()},
+    )
+
+
+def single_value(domain: Domain) -> Value | None:
+    """Return the value of a domain that holds one, up to rounding."""
+    if isinstance(domain, Choice):
+        return next(iter(domain.values)) if domain.is_point else None
+    if domain.nan or is_void(domain) or domain.lower_open or domain.upper_open:
+        return None
+    if domain.lower == domain.upper:
+        return domain.lower
+    if isinstance(domain.lower, int) or not close(domain.lower, domain.upper):
+        return None
+    return (domain.lower + domain.upper) / 2
+
+
+def _is_bounded(domain: Domain, type_: types.Type) -> bool:
+    """Whether a domain is a finite range, or a choice narrower than its type."""
+    if isinstance(domain, Choice):
+        return not domain.excluded and domain != domain_of_type(type_)
+    whole = domain_of_type(type_)
+    if not isinstance(whole, Interval) or is_void(domain):
+        return False
+    return domain.lower > whole.lower and domain.upper < whole.upper

@@ -1,0 +1,61 @@
+"""Walking syntax trees, without recursion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.scope import supertypes
+from osc2tx.syntax import ast
+
+SKIPPED = frozenset({"span", "comments", "trailing_comment", "end_comments"})
+_FIELDS: dict[str, tuple[str, ...]] = {}
+
+
+def do_members(root: ast.BehaviorMember) -> Iterator[ast.BehaviorMember]:
+    """Yield a member of a `do` tree and all below it, in source order."""
+    stack: list[ast.BehaviorMember] = [root]
+    while stack:
+        member = stack.pop()
+        yield member
+        if isinstance(member, ast.Composition):
+            stack += reversed(member.members)
+
+
+def do_directives(scenario: sym.ScenarioSymbol | sym.ActionSymbol) -> list[ast.DoDirective]:
+    """Return the `do`s of a behavior, those of its bases first."""
+    return [
+        statement
+        for ancestor in reversed(list(supertypes(scenario)))
+        for statement in ancestor.statements
+        if isinstance(statement, ast.DoDirective)
+    ]
+
+
+def nodes_below(root: ast.Node) -> Iterator[ast.Node]:
+    """Yield a node and all below it, in source order."""
+    stack: list[ast.Node] = [root]
+    while stack:
+        node = stack.pop()
+        yield node
+        stack += reversed(children_of(node))
+
+
+def children_of(node: ast.Node) -> list[ast.Node]:
+    """Return the nodes right below a node, in source order."""
+    children: list[ast.Node] = []
+    for name in _child_fields(type(node)):
+        value = getattr(node, name)
+        if isinstance(value, ast.Node):
+            children.append(value)
+        elif isinstance(value, tuple):
+            children += (item for item in value if isinstance(item, ast.Node))
+    return children
+
+
+def _child_fields(kind: type[ast.Node]) -> tuple[str, ...]:
+    """Return the fields of a class of nodes that may hold nodes, those of its bases first."""
+    if kind.__name__ not in _FIELDS:
+        slots = (name for base in reversed(kind.__mro__) for name in getattr(base, "__slots__", ()))
+        _FIELDS[kind.__name__] = tuple(name for name in slots if name not in SKIPPED)
+    return _FIELDS[kind.__name__]

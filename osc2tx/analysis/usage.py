@@ -1,0 +1,183 @@
+"""What is used of what the program declares: events, parameters, actors."""
+
+from __future__ import annotations
+
+from dataclasses import field
+
+from osc2tx.analysis.library_facts import is_library_actor
+from osc2tx.analysis.trees import children_of, do_directives, nodes_below
+from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.light_dataclass import dataclass
+from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.scope import is_subtype
+from osc2tx.syntax import ast
+
+
+@dataclass(slots=True, eq=False)
+class Usage:
+    """What the user's files use.
+
+    Attributes:
+        emitted: Events that some `emit` emits.
+        awaited: Events that some specification, coverage or expression names.
+        read: Fields that are read; a constraint on one field alone does not read it.
+        invoked: Behaviors that are invoked.
+        waits: Event specifications of the root file.
+        emits: `emit`s of the root file.
+        settings: What gives values to fields and parameters: declarations, calls, invocations.
+    """
+
+    emitted: set[sym.Symbol] = field(default_factory=set)
+    awaited: set[sym.Symbol] = field(default_factory=set)
+    read: set[sym.Symbol] = field(default_factory=set)
+    invoked: set[sym.Symbol] = field(default_factory=set)
+    waits: list[ast.EventSpecification] = field(default_factory=list)
+    emits: list[ast.EmitDirective] = field(default_factory=list)
+    settings: list[ast.Node] = field(default_factory=list)
+
+
+def find_usage(model: SemanticModel) -> Usage:
+    """Look through all of the user's files."""
+    usage = Usage()
+    for file in model.files:
+        is_root = file is model.root
+        stack: list[ast.Node] = [file]
+        while stack:
+            node = stack.pop()
+            if isinstance(node, ast.KeepConstraint | ast.RemoveDefault):
+                _look_at_rule(model, usage, node)
+                continue
+            _look_at(model, usage, node, is_root)
+            stack += reversed(children_of(node))
+    return usage
+
+
+def _look_at(model: SemanticModel, usage: Usage, node: ast.Node, is_root: bool) -> None:
+    match node:
+        case ast.NameExpression() | ast.MemberAccess():
+            _note(model.symbol_of(node), usage)
+        case ast.InheritanceCondition():
+            _note(model.symbol_of(node.field), usage)
+        case ast.EmitDirective():
+            symbol = model.symbol_of(node.event)
+            if symbol is not None:
+                usage.emitted.add(symbol)
+            if is_root:
+                usage.emits.append(node)
+            usage.settings.append(node)
+        case ast.EventSpecification() if is_root:
+            usage.waits.append(node)
+        case ast.Invocation():
+            binding = model.bindings.get(node)
+            if binding is not None:
+                usage.invoked.add(binding.callee)
+            usage.settings.append(node)
+        case ast.ParameterDeclaration() | ast.VariableDeclaration() | ast.ModifierApplication():
+            usage.settings.append(node)
+        case ast.Call() | ast.CallDirective():
+            usage.settings.append(node)
+
+
+def _note(symbol: sym.Symbol | None, usage: Usage) -> None:
+    if isinstance(symbol, sym.EventSymbol):
+        usage.awaited.add(symbol)
+    elif isinstance(symbol, sym.FieldSymbol):
+        usage.read.add(symbol)
+
+
+def _look_at_rule(
+    model: SemanticModel, usage: Usage, rule: ast.KeepConstraint | ast.RemoveDefault
+) -> None:
+    """Note the fields of a constraint that relates several."""
+    fields = set()
+    for node in nodes_below(rule):
+        if isinstance(node, ast.NameExpression | ast.MemberAccess):
+            symbol = model.symbol_of(node)
+            if isinstance(symbol, sym.FieldSymbol):
+                fields.add(symbol)
+        elif isinstance(node, ast.Call):
+            usage.settings.append(node)
+    if len(fields) > 1:
+        usage.read |= fields
+
+
+def report_usage(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
+    """Report events that nothing connects, and fields that nothing reads."""
+    _report_waits(model, usage, sink)
+    _report_emits(model, usage, sink)
+    for scenario in model.scenarios:
+        if do_directives(scenario):
+            for member in scenario.members.values():
+                if isinstance(member, sym.FieldSymbol):
+                    _report_field(model, member, usage, sink)
+
+
+def _report_waits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
+    reported: set[sym.Symbol] = set()
+    for wait in usage.waits:
+        symbol = model.symbol_of(wait.event) if wait.event is not None else None
+        if not isinstance(symbol, sym.EventSymbol) or symbol in reported or wait.event is None:
+            continue
+        if _comes_from_somewhere(model, usage, symbol):
+            continue
+        reported.add(symbol)
+        sink.report(
+            "OSC430",
+            wait.event.span,
+            f"nothing emits event `{symbol.name}`; it must come from outside",
+            labels=[Label(symbol.span, "declared here, without a specification")],
+            help=f"emit it, or give it to the run: `--signal {symbol.name}@1s`",
+        )
+
+
+def _comes_from_somewhere(model: SemanticModel, usage: Usage, symbol: sym.EventSymbol) -> bool:
+    if symbol.origin != "user" or symbol.is_implicit or symbol.node is None:
+        return True  # of the library, of a dialect, or of every behavior
+    family = [symbol, *_redeclared(model, symbol)]
+    return any(
+        event in usage.emitted or (event.node is not None and event.node.specification is not None)
+        for event in family
+    )
+
+
+def _redeclared(model: SemanticModel, symbol: sym.EventSymbol) -> list[sym.EventSymbol]:
+    """Return the events that types above and below declare again under the same name."""
+    if symbol.owner is None:
+        return []
+    return [
+        event
+        for owner in model.symbols
+        if isinstance(owner, sym.TypeSymbol)
+        and owner is not symbol.owner
+        and (is_subtype(owner, symbol.owner) or is_subtype(symbol.owner, owner))
+        and isinstance(event := owner.members.get(symbol.name), sym.EventSymbol)
+    ]
+
+
+def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
+    for emit in usage.emits:
+        symbol = model.symbol_of(emit.event)
+        if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
+            continue
+        if symbol in usage.awaited or set(_redeclared(model, symbol)) & usage.awaited:
+            continue
+        sink.report(
+            "OSC431",
+            emit.event.span,
+            f"nothing waits for event `{symbol.name}`",
+            labels=[] if symbol.is_implicit else [Label(symbol.span, "declared here")],
+        )
+
+
+def _report_field(
+    model: SemanticModel, field: sym.FieldSymbol, usage: Usage, sink: DiagnosticSink
+) -> None:
+    if field in usage.read or field.is_variable or field.span.source is not model.root.span.source:
+        return
+    match field.type:
+        case types.ActorType(symbol=actor):
+            if not is_library_actor(actor, "map"):  # the road is there for all
+                sink.report("OSC433", field.span, f"actor `{field.name}` takes no part")
+        case _:
+            sink.report("OSC437", field.span, f"parameter `{field.name}` is never read")

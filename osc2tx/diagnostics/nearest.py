@@ -1,0 +1,19 @@
+"""What somebody may have meant who wrote a name that nobody knows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def did_you_mean(written: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
+    """Return a line of help with the known name that looks most like what is written, if any.
+
+    Args:
+        written: The unknown name.
+        known: The names there are; equally near ones are decided by the alphabet.
+        likeness: How alike they must be, from 0 to 1.
+    """
+    from difflib import get_close_matches  # only needed where something is wrong
+
+    close = get_close_matches(written, sorted(set(known)), 1, likeness)
+    return f"did you mean `{close[0]}`?" if close else None

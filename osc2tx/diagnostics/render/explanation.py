@@ -1,0 +1,33 @@
+"""What there is to say about a code, as text for people."""
+
+from __future__ import annotations
+
+from textwrap import indent
+
+from osc2tx.diagnostics.codes import Code
+
+STANDARD = "OpenSCENARIO DSL 2.2"
+
+
+def render_explanation(entry: Code) -> str:
+    """Return the page of a code, without the last line end."""
+    parts = [f"{entry.code} {entry.slug} ({entry.severity.value})", entry.summary]
+    if entry.section:
+        parts[-1] += f"\nSee {STANDARD}, section {entry.section}."
+    explanation = entry.explanation
+    if explanation is not None:
+        options = f" (with {explanation.options})" if explanation.options else ""
+        parts += [f"Faulty{options}:", _indented(explanation.faulty), explanation.remedy]
+        if explanation.mended:
+            parts += ["Mended:", _indented(explanation.mended)]
+    return "\n\n".join(parts)
+
+
+def code_block(source: str) -> str:
+    """Return a source text as a code block of Markdown."""
+    fence = "```" if "```" not in source else "````"
+    return f"{fence}\n{source.rstrip()}\n{fence}"
+
+
+def _indented(source: str) -> str:
+    return indent(source.rstrip(), "    ")

@@ -1,0 +1,137 @@
+"""Diagnostics as SARIF 2.1.0, the format of code scanning.
+
+Columns count UTF-16 code units from 1, and the log says so. Warnings that a comment suppresses are
+left out: GitHub would show them as open alerts in spite of their `suppressions`.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from osc2tx.diagnostics.codes import CODES, Code
+from osc2tx.diagnostics.model import Diagnostic
+from osc2tx.diagnostics.render.explanation import code_block
+from osc2tx.diagnostics.report import Report, display_name
+from osc2tx.diagnostics.source import SourceFile, Span
+
+SCHEMA = (
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+)
+
+
+def render_sarif(report: Report, *, version: str, failed: bool = False) -> str:
+    """Return the report as a SARIF log with one run.
+
+    Args:
+        report: What to render.
+        version: The version of osc2tx.
+        failed: Whether osc2tx itself failed on some file.
+    """
+    codes = sorted({diagnostic.code for diagnostic in report.diagnostics})
+    driver = {
+        "name": "osc2tx",
+        "version": version,
+        "rules": [_rule(CODES[code]) for code in codes],
+    }
+    results = [
+        _result(diagnostic, codes.index(diagnostic.code), report.folder)
+        for diagnostic in report.diagnostics
+    ]
+    run = {
+        "tool": {"driver": driver},
+        "invocations": [{"executionSuccessful": not failed}],
+        "columnKind": "utf16CodeUnits",
+        "results": results,
+    }
+    return json.dumps({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}, indent=2) + "\n"
+
+
+def _rule(entry: Code) -> dict[str, Any]:
+    return {
+        "id": entry.code,
+        "name": "".join(part.capitalize() for part in entry.slug.split("-")),
+        "shortDescription": {"text": _escape(entry.summary)},
+        "help": {"text": _escape(_help(entry)), "markdown": _escape(_markdown_help(entry))},
+        "defaultConfiguration": {"level": entry.severity.value},
+    }
+
+
+def _help(entry: Code) -> str:
+    parts = [entry.summary]
+    if entry.section:
+        parts.append(f"See OpenSCENARIO DSL 2.2, section {entry.section}.")
+    if entry.explanation:
+        parts.append(entry.explanation.remedy)
+    return " ".join(parts)
+
+
+def _markdown_help(entry: Code) -> str:
+    text = _help(entry)
+    explanation = entry.explanation
+    if explanation:
+        text += f"\n\nFaulty:\n\n{code_block(explanation.faulty)}"
+        if explanation.mended:
+            text += f"\n\nMended:\n\n{code_block(explanation.mended)}"
+    return text
+
+
+def _result(diagnostic: Diagnostic, index: int, folder: Path | None) -> dict[str, Any]:
+    lines = [diagnostic.message, *(f"note: {note}" for note in diagnostic.notes)]
+    if diagnostic.help is not None:
+        lines.append(f"help: {diagnostic.help}")
+    result: dict[str, Any] = {
+        "ruleId": diagnostic.code,
+        "ruleIndex": index,
+        "level": diagnostic.severity.value,
+        "message": {"text": _escape("\n".join(lines))},
+    }
+    if diagnostic.primary is not None:
+        result["locations"] = [{"physicalLocation": _location(diagnostic.primary, folder)}]
+    if diagnostic.labels:
+        result["relatedLocations"] = [
+            {
+                "id": number,
+                "physicalLocation": _location(label.span, folder),
+                "message": {"text": _escape(label.message)},
+            }
+            for number, label in enumerate(diagnostic.labels, start=1)
+        ]
+    return result
+
+
+def _location(span: Span, folder: Path | None) -> dict[str, Any]:
+    source = span.source
+    line, column = _position(source, span.start)
+    end_line, end_column = _position(source, span.end)
+    return {
+        "artifactLocation": _artifact(source, folder),
+        "region": {
+            "startLine": line,
+            "startColumn": column,
+            "endLine": end_line,
+            "endColumn": end_column,
+        },
+    }
+
+
+def _artifact(source: SourceFile, folder: Path | None) -> dict[str, str]:
+    name = display_name(source, folder)
+    if source.path is None:
+        return {"uri": quote(name)}
+    if Path(name).is_absolute():
+        return {"uri": Path(name).as_uri()}
+    return {"uri": quote(name), "uriBaseId": "%SRCROOT%"}
+
+
+def _position(source: SourceFile, offset: int) -> tuple[int, int]:
+    line, column = source.position(offset)
+    before = source.text[offset - column + 1 : offset]
+    return line, len(before.encode("utf-16-le")) // 2 + 1
+
+
+def _escape(text: str) -> str:
+    """Return a text as a SARIF message that says it: braces and links have a meaning there."""
+    return text.replace("{", "{{").replace("}", "}}").replace("](", "\\](")

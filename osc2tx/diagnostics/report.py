@@ -1,0 +1,108 @@
+"""All that one run has to say, in the order and number in which it is shown."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from osc2tx.diagnostics.model import Diagnostic, Severity
+from osc2tx.diagnostics.source import SourceFile
+
+
+@dataclass(frozen=True, slots=True)
+class ScenarioEntry:
+    """A scenario: its file, its name, its level (§6.3), and what is open."""
+
+    source: SourceFile
+    name: str
+    level: str
+    open: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What is shown, and how much there is.
+
+    Attributes:
+        diagnostics: What is shown, by file and place.
+        hidden: For each file with more than is shown, how many more.
+        files: How many source files were asked for.
+        errors: How many errors there are, shown or not.
+        warnings: The same for warnings.
+        suppressed: How many warnings are kept back by comments.
+        folder: Where the reader works; files below it are cited relative to it.
+        scenarios: The scenarios of these files, with how far each is worked out.
+    """
+
+    diagnostics: tuple[Diagnostic, ...] = ()
+    hidden: Mapping[str, int] = field(default_factory=dict)
+    files: int = 0
+    errors: int = 0
+    warnings: int = 0
+    suppressed: int = 0
+    folder: Path | None = None
+    scenarios: tuple[ScenarioEntry, ...] = ()
+
+
+def make_report(
+    found: Iterable[Diagnostic],
+    *,
+    files: int,
+    suppressed: int = 0,
+    folder: Path | None = None,
+    most_shown: int = 0,
+) -> Report:
+    """Order diagnostics and keep the first of each file.
+
+    Args:
+        found: All diagnostics.
+        files: How many source files were asked for.
+        suppressed: How many warnings are kept back.
+        folder: Where the reader works.
+        most_shown: How many diagnostics of one file are shown; 0 shows all.
+    """
+    names: dict[SourceFile, str] = {}
+
+    def file_of(diagnostic: Diagnostic) -> str:
+        if diagnostic.primary is None:
+            return ""
+        source = diagnostic.primary.source
+        return names.setdefault(source, display_name(source, folder))
+
+    def place(diagnostic: Diagnostic) -> tuple[str, int, bool, str]:
+        start = diagnostic.primary.start if diagnostic.primary else 0
+        is_warning = diagnostic.severity is Severity.WARNING
+        return file_of(diagnostic), start, is_warning, diagnostic.code
+
+    ordered = sorted(found, key=place)
+    counts: Counter[str] = Counter()
+    shown = []
+    for diagnostic in ordered:
+        file = file_of(diagnostic)
+        counts[file] += 1
+        if not most_shown or counts[file] <= most_shown:
+            shown.append(diagnostic)
+    severities = Counter(diagnostic.severity for diagnostic in ordered)
+    return Report(
+        diagnostics=tuple(shown),
+        hidden={
+            file: count - most_shown
+            for file, count in counts.items()
+            if most_shown and count > most_shown
+        },
+        files=files,
+        errors=severities[Severity.ERROR],
+        warnings=severities[Severity.WARNING],
+        suppressed=suppressed,
+        folder=folder,
+    )
+
+
+def display_name(source: SourceFile, folder: Path | None) -> str:
+    """Return how to cite a file to somebody who works in `folder`."""
+    if folder is None or source.path is None:
+        return source.name
+    path = source.path.resolve()
+    return path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path)

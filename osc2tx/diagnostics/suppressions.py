@@ -1,0 +1,135 @@
+"""Comments that keep warnings back: `#! allow OSC603, relaxed-do: the reason`.
+
+At the end of a line such a comment counts for the warnings that start on that line; on a line of
+its own, for those of the next statement line. It names every code it means, errors cannot be
+suppressed, and a suppression that suppresses nothing is reported itself. The comments are found by
+the front end, which knows a comment from a string.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from osc2tx.diagnostics.lookup import find_code, meant_code
+from osc2tx.diagnostics.model import Diagnostic, Severity
+from osc2tx.diagnostics.sink import DiagnosticSink, in_order
+from osc2tx.diagnostics.source import SourceFile, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Suppression:
+    """One comment.
+
+    Attributes:
+        span: The comment.
+        names: The codes and slugs in it.
+        lines: The lines whose warnings it means.
+    """
+
+    span: Span
+    names: tuple[Span, ...]
+    lines: range
+
+
+@dataclass(frozen=True, slots=True)
+class Settled:
+    """Diagnostics after suppression.
+
+    Attributes:
+        shown: What remains, and what is wrong with the suppressions themselves.
+        suppressed: What they keep back.
+    """
+
+    shown: tuple[Diagnostic, ...]
+    suppressed: tuple[Diagnostic, ...]
+
+
+def settle(
+    found: Iterable[Diagnostic],
+    judged: Mapping[SourceFile, bool],
+    find: Callable[[SourceFile], Sequence[Suppression]],
+) -> Settled:
+    """Apply the suppressions of all files that have diagnostics.
+
+    Args:
+        found: The diagnostics.
+        judged: The files whose suppressions are checked, with whether all stages ran on the
+            file, so that an unused suppression can be told.
+        find: Finds the suppressions of a file.
+    """
+    entries: dict[object, _Entries] = {}
+
+    def entries_of(source: SourceFile) -> _Entries:
+        if source.identity not in entries:
+            entries[source.identity] = _Entries(find(source))
+        return entries[source.identity]
+
+    shown, suppressed = [], []
+    for diagnostic in found:
+        span = diagnostic.primary
+        if span is None or diagnostic.severity is Severity.ERROR:
+            shown.append(diagnostic)
+        elif entries_of(span.source).use(diagnostic.code, span.line):
+            suppressed.append(diagnostic)
+        else:
+            shown.append(diagnostic)
+    sink = DiagnosticSink()
+    for source, is_complete in judged.items():
+        entries_of(source).check(sink, is_complete=is_complete)
+    return Settled(in_order([*shown, *sink.sorted()]), in_order(suppressed))
+
+
+class _Entries:
+    """The suppressions of one file, and which of their codes were of use."""
+
+    def __init__(self, suppressions: Sequence[Suppression]) -> None:
+        self._suppressions = suppressions
+        self._used: set[Span] = set()
+        by_range: dict[range, dict[str, Span]] = {}
+        for suppression in suppressions:
+            names = by_range.setdefault(suppression.lines, {})
+            for name in suppression.names:
+                code = find_code(name.text)
+                if code is not None and code.can_be_suppressed:
+                    names.setdefault(code.code, name)
+        self._by_line: dict[int, list[dict[str, Span]]] = {}
+        for lines, names in by_range.items():
+            for line in lines:
+                self._by_line.setdefault(line, []).append(names)
+
+    def use(self, code: str, line: int) -> bool:
+        """Return whether a comment suppresses this; remember the first that does."""
+        for names in self._by_line.get(line, ()):
+            if code in names:
+                self._used.add(names[code])
+                return True
+        return False
+
+    def check(self, sink: DiagnosticSink, *, is_complete: bool) -> None:
+        """Report what is wrong with the suppressions."""
+        for suppression in self._suppressions:
+            if not suppression.names:
+                sink.report(
+                    "OSC704",
+                    suppression.span,
+                    "the suppression names no code",
+                    help="write `#! allow OSC603: reason`",
+                )
+            for name in suppression.names:
+                self._check_name(name, sink, is_complete)
+
+    def _check_name(self, name: Span, sink: DiagnosticSink, is_complete: bool) -> None:
+        code = find_code(name.text)
+        if code is None:
+            help = meant_code(name.text)
+            sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
+        elif code.severity is Severity.ERROR:
+            message = f"`{code.code}` is an error; only warnings can be suppressed"
+            sink.report("OSC703", name, message, help="mend what it reports")
+        elif not code.can_be_suppressed:
+            message = f"`{code.code}` is about suppressions and cannot be suppressed"
+            sink.report("OSC703", name, message)
+        elif is_complete and name not in self._used:
+            message = f"the suppression of `{name.text}` is not used"
+            sink.report("OSC701", name, message, help="take it out")

@@ -1,0 +1,76 @@
+"""Declarations in an order in which Python can compute them.
+
+The order of declarations means nothing in the language (§7.3.15), but a value must be computed
+before it is used. Source order is kept wherever it does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from osc2tx import ir
+from osc2tx.diagnostics import Label
+from osc2tx.lowering.context import LoweringContext
+
+
+def in_order_of_use(
+    ctx: LoweringContext, declarations: tuple[ir.Declaration, ...]
+) -> tuple[ir.Declaration, ...]:
+    """Return the declarations, each after those that its value needs; cycles are reported."""
+    by_name = {declaration.name: declaration for declaration in declarations}
+    ordered: dict[str, ir.Declaration] = {}
+    for declaration in declarations:
+        _place(ctx, declaration, by_name, ordered)
+    return tuple(ordered.values())
+
+
+def _place(
+    ctx: LoweringContext,
+    start: ir.Declaration,
+    by_name: dict[str, ir.Declaration],
+    ordered: dict[str, ir.Declaration],
+) -> None:
+    """Add a declaration below those it needs; a chain of any length, so without recursion."""
+    path = [start]
+    while path:
+        current = path[-1]
+        missing = [n for n in _needs(current) if n in by_name and n not in ordered]
+        if current.name in ordered or not missing:
+            ordered.setdefault(path.pop().name, current)
+            continue
+        needed = by_name[missing[0]]
+        if needed in path:
+            _report_cycle(ctx, path[path.index(needed) :])
+            ordered.update((member.name, member) for member in path)
+            return
+        path.append(needed)
+
+
+def _report_cycle(ctx: LoweringContext, cycle: list[ir.Declaration]) -> None:
+    names = " → ".join(f"`{member.name}`" for member in (*cycle, cycle[0]))
+    ctx.sink.report(
+        "OSC511",
+        cycle[0].span,
+        f"`{cycle[0].name}` is defined by itself: {names}",
+        labels=[Label(member.span, f"`{member.name}` is part of it") for member in cycle[1:]],
+    )
+
+
+def _needs(declaration: ir.Declaration) -> Iterable[str]:
+    """Return the fields that the value of a declaration reads when it is computed."""
+    for expression in _values(declaration):
+        for part in ir.walk(expression):
+            if isinstance(part, ir.FieldRef) and part.type.kind is not ir.Kind.ACTOR:
+                yield part.name
+
+
+def _values(declaration: ir.Declaration) -> tuple[ir.Expression, ...]:
+    match declaration:
+        case ir.Actor(values=values) | ir.Struct(values=values):
+            return tuple(value.value for value in values)
+        case ir.Parameter(value=value, domain=domain):
+            return tuple(part for part in (value, domain) if part is not None)
+        case ir.Variable(value=value):
+            return () if value is None else (value,)
+        case ir.Event():
+            return ()  # its condition is read late

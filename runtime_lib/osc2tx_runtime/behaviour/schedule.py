@@ -1,0 +1,235 @@
+"""When the members of a `parallel` start and end: plans the offsets before the run.
+
+The first member is the primary, the others are secondaries. For each secondary the composition
+bounds two offsets, in steps:
+
+    start to start = start(secondary) - start(primary)
+    end to end     = end(secondary)   - end(primary)
+
+A member has a length in steps, or it is open-ended (as long as one likes), or only the run can
+tell. Where lengths are known the plan keeps the bounds by itself; where the run decides, the
+members start as near to the primary as the bounds allow, and the composition watches the ends.
+Each secondary is planned by itself, so their order has no influence.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+__all__ = ["Overlap", "Part", "Schedule", "Span", "Unplannable", "make_schedule", "spans_of"]
+
+Overlap = Literal["equal", "start", "end", "initial", "final", "inside", "full", "any"]
+Steps = float  # a whole number, or infinite
+INF = math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Steps from `low` to `high`, both included."""
+
+    low: Steps = -INF
+    high: Steps = INF
+
+    @property
+    def free(self) -> bool:
+        """Whether it bounds nothing."""
+        return self == FREE
+
+    def meet(self, other: Span) -> Span:
+        """Return what is in both; `low` is above `high` where nothing is."""
+        return Span(max(self.low, other.low), min(self.high, other.high))
+
+    def nearest(self, steps: Steps) -> int:
+        """Return the number in the span that is nearest to `steps`."""
+        return int(max(self.low, min(self.high, steps)))
+
+
+FREE, ZERO = Span(), Span(0, 0)
+UP, DOWN = Span(0, INF), Span(-INF, 0)
+SPANS: dict[Overlap, tuple[Span, Span]] = {
+    "equal": (ZERO, ZERO),
+    "start": (ZERO, FREE),
+    "end": (FREE, ZERO),
+    "initial": (DOWN, FREE),
+    "final": (FREE, UP),
+    "inside": (UP, DOWN),
+    "full": (DOWN, UP),
+    "any": (FREE, FREE),
+}
+
+
+class Unplannable(Exception):
+    """No schedule keeps the bounds, or none can be known to; the text says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A member as the plan sees it: steps it takes (None: the run decides), open-ended or not."""
+
+    name: str
+    length: int | None
+    open_ended: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Schedule:
+    """A plan.
+
+    Attributes:
+        starts: Start of each member in steps from that of the composition, the primary first;
+            None for one that starts when the primary ends.
+        primary_length: Steps of the primary; None where the run decides.
+        end_to_end: Bounds for the ends of the secondaries.
+        length: Steps of the whole; None where the run decides.
+    """
+
+    starts: tuple[int | None, ...]
+    primary_length: int | None
+    end_to_end: Span
+    length: int | None
+
+
+def spans_of(overlap: Overlap, start_to_start: Span | None, end_to_end: Span | None) -> list[Span]:
+    """Return the bounds of start to start and end to end.
+
+    Raises:
+        Unplannable: If the offsets contradict the overlap.
+    """
+    found = []
+    for kind, offset, what in zip(
+        SPANS[overlap], (start_to_start, end_to_end), ("start_to_start", "end_to_end"), strict=True
+    ):
+        both = kind if offset is None else kind.meet(offset)
+        if both.low > both.high:
+            raise Unplannable(f"{what} contradicts it")
+        found.append(both)
+    return found
+
+
+def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, least: int = 0) -> Schedule:
+    """Plan a parallel composition.
+
+    Args:
+        parts: The members that take time, the primary first.
+        sts: Bounds of start to start.
+        ete: Bounds of end to end.
+        least: Steps that the whole must take at least.
+
+    Raises:
+        Unplannable: If there is no schedule.
+    """
+    primary, secondaries = parts[0], parts[1:]
+    length = primary.length
+    if primary.open_ended:
+        length = open_primary_length(secondaries, sts, ete, least)
+    offsets = [offset_of(part, primary, length, sts, ete, secondaries) for part in secondaries]
+    shift = -min([0, *(offset for offset in offsets if offset is not None)])
+    starts = (shift, *(None if offset is None else offset + shift for offset in offsets))
+    return Schedule(starts, length, ete, whole_length(parts, starts, length, ete))
+
+
+def open_primary_length(
+    secondaries: Sequence[Part], sts: Span, ete: Span, least: int
+) -> int | None:
+    """Return how long an open-ended primary goes on; None where the run decides.
+
+    It goes on as long as the last secondary, as far as the bounds allow.
+    """
+    bounded = [part for part in secondaries if not part.open_ended]
+    if not bounded:
+        if not sts.low <= 0 <= sts.high or not ete.low <= 0 <= ete.high:
+            raise Unplannable("no member has a length that can be determined")
+        return None
+    lengths = [part.length for part in bounded if part.length is not None]
+    if len(lengths) < len(bounded):
+        if ete.low > 0:
+            raise Unplannable(f"the length of {unknown(bounded)} cannot be determined")
+        if ete.low == ete.high and sts.low != sts.high and len(bounded) > 1:
+            raise Unplannable(f"the length of {unknown(bounded)} cannot be determined")
+        return None
+    least_length: Steps = max(1, sts.low, -ete.high)
+    most_length: Steps = INF
+    for part, length in zip(bounded, lengths, strict=True):
+        if length < ete.low:
+            raise Unplannable(f"{part.name} is too short")
+        least_length = max(least_length, sts.low + length - ete.high)
+        most_length = min(most_length, sts.high + length - ete.low)
+    if least_length > most_length:
+        raise Unplannable("no length of the open-ended first member fits all the others")
+    wanted = max(least, *(length + sts.nearest(0) for length in lengths))
+    return Span(least_length, most_length).nearest(wanted)
+
+
+def unknown(parts: Sequence[Part]) -> str:
+    """Return the names of the members whose length only the run tells."""
+    return " and ".join(sorted(p.name for p in parts if p.length is None and not p.open_ended))
+
+
+def offset_of(
+    part: Part,
+    primary: Part,
+    length: int | None,
+    sts: Span,
+    ete: Span,
+    secondaries: Sequence[Part],
+) -> int | None:
+    """Return the start of a secondary after that of the primary; None for at its end."""
+    if part.open_ended:
+        if length is None and ete.high < 0:
+            raise Unplannable(f"the length of {primary.name} cannot be determined")
+        return with_primary(part, length, sts)
+    if length is not None and part.length is not None:
+        fitting = sts.meet(Span(ete.low + length - part.length, ete.high + length - part.length))
+        fitting = fitting.meet(Span(-part.length, length))
+        if fitting.low > fitting.high:
+            raise Unplannable(f"{part.name} does not fit the length of {primary.name}")
+        return fitting.nearest(0)
+    if ete.free or primary.open_ended or sts.low == sts.high:
+        return with_primary(part, length, sts)
+    if ete.low >= 0 and sts.high == INF and sts.low <= 0:
+        fits = ete.high > 0 if part.length is None else ete.low <= part.length <= ete.high
+        if fits:
+            return None
+    if ete.low == ete.high or (ete.low >= 0 and sts.high == INF):
+        raise Unplannable(f"the length of {unknown([primary, *secondaries])} cannot be determined")
+    return with_primary(part, length, sts)
+
+
+def with_primary(part: Part, length: int | None, sts: Span) -> int:
+    """Return the offset nearest to the start of the primary."""
+    offset = sts.nearest(0)
+    if length is not None and offset > length:
+        raise Unplannable(f"{part.name} would start after the end of the first member")
+    if part.length is not None and offset < -part.length:
+        raise Unplannable(f"{part.name} would end before the start of the first member")
+    return offset
+
+
+def whole_length(
+    parts: Sequence[Part], starts: Sequence[int | None], length: int | None, ete: Span
+) -> int | None:
+    """Return the steps of the whole, if they are known.
+
+    Raises:
+        Unplannable: If the members have no instant in common.
+    """
+    first = starts[0]
+    if length is None or first is None:
+        return None
+    ends: list[int] = [first + length]
+    for part, start in zip(parts[1:], starts[1:], strict=True):
+        if part.open_ended:
+            continue
+        if start is None or part.length is None:
+            return None
+        ends.append(start + part.length)
+    last = max(ends)
+    for part in parts[1:]:
+        if part.open_ended:
+            ends.append(first + length + ete.nearest(last - first - length))
+    if max(start for start in starts if start is not None) > min(ends):
+        raise Unplannable("the members would have no instant in common")
+    return max(ends)

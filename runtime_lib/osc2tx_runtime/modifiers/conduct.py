@@ -1,0 +1,71 @@
+"""Modifiers of what to move along and of how to behave (DSL 8.9.11, 8.9.12, 8.9.17, 8.9.18)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from .base import Modifier
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.actors import Trailer
+    from osc2tx_runtime.values import Path, Trajectory
+
+__all__ = ["Along", "AlongTrajectory", "AvoidCollisions", "PhysicalMovement", "TowTrailer"]
+
+
+@dataclass(frozen=True, slots=True)
+class PhysicalMovement(Modifier):
+    """Whether a quantity may jump to its value."""
+
+    name = "physical_movement"
+    option: Literal["prefer_physical", "prefer_non_physical", "must_be_physical"] = (
+        "must_be_physical"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Along(Modifier):
+    """A path to move along.
+
+    Attributes:
+        route: The path.
+        start_offset: Metres of it that are left out at its start.
+        end_offset: Metres that are left out at its end.
+    """
+
+    name = "along"
+    route: Path | Callable[[], Path]
+    start_offset: float = 0.0
+    end_offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class AlongTrajectory(Modifier):
+    """A trajectory to move along; offsets as for `along`."""
+
+    name = "along_trajectory"
+    trajectory: Trajectory | Callable[[], Trajectory]
+    start_offset: float = 0.0
+    end_offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class AvoidCollisions(Modifier):
+    """Whether to slow down for what is ahead in the lane.
+
+    The standard lets all actors avoid collisions; here they do so only where a scenario asks for
+    it, because scenarios of near misses and crashes are what most people write.
+    """
+
+    name = "avoid_collisions"
+    avoid: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class TowTrailer(Modifier):
+    """A trailer that is coupled from the start."""
+
+    name = "tow_trailer"
+    trailer: Trailer

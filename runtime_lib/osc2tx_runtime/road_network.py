@@ -1,0 +1,231 @@
+"""Methods of the map that scenarios call in expressions (DSL 8.12.2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.along import way_through
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.opendrive import LanePosition, RoadMap
+from osc2tx_runtime.opendrive import Pose as MapPose
+from osc2tx_runtime.paths import absolute
+from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.routes import place_of_route, route_point_at
+from osc2tx_runtime.values import (
+    OdrPoint,
+    Path,
+    PathInterpolation,
+    Point,
+    Pose,
+    RelativePath,
+    RelativeTrajectory,
+    RelativeTransform,
+    RoadRoute,
+    RoutePoint,
+    Trajectory,
+    XyzPoint,
+)
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.measures import Measures
+    from osc2tx_runtime.modifiers import Side
+
+__all__ = ["RoadNetwork"]
+
+
+class RoadNetwork:
+    """What one can ask a map; mixed into the actor class."""
+
+    map_file: str | None
+
+    @property
+    def context(self) -> ExecutionContext:
+        """The run."""
+        raise NotImplementedError
+
+    @property
+    def _map(self) -> RoadMap:
+        return self.context.world.map
+
+    # --- points -------------------------------------------------------------------------------
+
+    def create_route_point(self, route: RoadRoute, s: float, t: float) -> RoutePoint:
+        """A point in route coordinates (m)."""
+        return RoutePoint(route, s, t)
+
+    def create_xyz_point(self, x: float, y: float, z: float) -> XyzPoint:
+        """A point in world coordinates (m)."""
+        return XyzPoint(Point(x, y, z))
+
+    def create_odr_point(
+        self, road_id: str, lane_id: str | None = None, s: float = 0.0, t: float = 0.0
+    ) -> OdrPoint:
+        """A point in road coordinates (m)."""
+        return OdrPoint(road_id, lane_id, s, t)
+
+    def odr_to_route_point(
+        self, road_id: str, lane_id: str | None = None, s: float = 0.0, t: float = 0.0
+    ) -> RoutePoint:
+        """The point on the axis of its lane; without a lane on that of its road."""
+        place = place_of_odr(self._map, OdrPoint(road_id, lane_id, s, t))
+        if isinstance(place, LanePosition):
+            return route_point_at(self._map, place)
+        return RoutePoint(RoadRoute(road_id), s, t)
+
+    def xyz_to_route_point(self, x: float, y: float, z: float) -> RoutePoint:
+        """The point on the axis of the driving lane under it.
+
+        Raises:
+            ScenarioError: No driving lane is there.
+        """
+        on = self._map.locate(x, y, z, max_distance=1e-3)
+        if on is None:
+            raise ScenarioError(f"no driving lane is at ({x:g}, {y:g})")
+        return route_point_at(self._map, on)
+
+    def route_point_to_xyz(self, route_point: RoutePoint) -> XyzPoint:
+        """The point in the world."""
+        place = place_of_route(self._map, route_point)
+        pose = self._map.pose(place) if isinstance(place, LanePosition) else place
+        return XyzPoint(Point(pose.x, pose.y, pose.z))
+
+    # --- the network --------------------------------------------------------------------------
+
+    def outer_side(self) -> Side:
+        """The side away from opposing traffic."""
+        return "right" if self._right_hand() else "left"
+
+    def inner_side(self) -> Side:
+        """The side towards opposing traffic."""
+        return "left" if self._right_hand() else "right"
+
+    def get_map_file(self) -> str:
+        """Name of the map file, as the scenario writes it; else that of the map."""
+        return self.map_file or self._map.name
+
+    def _right_hand(self) -> bool:
+        rules = {road.right_hand_traffic for road in self._map.roads.values()}
+        if len(rules) != 1:
+            raise ScenarioError(f"map {self._map.name} has roads of both driving rules")
+        return rules.pop()
+
+    # --- paths --------------------------------------------------------------------------------
+
+    def create_path(
+        self, points: Sequence[Pose], interpolation: PathInterpolation = "straight_line"
+    ) -> Path:
+        """A path through poses."""
+        return Path(tuple(points), interpolation)
+
+    def create_path_odr_points(
+        self,
+        points: Sequence[OdrPoint],
+        interpolation: PathInterpolation = "straight_line",
+        on_road_network: bool = False,
+    ) -> Path:
+        """A path through points in road coordinates, along the lanes if it is to stay on them."""
+        places = [place_of_odr(self._map, point) for point in points]
+        if on_road_network:
+            return Path(self._on_lanes(places), "smooth")
+        return Path(self._poses(places), interpolation)
+
+    def create_path_route_points(
+        self,
+        points: Sequence[RoutePoint],
+        interpolation: PathInterpolation = "straight_line",
+        on_road_network: bool = False,
+    ) -> Path:
+        """A path through points in route coordinates, likewise."""
+        places = [place_of_route(self._map, point) for point in points]
+        if on_road_network:
+            return Path(self._on_lanes(places), "smooth")
+        return Path(self._poses(places), interpolation)
+
+    def create_trajectory(
+        self,
+        points: Sequence[Pose],
+        time_stamps: Sequence[float],
+        interpolation: PathInterpolation = "straight_line",
+    ) -> Trajectory:
+        """A trajectory through poses."""
+        return Trajectory(tuple(points), tuple(time_stamps), interpolation)
+
+    def create_trajectory_odr_points(
+        self,
+        points: Sequence[OdrPoint],
+        time_stamps: Sequence[float],
+        interpolation: PathInterpolation = "straight_line",
+        on_road_network: bool = False,
+    ) -> Trajectory:
+        """A trajectory through points in road coordinates."""
+        places = [place_of_odr(self._map, point) for point in points]
+        return self._timed(places, time_stamps, interpolation, on_road_network)
+
+    def create_trajectory_route_points(
+        self,
+        points: Sequence[RoutePoint],
+        time_stamps: Sequence[float],
+        interpolation: PathInterpolation = "straight_line",
+        on_road_network: bool = False,
+    ) -> Trajectory:
+        """A trajectory through points in route coordinates."""
+        places = [place_of_route(self._map, point) for point in points]
+        return self._timed(places, time_stamps, interpolation, on_road_network)
+
+    def resolve_relative_path(
+        self, relative_path: RelativePath, reference: Measures, transform: RelativeTransform
+    ) -> Path:
+        """The absolute path, at the present place of the reference."""
+        poses = absolute(self._map, relative_path.points, reference.state, transform)
+        return Path(poses, relative_path.interpolation)
+
+    def resolve_relative_trajectory(
+        self,
+        relative_trajectory: RelativeTrajectory,
+        reference: Measures,
+        transform: RelativeTransform,
+    ) -> Trajectory:
+        """The absolute trajectory, at the present place of the reference; times stay."""
+        poses = absolute(self._map, relative_trajectory.points, reference.state, transform)
+        return Trajectory(poses, relative_trajectory.time_stamps, relative_trajectory.interpolation)
+
+    # --- internals ----------------------------------------------------------------------------
+
+    def _poses(self, places: Sequence[LanePosition | MapPose]) -> tuple[Pose, ...]:
+        poses = [self._map.pose(p) if isinstance(p, LanePosition) else p for p in places]
+        return tuple(Pose(pose.x, pose.y, pose.z) for pose in poses)
+
+    def _on_lanes(self, places: Sequence[LanePosition | MapPose]) -> tuple[Pose, ...]:
+        return way_through(self._map, [self._lane_at(place) for place in places])
+
+    def _lane_at(self, place: LanePosition | MapPose) -> LanePosition:
+        if isinstance(place, LanePosition):
+            return place
+        on = self._map.locate(place.x, place.y, place.z, max_distance=1e-3)
+        if on is None:
+            raise ScenarioError(f"no driving lane is at ({place.x:.1f}, {place.y:.1f})")
+        return on
+
+    def _timed(
+        self,
+        places: Sequence[LanePosition | MapPose],
+        time_stamps: Sequence[float],
+        interpolation: PathInterpolation,
+        on_road_network: bool,
+    ) -> Trajectory:
+        """A trajectory; along lanes the time between two points is shared out by the way."""
+        times = list(time_stamps)
+        if not on_road_network or len(times) != len(places):
+            return Trajectory(self._poses(places), tuple(times), interpolation)
+        lanes = [self._lane_at(place) for place in places]
+        points: list[Pose] = []
+        stamps: list[float] = []
+        for i in range(len(lanes) - 1):
+            part = way_through(self._map, lanes[i : i + 2])
+            step = (times[i + 1] - times[i]) / (len(part) - 1)
+            skip = 1 if points else 0
+            points.extend(part[skip:])
+            stamps.extend(times[i] + j * step for j in range(skip, len(part)))
+        return Trajectory(tuple(points), tuple(stamps), "smooth")

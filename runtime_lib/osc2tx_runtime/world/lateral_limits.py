@@ -1,0 +1,13 @@
+"""How far an actor on a lane may turn from it."""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["HEADING_LIMIT", "SIDEWAYS"]
+
+HEADING_LIMIT = 0.5
+"""Radians between the heading of a vehicle and its lane."""
+
+SIDEWAYS = math.sin(HEADING_LIMIT)
+"""Largest share of the driven path that goes sideways."""

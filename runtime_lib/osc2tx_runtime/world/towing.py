@@ -1,0 +1,70 @@
+"""Trailers: one axle that follows the hitch of the towing vehicle at a fixed distance.
+
+The hitch is at the rear end of the towing vehicle, the coupler `DRAWBAR` before the box of the
+trailer. In a step the axle is drawn straight towards the new place of the hitch; the distance stays
+exact, and on a circle the trailer comes to the steady angle sin(angle) = distance / radius.
+"""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.opendrive import Pose
+
+from .catalogue import Shape
+from .curve import turn_between
+from .state import ActorState
+
+__all__ = ["COUPLING_REACH", "DRAWBAR", "coupling_gap", "drawn", "pose_behind"]
+
+DRAWBAR = 0.5
+"""Metres from the front of a trailer's box to its coupler."""
+
+COUPLING_REACH = 1.0
+"""Metres between hitch and coupler at which they can be coupled."""
+
+
+def _hitch(tow: ActorState) -> tuple[float, float]:
+    rear = tow.shape.rear
+    return tow.x - rear * math.cos(tow.h), tow.y - rear * math.sin(tow.h)
+
+
+def _bar(trailer: Shape) -> float:
+    """Metres from the axle to the coupler."""
+    return trailer.front + DRAWBAR
+
+
+def coupling_gap(tow: ActorState, trailer: ActorState) -> float:
+    """Metres between hitch and coupler."""
+    x, y = _hitch(tow)
+    bar = _bar(trailer.shape)
+    return math.hypot(
+        x - trailer.x - bar * math.cos(trailer.h), y - trailer.y - bar * math.sin(trailer.h)
+    )
+
+
+def pose_behind(tow: ActorState, trailer: Shape) -> Pose:
+    """Pose of a trailer that stands in line with the towing vehicle."""
+    x, y = _hitch(tow)
+    bar = _bar(trailer)
+    return Pose(x - bar * math.cos(tow.h), y - bar * math.sin(tow.h), tow.z, tow.h)
+
+
+def drawn(
+    trailer: ActorState, tow: ActorState, tow_before: ActorState, dt: float
+) -> tuple[Pose, float]:
+    """Pose and speed (m/s) of a trailer at the next step.
+
+    Args:
+        trailer: Its state at the present step.
+        tow: The towing vehicle at the next step.
+        tow_before: The towing vehicle at the present step.
+        dt: Length of the step (s).
+    """
+    x, y = _hitch(tow)
+    h = math.atan2(y - trailer.y, x - trailer.x)
+    bar = _bar(trailer.shape)
+    turning = turn_between(tow_before.h, tow.h) / dt * tow.shape.rear
+    angle = tow.h - h
+    speed = tow.v * math.cos(angle) + turning * math.sin(angle)
+    return Pose(x - bar * math.cos(h), y - bar * math.sin(h), trailer.z, h), speed

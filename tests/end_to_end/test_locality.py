@@ -1,0 +1,46 @@
+"""One more statement in the source changes only what says it in the module."""
+
+import difflib
+import re
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.py_trees import emit
+from tests.end_to_end.harness import SCENARIOS, asam
+
+SOURCE = (SCENARIOS / "cut_in_and_evade.osc").read_text(encoding="utf-8").splitlines()
+STATEMENT = "wait elapsed(1.25s)"
+WRITTEN = "Wait(elapsed(1.25 * s)),"
+LOCATION = re.compile(r"# case\.osc:\d+$|\(case\.osc:\d+\)\.$")
+
+
+def insertion_points() -> list[int]:
+    """Return the lines before which a member of a `serial` may stand.
+
+    Not before the members that place an actor: they must begin with the run.
+    """
+    member = re.compile(r" {12,16}(\w+: )?(hero\.|npc\.|emit |wait )")
+    starts = [index for index, line in enumerate(SOURCE) if member.match(line)]
+    return [index for index in starts if "at: start" not in "".join(SOURCE[index + 1 : index + 2])]
+
+
+def module(lines: list[str], folder: Path) -> list[str]:
+    return emit(asam("\n".join(lines) + "\n", folder)).python.splitlines()
+
+
+@pytest.mark.parametrize("index", insertion_points())
+def test_an_inserted_statement_is_one_new_line(index: int, tmp_path: Path) -> None:
+    indent = SOURCE[index][: len(SOURCE[index]) - len(SOURCE[index].lstrip())]
+    edited = [*SOURCE[:index], indent + STATEMENT, *SOURCE[index:]]
+    before, after = module(SOURCE, tmp_path), module(edited, tmp_path)
+    changed = [
+        line[1:].strip()
+        for line in difflib.unified_diff(before, after, n=0, lineterm="")
+        if line[:1] in "+-" and line[:3] not in ("+++", "---")
+    ]
+    assert [line for line in changed if not LOCATION.search(line)] == [WRITTEN]
+
+
+def test_there_are_enough_points() -> None:
+    assert len(insertion_points()) >= 14

@@ -1,0 +1,144 @@
+"""The long fuzzing run: one command, any time, the same programs from the same seed.
+
+    python tests/fuzz/run.py --seconds 600 --seed 1
+
+It makes texts in turn by
+
+- `programs`: random programs that follow grammar and types (tests/fuzz/programs.py);
+- `mutations` of scenarios, goldens and the library (tests/fuzz/mutations.py);
+- `grammar`: from grammar/OpenSCENARIO2.g4, every rule but no types (tests/fuzz/grammar.py);
+
+and compiles each through all stages, imports the module if there is one, and makes its tree. What
+must not happen is in tests/fuzz/oracle.py: an exception, a module that Python does not take or
+that differs the second time, a diagnostic that points nowhere, slowness.
+
+Findings go to `--out`, one folder for each kind of failure and place: `input.osc`, the smallest
+text of that kind, cut down line by line, and `report.txt` with options, seed and traceback. The
+process ends with 1 if there are any. What is mended becomes a test: a golden case for the
+diagnostic or module that should come out, else a case of tests/unit/test_bad_input.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from random import Random
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT), str(ROOT / "runtime_lib")]
+
+from osc2tx.options import DIALECTS, STANDARDS, CompileOptions  # noqa: E402
+from tests.fuzz.grammar import write_text  # noqa: E402
+from tests.fuzz.mutations import mutate, seed_texts  # noqa: E402
+from tests.fuzz.oracle import Finding, try_text  # noqa: E402
+from tests.fuzz.programs import write_program  # noqa: E402
+
+ATTEMPTS = 400  # compilations to cut one finding down
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One text to try."""
+
+    maker: str
+    seed: str
+    text: str
+    options: CompileOptions
+
+
+def cases(seed: int, makers: list[str]) -> Iterator[Case]:
+    """Yield cases without end."""
+    seeds = seed_texts(ROOT)
+    for number in count():
+        for maker in makers:
+            name = f"{seed}/{maker}/{number}"
+            random = Random(name)
+            options = CompileOptions(random.choice(STANDARDS), random.choice(DIALECTS))
+            if maker == "programs":
+                text = write_program(random, options.standard, options.dialect)
+            elif maker == "mutations":
+                text = mutate(random, seeds)
+            else:
+                text = write_text(random)
+            yield Case(maker, name, text, options)
+
+
+def cut_down(text: str, still_fails: Callable[[str], bool]) -> str:
+    """Return a smaller text that fails in the same way: blocks of lines go, the largest first."""
+    lines = text.splitlines(keepends=True)
+    size, attempts = max(1, len(lines) // 2), 0
+    while attempts < ATTEMPTS:
+        at = 0
+        shorter = False
+        while at < len(lines) and attempts < ATTEMPTS:
+            rest = lines[:at] + lines[at + size :]
+            attempts += 1
+            if still_fails("".join(rest)):
+                lines, shorter = rest, True
+            else:
+                at += size
+        if size == 1 and not shorter:
+            break
+        size = max(1, size // 2)
+    return "".join(lines)
+
+
+def save(folder: Path, case: Case, finding: Finding, times: int, execute: bool) -> None:
+    """Write the smallest text with the same failure."""
+
+    def still_fails(text: str) -> bool:
+        found = try_text(text, case.options, execute=execute)
+        return found is not None and found.key == finding.key
+
+    text = case.text if finding.key == "slow" else cut_down(case.text, still_fails)
+    final = try_text(text, case.options, execute=execute) or finding
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "input.osc").write_bytes(text.encode("utf-8", "surrogateescape"))
+    report = f"{final.key}\n{case.options}\nseed {case.seed}\nseen {times} times\n\n{final.report}"
+    (folder / "report.txt").write_text(report, encoding="utf-8", errors="backslashreplace")
+
+
+def main() -> int:
+    """Run for a while and say what was found."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seconds", type=float, default=600)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=Path, default=ROOT / "out" / "fuzz")
+    parser.add_argument("--only", choices=("programs", "mutations", "grammar"), action="append")
+    parser.add_argument("--compile-only", action="store_true", help="do not make the trees")
+    options = parser.parse_args()
+    makers = options.only or ["programs", "mutations", "grammar"]
+    execute = not options.compile_only
+    smallest: dict[str, tuple[Case, Finding]] = {}
+    times: dict[str, int] = {}
+    end = time.monotonic() + options.seconds
+    tried = 0
+    for case in cases(options.seed, makers):
+        if time.monotonic() > end:
+            break
+        tried += 1
+        finding = try_text(case.text, case.options, execute=execute)
+        if finding is None:
+            continue
+        times[finding.key] = times.get(finding.key, 0) + 1
+        known = smallest.get(finding.key)
+        if known is None:
+            print(f"{case.seed}: {finding.key}", flush=True)
+        if known is None or len(case.text) < len(known[0].text):
+            smallest[finding.key] = case, finding
+    for number, (key, (case, finding)) in enumerate(sorted(smallest.items()), start=1):
+        name = "".join(letter if letter.isalnum() else "_" for letter in key)[:70]
+        save(options.out / f"{number:02}_{name}", case, finding, times[key], execute)
+    print(
+        f"{tried} texts, {len(smallest)} kinds of failure", f"in {options.out}" if smallest else ""
+    )
+    return 1 if smallest else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,76 @@
+"""A bounded number of random programs and texts: diagnostics or a module, never an exception.
+
+The long run is `python tests/fuzz/run.py`.
+"""
+
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from osc2tx.options import DIALECTS, STANDARDS, CompileOptions
+from tests.fuzz.grammar import write_text
+from tests.fuzz.mutations import mutate, seed_texts
+from tests.fuzz.oracle import is_built, try_text
+from tests.fuzz.programs import write_program
+
+OPTIONS = st.builds(CompileOptions, st.sampled_from(STANDARDS), st.sampled_from(DIALECTS))
+BOUNDED = settings(
+    max_examples=60,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+SEEDS = seed_texts(Path(__file__).parents[2])
+
+
+def assert_sound(text: str, options: CompileOptions) -> None:
+    finding = try_text(text, options)
+    if finding is not None:
+        pytest.fail(f"{options}\n{text}\n{finding.report}")
+
+
+@BOUNDED
+@given(st.randoms(use_true_random=False), OPTIONS)
+def test_programs(random: Random, options: CompileOptions) -> None:
+    assert_sound(write_program(random, options.standard, options.dialect), options)
+
+
+@BOUNDED
+@given(st.randoms(use_true_random=False), OPTIONS)
+def test_mutated_scenarios(random: Random, options: CompileOptions) -> None:
+    assert_sound(mutate(random, SEEDS), options)
+
+
+@BOUNDED
+@given(st.randoms(use_true_random=False), OPTIONS)
+def test_texts_of_the_grammar(random: Random, options: CompileOptions) -> None:
+    assert_sound(write_text(random), options)
+
+
+@BOUNDED
+@given(st.text(), OPTIONS)
+def test_any_text(text: str, options: CompileOptions) -> None:
+    assert_sound(text.encode("utf-8", "replace").decode(), options)
+
+
+@BOUNDED
+@given(
+    st.lists(st.sampled_from([*"()[]{}:,.@?!=<>+-*/%|\"'#\\ \t\r\n\0", "\n    ", "do", "a", "1"])),
+    OPTIONS,
+)
+def test_any_tokens(tokens: list[str], options: CompileOptions) -> None:
+    assert_sound("".join(tokens), options)
+
+
+@BOUNDED
+@given(st.binary(), OPTIONS)
+def test_any_bytes(data: bytes, options: CompileOptions) -> None:
+    assert_sound(data.decode("utf-8", "surrogateescape"), options)
+
+
+def test_programs_reach_the_back_end() -> None:
+    options = CompileOptions()
+    built = sum(is_built(write_program(Random(seed)), options) for seed in range(50))
+    assert built >= 10, "random programs are mostly refused; see MODIFIERS in programs.py"

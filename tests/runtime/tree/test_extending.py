@@ -1,0 +1,110 @@
+"""Own actions in an own package: the examples of docs/extending.md, installed and run."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+DOCUMENT = ROOT / "docs/extending.md"
+
+SCENARIO = """
+from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, Wait, elapsed, main
+from osc2tx_runtime.modifiers import lane, position, speed
+
+
+class Slow(Scenario):
+    name = "slow"
+    source = "slow.osc"
+
+    def declare(self) -> None:
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        self.place(self.ego, lane(2), position(100.0), speed(2.0))
+
+    def behavior(self) -> Behaviour:
+        return BODY
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Slow))
+"""
+ENTRY_POINTS = "[osc2tx.methods]\nmy_actions = my_actions\n"
+
+
+def run(folder: Path, body: str, *, actions: str | None = None) -> Any:
+    """Install the package of the document into a folder, and run a scenario with it on the path."""
+    text = DOCUMENT.read_text(encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    (folder / "my_actions.py").write_text("\n".join(blocks) if actions is None else actions)
+    info = folder / "my_actions-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: my-actions\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(ENTRY_POINTS)
+    script = folder / "slow.py"
+    script.write_text(SCENARIO.replace("BODY", body))
+    path = os.pathsep.join([str(folder), str(ROOT / "runtime_lib")])
+    return subprocess.run(
+        [sys.executable, str(script), "--trace", str(folder / "t.jsonl")],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**os.environ, "PYTHONPATH": path},
+        check=False,
+    )
+
+
+def trace(folder: Path, kind: str) -> list[Any]:
+    lines = map(json.loads, (folder / "t.jsonl").read_text().splitlines())
+    return [line for line in lines if line["kind"] == kind]
+
+
+def test_the_example_is_as_short_as_promised() -> None:
+    text = DOCUMENT.read_text(encoding="utf-8")
+    first = re.search(r"^@action.*?^```$", text, re.MULTILINE | re.DOTALL)
+    assert first is not None
+    assert len([line for line in first[0].splitlines()[:-1] if line.strip()]) <= 10
+
+
+def test_own_actions_are_found_and_run(tmp_path: Path) -> None:
+    body = 'Serial("slow", self.ego.creep(v=1.5, duration=2.0), self.ego.roll_out())'
+    done = run(tmp_path, body)
+    assert done.returncode == 0, done.stderr
+    ends = [(a["t"], a["name"]) for a in trace(tmp_path, "action") if a["status"] == "end"]
+    assert ends == [(2.0, "ego creep"), (5.0, "ego roll_out")]  # 1.5 m/s at 0.5 m/s2
+    speeds = {line["t"]: line["v"] for line in trace(tmp_path, "state")}
+    assert (speeds[1.0], speeds[4.0], speeds[5.0]) == pytest.approx((1.5, 0.5, 0.0))
+
+
+def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
+    body = 'Parallel("both", self.ego.creep(), self.ego.change_speed(target=5.0))'
+    done = run(tmp_path, body)
+    assert done.returncode == 5
+    assert done.stderr == (
+        "slow.osc: error: ego change_speed (slow.osc) and ego creep (slow.osc) control the"
+        " longitudinal slot of ego at the same time; let them run one after the other\n"
+    )
+
+
+def test_a_broken_package_is_named(tmp_path: Path) -> None:
+    done = run(tmp_path, 'Serial("s", self.ego.creep())', actions="import no_such_module\n")
+    assert done.returncode == 5
+    assert done.stderr == (
+        "slow.osc: error: the actions in my_actions of my-actions cannot be loaded:"
+        " No module named 'no_such_module'\n"
+    )
+
+
+def test_packages_are_only_read_for_unknown_actions(tmp_path: Path) -> None:
+    actions = "raise ImportError('loaded')\n"
+    done = run(tmp_path, 'Serial("s", self.ego.drive(duration=0.1))', actions=actions)
+    assert done.returncode == 0, done.stderr

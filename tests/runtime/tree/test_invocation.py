@@ -1,0 +1,353 @@
+"""Scenarios that invoke scenarios."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from osc2tx_runtime.actors import Environment, Map, Vehicle
+from osc2tx_runtime.behaviour import (
+    Behaviour,
+    Emit,
+    Event,
+    On,
+    OneOf,
+    Parallel,
+    Serial,
+    Until,
+    Wait,
+    elapsed,
+    rise,
+)
+from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.runner import run_scenario
+from osc2tx_runtime.scenario import Scenario, within
+from osc2tx_runtime.settings import RunSettings
+
+
+class Approach(Scenario):
+    name, source = "approach", "approach.osc"
+
+    def declare(self) -> None:
+        self.actor = Vehicle()
+        self.road = Map()
+        self.lead = Vehicle()
+        self.gap = self.parameter("gap", within(10.0, 30.0))
+        self.v = self.parameter("v", 20.0)
+        self.near = Event()
+        self.closest = self.sample(lambda: self.gap, self.near, 0.0)
+
+    def behavior(self) -> Behaviour:
+        return Serial(
+            "close_in",
+            Until(
+                self.actor.drive(speed(self.v)),
+                rise(lambda: self.distance() < self.gap),
+                label="drive",
+            ),
+            Emit(self.near),
+            Wait(elapsed(0.5), label="hold"),
+        )
+
+    def distance(self) -> float:
+        found: float = self.actor.object_distance(reference=self.lead, direction="longitudinal")
+        return found
+
+
+class Top(Scenario):
+    name, source = "top", "top.osc"
+    turned = False
+
+    def declare(self) -> None:
+        self.road = Map(map_file="highway.xodr")
+        self.env = Environment()
+        self.ego = Vehicle()
+        self.car1 = Vehicle()
+        self.seen = Event()
+
+    def placement(self) -> None:
+        self.place(self.car1, lane(2), position(200.0), speed(10.0))
+        self.place(self.ego, lane(2), position(50.0, behind=self.car1), speed(20.0))
+
+    def behavior(self) -> Behaviour:
+        members = [
+            self.invoke(Approach, actor=self.ego, lead=self.car1, gap=30.0, label="p1"),
+            Serial("waits", Wait(self.event("p1.near")), Emit(self.seen)),
+            Serial("ends", Wait(self.ended("p1")), Wait(elapsed(0.1))),
+            Serial("inner", Wait(self.event("p1.hold.start")), Wait(elapsed(0.1))),
+            self.car1.drive(speed(10.0)),
+        ]
+        return Parallel("top", *(reversed(members) if self.turned else members))
+
+
+def lines(result: Any, kind: str) -> list[Any]:
+    return [line for line in map(json.loads, result.trace_lines) if line["kind"] == kind]
+
+
+def test_an_invoked_scenario_runs_with_what_it_is_given() -> None:
+    result = run_scenario(Top)
+    assert result.status == "success", result.reason
+    times = {line["name"]: line["t"] for line in lines(result, "event")}
+    # 50 m, closing at 10 m/s: below 30 m from 2.05 s on.
+    assert times == {
+        "p1.near": 2.05,
+        "seen": 2.05,
+        "p1.hold.start": 2.05,
+        "p1.end": 2.55,
+    }
+    assert result.steps == 53
+    header = json.loads(result.trace_lines[0])
+    assert header["parameters"] == {"p1.gap": 30.0, "p1.v": 20.0}
+    assert list(header["actors"]) == ["ego", "car1"]
+    assert [line["name"] for line in lines(result, "variable")] == ["p1.closest"]
+
+
+def test_the_order_of_the_members_changes_nothing() -> None:
+    class Turned(Top):
+        turned = True
+
+    assert run_scenario(Turned).trace_lines == run_scenario(Top).trace_lines
+
+
+def test_settings_reach_invoked_scenarios_by_path() -> None:
+    class Free(Top):
+        def behavior(self) -> Behaviour:
+            return Serial("free", self.invoke(Approach, actor=self.ego, lead=self.car1, label="p1"))
+
+    result = run_scenario(Free, RunSettings(set={"p1.gap": 30.0}))
+    assert result.steps == 51
+    with pytest.raises(SettingsError, match=r"--set p1.gap=50: the scenario allows 10 to 30"):
+        Free(RunSettings(set={"p1.gap": 50.0})).create_tree()
+    with pytest.raises(SettingsError, match=r"no such parameter; did you mean p1.gap"):
+        Free(RunSettings(set={"p1.gp": 50.0})).create_tree()
+    done = run_scenario(Free, RunSettings(signal={"p1.near": 0.5}))
+    assert {"t": 0.5, "kind": "event", "name": "p1.near"} in lines(done, "event")
+
+
+class Twice(Top):
+    def behavior(self) -> Behaviour:
+        one = self.invoke(Approach, actor=self.ego, lead=self.car1)
+        two = self.invoke(Approach, actor=self.car1, lead=self.ego)
+        three = self.invoke(Approach, actor=self.ego, lead=self.car1, gap=within(11.0, 12.0))
+        return Parallel("twice", one, two, three)
+
+
+class TwiceTurned(Twice):
+    def behavior(self) -> Behaviour:
+        two = self.invoke(Approach, actor=self.car1, lead=self.ego)
+        three = self.invoke(Approach, actor=self.ego, lead=self.car1, gap=within(11.0, 12.0))
+        return Parallel("twice", two, three, self.invoke(Approach, actor=self.ego, lead=self.car1))
+
+
+def test_parameters_are_drawn_by_path_not_by_order() -> None:
+    drawn = []
+    for scenario in (Twice(), TwiceTurned()):
+        scenario.create_tree()
+        parameters = scenario.parameters
+        assert list(parameters) == [
+            f"approach{n}.{name}" for n in ("", "_2", "_3") for name in ("gap", "v")
+        ]
+        drawn.append([parameters[f"approach{n}.gap"] for n in ("", "_2", "_3")])
+    (a, b, c), turned = drawn
+    assert turned == [b, c, a]
+    assert len({a, b, c}) == 3 and 11.0 <= c <= 12.0
+    other = Twice(RunSettings(seed=1))
+    other.create_tree()
+    assert other.parameters["approach.gap"] != a
+
+
+def test_a_tree_can_be_made_again() -> None:
+    scenario = Twice()
+    first = [node.name for node in scenario.create_tree().iterate()]
+    assert [node.name for node in scenario.create_tree().iterate()] == first
+    assert list(scenario.parameters)[-1] == "approach_3.v"
+
+
+class Own(Scenario):
+    """Brings a car of its own."""
+
+    name, source = "own", "own.osc"
+
+    def declare(self) -> None:
+        self.other = Vehicle()
+        self.env = Environment()
+        self.limit = self.global_parameter("limit", within(1.0, 2.0))
+
+    def placement(self) -> None:
+        self.place(self.other, lane(1), position(20.0))
+
+    def behavior(self) -> Behaviour:
+        return Serial("own", self.other.drive(speed(5.0), duration=0.2))
+
+
+def test_own_actors_and_placements_of_an_invoked_scenario() -> None:
+    class Uses(Top):
+        def behavior(self) -> Behaviour:
+            self.limit = self.global_parameter("limit", within(1.0, 2.0))
+            return Serial(
+                "uses",
+                Emit(self.seen),
+                Parallel("both", OneOf("one", self.invoke(Own, label="x")), self.ego.drive()),
+            )
+
+    result = run_scenario(Uses, RunSettings(set={"limit": 1.5}))
+    assert result.status == "success", result.reason
+    header = json.loads(result.trace_lines[0])
+    assert list(header["actors"]) == ["ego", "car1", "x.other"]
+    assert header["parameters"] == {"limit": 1.5}
+    state = next(x for x in lines(result, "state") if x["actor"] == "x.other")
+    assert (state["s"], state["lane"]) == (20.0, -4)
+
+
+@pytest.mark.parametrize("late", [True, False])
+def test_a_placement_after_the_start_is_refused(late: bool) -> None:
+    class Late(Top):
+        def behavior(self) -> Behaviour:
+            own = self.invoke(Own, label="x")
+            if late:
+                return Serial("late", Wait(elapsed(0.1)), own)
+            return Parallel("late", Wait(elapsed(0.1)), own, start_to_start=0.05)
+
+    with pytest.raises(UnsupportedError) as caught:
+        run_scenario(Late)
+    assert str(caught.value) == (
+        "own.osc: x places x.other, but does not start with the scenario;"
+        " place it in the scenario that runs"
+    )
+
+
+def test_wrong_invocations() -> None:
+    def invoking(**arguments: Any) -> type[Scenario]:
+        class Wrong(Top):
+            def behavior(self) -> Behaviour:
+                given = {k: getattr(self, v) if v == "env" else v for k, v in arguments.items()}
+                return Serial("wrong", self.invoke(Approach, label="p1", **given))
+
+        return Wrong
+
+    for arguments, message in [
+        ({"gpa": 1.0}, r"p1: scenario approach has no parameter gpa; did you mean gap\?"),
+        ({"lead": "env"}, "p1: lead must be a vehicle, not environment"),
+        ({"gap": 50.0}, "p1.gap=50: the scenario allows 10 to 30"),
+    ]:
+        with pytest.raises(ScenarioError, match=message):
+            invoking(**arguments)().create_tree()
+
+
+class Ping(Scenario):
+    name, source = "ping", "ping.osc"
+
+    def behavior(self) -> Behaviour:
+        return Serial("ping", self.invoke(Pong))
+
+
+class Pong(Scenario):
+    name, source = "pong", "ping.osc"
+
+    def behavior(self) -> Behaviour:
+        return Serial("pong", self.invoke(Ping))
+
+
+def test_recursion_is_refused() -> None:
+    with pytest.raises(ScenarioError, match="scenarios invoke themselves: ping -> pong -> ping"):
+        Ping().create_tree()
+
+
+def test_duration_override_and_reading_values() -> None:
+    class Limited(Top):
+        def behavior(self) -> Behaviour:
+            self.override("p1", "stop")
+            p1 = self.invoke(Approach, actor=self.ego, lead=self.car1, label="p1", duration=(0, 9))
+            return Parallel(
+                "limited",
+                p1,
+                Serial(
+                    "s",
+                    Wait(lambda: self.invoked("p1").gap > 1.0),
+                    Wait(elapsed(0.3)),
+                    Wait(elapsed(0.1), label="stop"),
+                ),
+                On(self.event("p1.near"), Emit(self.seen)),
+            )
+
+    result = run_scenario(Limited)
+    assert (result.status, result.steps) == ("success", 8)
+    too_long = type(
+        "TooLong",
+        (Top,),
+        {
+            "behavior": lambda self: Serial(
+                "s", self.invoke(Approach, actor=self.ego, lead=self.car1, duration=(0, 0.5))
+            )
+        },
+    )
+    result = run_scenario(too_long)
+    assert result.reason == (
+        "ego approach (top.osc) failed at 0.500 s: not finished within 0.5 s;"
+        " still running: ego drive"
+    )
+
+
+MODULE = """
+from osc2tx_runtime.behaviour import Behaviour, Serial, Wait, elapsed
+from osc2tx_runtime.scenario import Scenario
+
+
+class Inner(Scenario):
+    name = "inner"
+    source = "inner.osc"
+
+    def behavior(self) -> Behaviour:
+        return Serial("inner", Wait(elapsed(0.1), label="pause"))
+
+
+class Outer(Scenario):
+    name = "outer"
+    source = "outer.osc"
+
+    def behavior(self) -> Behaviour:
+        return Serial("outer", self.invoke(Inner, label="first"), Wait(elapsed(0.2)))
+"""
+MAP = {
+    "version": 1,
+    "scenarios": {
+        "inner": {"file": "inner.osc", "line": 1, "nodes": [[2, "inner"], [3, "pause a bit"]]},
+        "outer": {
+            "file": "outer.osc",
+            "line": 1,
+            "nodes": [[5, "outer"], [6, "first"], [7, "wait more"]],
+        },
+    },
+}
+
+
+@pytest.fixture
+def outer(tmp_path: Path) -> Iterator[Any]:
+    path = tmp_path / "nested_module.py"
+    path.write_text(MODULE)
+    path.with_suffix(".map.json").write_text(json.dumps(MAP))
+    spec = importlib.util.spec_from_file_location("nested_module", path)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["nested_module"] = module
+    spec.loader.exec_module(module)
+    yield module.Outer
+    sys.modules.pop("nested_module", None)
+
+
+def test_nodes_of_an_invoked_scenario_have_their_own_lines(outer: Any) -> None:
+    tree = outer().create_tree()
+    assert [(node.name, node.source) for node in reversed(list(tree.iterate()))] == [
+        ("outer", "outer.osc:5"),
+        ("wait more", "outer.osc:7"),
+        ("first", "outer.osc:6"),
+        ("inner", "inner.osc:2"),
+        ("pause a bit", "inner.osc:3"),
+    ]

@@ -1,0 +1,369 @@
+"""Paths and trajectories in whole scenarios, measured against their geometry."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Person,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    elapsed,
+)
+from osc2tx_runtime.actors import OdrPoint, Point, Pose
+from osc2tx_runtime.modifiers import along, along_trajectory, physical_movement, position, yaw
+from osc2tx_runtime.paths import curve_of_path
+from osc2tx_runtime.values import Path, RelativePath, RelativeTrajectory, RoutePoint, Trajectory
+from tests.runtime.world.two_cars import TwoCars, scenario
+
+Run = Callable[..., Any]
+
+# The highway is straight along x; lane -3 (the second from the right) is at y = -8.75.
+ASIDE = Path((Pose(50.0, -8.75), Pose(80.0, -8.75), Pose(110.0, 10.0), Pose(160.0, 10.0)))
+
+
+def distance_to(points: list[tuple[float, float]], x: float, y: float) -> float:
+    """Distance of a point from a polyline."""
+    best = math.inf
+    for (ax, ay), (bx, by) in pairwise(points):
+        dx, dy = bx - ax, by - ay
+        w = min(max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0), 1.0)
+        best = min(best, math.hypot(ax + w * dx - x, ay + w * dy - y))
+    return best
+
+
+def test_replay_is_on_the_path_exactly(run: Run) -> None:
+    done = run(scenario(lambda s: s.a.replay_path(absolute=ASIDE)))
+    states = done.states("a")
+    assert done.result.status == "success"
+    corners = [(p.x, p.y) for p in ASIDE.points]
+    assert max(distance_to(corners, e["x"], e["y"]) for e in states[:-1]) < 1e-5
+    length = 30.0 + math.hypot(30.0, 18.75) + 50.0
+    assert done.result.steps == math.ceil(length / 0.5)
+    assert all(e["v"] == 10.0 for e in states)
+    assert states[80]["h"] == pytest.approx(math.atan2(18.75, 30.0), abs=1e-6)
+
+
+def test_replay_jumps_to_the_start_of_what_is_used(run: Run) -> None:
+    path = Path((Pose(300.0, 20.0), Pose(300.0, 60.0)))
+    done = run(scenario(lambda s: s.a.replay_path(absolute=path, start_offset=4.0, end_offset=6.0)))
+    states = done.states("a")
+    assert (states[1]["x"], states[1]["y"]) == (300.0, pytest.approx(24.5))
+    assert states[-1]["y"] == pytest.approx(54.0)
+    assert done.result.steps == 60
+    assert not done.result.collisions
+
+
+@pytest.mark.parametrize("interpolation", ["straight_line", "smooth"])
+def test_follow_stays_near_the_path_within_the_limits(run: Run, interpolation: Any) -> None:
+    path = Path(ASIDE.points, interpolation)
+    done = run(scenario(lambda s: s.a.follow_path(absolute=path)))
+    assert done.result.status == "success"
+    states = done.states("a")
+    curve = curve_of_path(path)
+    line = [curve.point(curve.at_length(0.2 * i))[:2] for i in range(int(curve.length / 0.2))]
+    assert max(distance_to(line, e["x"], e["y"]) for e in states) < 1.6
+    assert states[-1]["x"] == pytest.approx(160.0, abs=0.6)
+    assert states[-1]["y"] == pytest.approx(10.0, abs=0.1)
+    for one, two in pairwise(states):
+        turn = abs(math.remainder(two["h"] - one["h"], math.tau)) / 0.05
+        assert turn * 10.0 <= 8.0 + 1e-3  # lateral acceleration v * yaw rate
+        way = math.hypot(two["x"] - one["x"], two["y"] - one["y"])
+        assert way == pytest.approx(0.5, abs=1e-3)
+        course = math.atan2(two["y"] - one["y"], two["x"] - one["x"])
+        mean = one["h"] + 0.5 * math.remainder(two["h"] - one["h"], math.tau)
+        assert abs(math.remainder(course - mean, math.tau)) < 1e-3  # it does not slip
+
+
+def test_follow_a_circle(run: Run) -> None:
+    angles = [-0.5 * math.pi + 0.1 * i for i in range(32)]
+    circle = Path(
+        tuple(Pose(50.0 + 15.0 * math.cos(a), 6.25 + 15.0 * math.sin(a)) for a in angles), "smooth"
+    )
+    done = run(scenario(lambda s: s.a.follow_path(absolute=circle)))
+    assert done.result.status == "success"
+    radii = [math.hypot(e["x"] - 50.0, e["y"] - 6.25) for e in done.states("a")]
+    assert max(abs(r - 15.0) for r in radii) < 0.15
+
+
+def test_speed_is_free_on_a_path(run: Run) -> None:
+    def body(s: TwoCars) -> Behaviour:
+        return Parallel(
+            "both", s.a.replay_path(absolute=ASIDE), s.a.change_speed(target=16.0, duration=3.0)
+        )
+
+    done = run(scenario(body))
+    states = done.states("a")
+    assert states[60]["v"] == states[-1]["v"] == 16.0
+    length = 30.0 + math.hypot(30.0, 18.75) + 50.0
+    assert done.result.time == pytest.approx(3.0 + (length - 39.0) / 16.0, abs=0.051)
+
+
+def test_the_vehicle_returns_to_the_nearest_lane(run: Run) -> None:
+    path = Path((Pose(50.0, -8.75), Pose(70.0, -8.0), Pose(110.0, -6.4)), "smooth")
+
+    def body(s: TwoCars) -> Behaviour:
+        return Serial("all", s.a.follow_path(absolute=path), Wait(elapsed(5.0)))
+
+    states = run(scenario(body)).states("a")
+    last = states[-1]
+    assert (last["lane"], last["offset"], last["h"]) == (-2, 0.0, 0.0)
+    for one, two in pairwise(states):
+        assert abs(two["h"] - one["h"]) < 0.02  # no jump of the heading
+
+
+def test_the_vehicle_steers_back_to_the_lane(run: Run) -> None:
+    path = Path((Pose(50.0, -8.75), Pose(65.0, -8.75), Pose(75.0, -1.75)))
+
+    def body(s: TwoCars) -> Behaviour:
+        return Serial("all", s.a.follow_path(absolute=path), Wait(elapsed(8.0)))
+
+    states = run(scenario(body)).states("a")
+    assert (states[-1]["offset"], states[-1]["h"], states[-1]["v"]) == (0.0, 0.0, 10.0)
+    assert max(abs(b["h"] - a["h"]) for a, b in pairwise(states)) < 0.05
+
+
+def test_a_lane_change_after_a_path(run: Run) -> None:
+    path = Path((Pose(50.0, -8.75), Pose(70.0, -8.0), Pose(110.0, -6.4)), "smooth")
+
+    def body(s: TwoCars) -> Behaviour:
+        return Serial("all", s.a.follow_path(absolute=path), s.a.change_lane(side="right"))
+
+    last = run(scenario(body)).states("a")[-1]
+    assert (last["lane"], last["offset"]) == (-3, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [
+        (Path(()), "the path has no points"),
+        (Path((Pose(900.0, 0.0), Pose(950.0, 0.0))), "the path is 850 m away"),
+        (
+            Path((Pose(50.0, -8.75), Pose(70.0, -8.75), Pose(70.0, 40.0))),
+            "because at 10.0 m/s it cannot turn in less than 12.5 m",
+        ),
+        (
+            Path((Pose(50.0, -8.75, yaw=0.0), Pose(70.0, -8.75, yaw=1.57))),
+            "asks for a heading 90 degrees off the way",
+        ),
+    ],
+)
+def test_paths_that_cannot_be_followed(run: Run, path: Path, reason: str) -> None:
+    done = run(scenario(lambda s: s.a.follow_path(absolute=path)))
+    assert done.result.status == "failure"
+    assert reason in done.result.reason
+
+
+def test_replay_with_headings_of_its_own(run: Run) -> None:
+    path = Path((Pose(50.0, 0.0, yaw=0.0), Pose(70.0, 0.0, yaw=math.pi / 2)))
+    states = run(scenario(lambda s: s.a.replay_path(absolute=path))).states("a")
+    assert states[20]["x"] == pytest.approx(60.0)
+    assert states[20]["h"] == pytest.approx(math.pi / 4, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("transform", "end"),
+    [
+        ("object_relative", (90.0 + 30.0, -8.75 + 5.0)),
+        ("world_relative", (90.0 + 30.0, -8.75 + 5.0)),
+        ("lane_relative", (90.0 + 30.0, -8.75 + 5.0)),
+        ("road_relative", (90.0 + 30.0, 5.0)),
+    ],
+)
+def test_relative_paths(run: Run, transform: Any, end: tuple[float, float]) -> None:
+    path = RelativePath((Pose(0.0, 0.0), Pose(30.0, 5.0)))
+
+    def body(s: TwoCars) -> Behaviour:
+        return s.a.replay_path(relative=path, reference=s.b, transform=transform)
+
+    last = run(scenario(body)).states("a")[-1]
+    assert (last["x"], last["y"]) == pytest.approx(end, abs=0.6)
+
+
+def test_object_relative_turns_with_the_object(run: Run) -> None:
+    class Turned(TwoCars):
+        def declare(self) -> None:
+            super().declare()
+            self.walker = Person()
+
+        def placement(self) -> None:
+            super().placement()
+            point = Point(200.0, 30.0)
+            self.place(
+                self.walker,
+                position(at_point=point, project_on_route=False),
+                yaw(math.pi / 2, measure_by="relative_to_north"),  # that is along -x
+            )
+
+        def behavior(self) -> Behaviour:
+            path = RelativePath((Pose(0.0, 0.0), Pose(10.0, 4.0)))
+            return self.walker.follow_path(relative=path)
+
+    states = run(Turned).states("walker")
+    assert (states[-1]["x"], states[-1]["y"]) == pytest.approx((190.0, 26.0), abs=0.1)
+    assert states[-1]["v"] == 1.4  # who stands sets out
+
+
+def test_points_in_s_and_t(run: Run) -> None:
+    path = RelativePath((RoutePoint(s=0.0, t=0.0), RoutePoint(s=40.0, t=1.5)))
+    states = run(scenario(lambda s: s.a.replay_path(relative=path))).states("a")
+    assert (states[-1]["x"], states[-1]["y"]) == pytest.approx((90.0, -7.25), abs=0.5)
+
+
+TIMED = Trajectory((Pose(50.0, -8.75), Pose(70.0, -8.75), Pose(90.0, -2.0)), (0.0, 2.0, 5.0))
+
+
+def test_replay_of_a_trajectory_is_exact_in_time(run: Run) -> None:
+    done = run(scenario(lambda s: s.a.replay_trajectory(absolute=TIMED)))
+    assert done.result.time == pytest.approx(5.0)
+    assert done.states("a")[20]["x"] == pytest.approx(60.0)
+    assert done.states("a")[20]["v"] == pytest.approx(10.0)
+    at = done.at("a", 3.5)
+    assert (at["x"], at["y"]) == pytest.approx((80.0, -5.375))
+    assert at["v"] == pytest.approx(math.hypot(20.0, 6.75) / 3.0, abs=1e-6)
+    assert at["h"] == pytest.approx(math.atan2(6.75, 20.0), abs=1e-6)
+
+
+def test_a_trajectory_with_time_to_get_there(run: Run) -> None:
+    late = Trajectory((Pose(70.0, -8.75), Pose(90.0, -8.75)), (4.0, 6.0))
+    done = run(scenario(lambda s: s.a.replay_trajectory(absolute=late)))
+    assert done.at("a", 2.0)["x"] == pytest.approx(60.0)
+    assert done.at("a", 5.0)["x"] == pytest.approx(80.0)
+    assert done.result.time == pytest.approx(6.0)
+
+
+def test_offsets_of_a_trajectory(run: Run) -> None:
+    straight = Trajectory((Pose(50.0, -8.75), Pose(90.0, -8.75)), (0.0, 4.0))
+
+    def body(s: TwoCars) -> Behaviour:
+        return s.a.replay_trajectory(absolute=straight, start_offset=10.0, end_offset=5.0)
+
+    done = run(scenario(body))
+    assert done.at("a", 1.0)["x"] == pytest.approx(70.0)
+    assert done.result.time == pytest.approx(2.5)
+
+
+def test_follow_a_trajectory_in_time(run: Run) -> None:
+    times = tuple(0.5 * i for i in range(17))
+    points = tuple(Pose(50.0 + 10.0 * t + 0.25 * t * t, -8.75 + 0.2 * t * t) for t in times)
+    trajectory = Trajectory(points, times, "smooth")
+    done = run(scenario(lambda s: s.a.follow_trajectory(absolute=trajectory)))
+    assert done.result.status == "success"
+    assert done.result.time == pytest.approx(8.0, abs=0.15)
+    for t in (2.0, 4.0, 6.0, 7.5):
+        at = done.at("a", t)
+        x, y = 50.0 + 10.0 * t + 0.25 * t * t, -8.75 + 0.2 * t * t
+        assert math.hypot(at["x"] - x, at["y"] - y) < 0.35
+        assert at["v"] == pytest.approx(math.hypot(10.0 + 0.5 * t, 0.4 * t), abs=0.3)
+
+
+def test_a_trajectory_that_is_too_fast(run: Run) -> None:
+    fast = Trajectory((Pose(50.0, -8.75), Pose(2050.0, -8.75)), (0.0, 4.0))
+    done = run(scenario(lambda s: s.a.follow_trajectory(absolute=fast)))
+    assert done.result.status == "failure"
+    assert "m from the end, 10 s after its time" in done.result.reason
+
+
+def test_relative_trajectory(run: Run) -> None:
+    relative = RelativeTrajectory((Pose(0.0, 0.0), Pose(20.0, 2.0)), (0.0, 2.0))
+    done = run(scenario(lambda s: s.a.replay_trajectory(relative=relative)))
+    last = done.states("a")[-1]
+    assert (last["x"], last["y"]) == pytest.approx((70.0, -6.75))
+
+
+def test_along_is_a_path_in_a_drive(run: Run) -> None:
+    exact = physical_movement("prefer_non_physical")
+    replayed = run(scenario(lambda s: s.a.drive(along(lambda: ASIDE), exact)))
+    assert replayed.states("a")[-1]["y"] == pytest.approx(10.0)
+    followed = run(scenario(lambda s: s.a.drive(along(ASIDE, end_offset=40.0))))
+    assert followed.states("a")[-1]["x"] == pytest.approx(120.0, abs=0.6)
+    timed = run(scenario(lambda s: s.a.drive(along_trajectory(TIMED), exact)))
+    assert timed.result.time == pytest.approx(5.0)
+
+
+# --- change_position --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "target",
+    [
+        {"target_xyz": Point(150.0, -5.25)},
+        {"target_position": OdrPoint("1", "-2", 150.0)},
+        {"target_odr": OdrPoint("1", -2, 150.0, 0.0)},
+    ],
+)
+def test_change_position_on_the_road(run: Run, target: dict[str, Any]) -> None:
+    done = run(scenario(lambda s: s.a.change_position(**target)))
+    assert done.result.status == "success"
+    last = done.states("a")[-1]
+    assert (last["x"], last["y"]) == pytest.approx((150.0, -5.25), abs=0.55)
+    assert (last["lane"], last["h"]) == (-2, pytest.approx(0.0, abs=0.02))
+
+
+def test_change_position_across_the_grass(run: Run) -> None:
+    def body(s: TwoCars) -> Behaviour:
+        return s.a.change_position(
+            target_xyz=Point(120.0, 30.0), on_road_network=False, interpolation="smooth"
+        )
+
+    last = run(scenario(body)).states("a")[-1]
+    assert (last["x"], last["y"]) == pytest.approx((120.0, 30.0), abs=0.6)
+
+
+def test_change_position_behind_is_no_way(run: Run) -> None:
+    done = run(scenario(lambda s: s.a.change_position(target_xyz=Point(20.0, -8.75))))
+    assert done.result.status == "failure"
+    assert "no way along lanes leads" in done.result.reason
+
+
+def test_a_person_walks_to_a_place(run: Run) -> None:
+    class Walk(Scenario):
+        name = source = "walk"
+
+        def declare(self) -> None:
+            self.road = Map(map_file="crossing")
+            self.walker = Person()
+
+        def placement(self) -> None:
+            self.place(
+                self.walker, position(at_point=Point(250.0, -6.0), project_on_route=False), yaw(0.0)
+            )
+
+        def behavior(self) -> Behaviour:
+            return self.walker.change_position(target_xyz=Point(250.0, 6.0))
+
+    states = run(Walk).states("walker")
+    assert (states[-1]["x"], states[-1]["y"]) == pytest.approx((250.0, 6.0), abs=0.1)
+
+
+def test_on_a_curved_road_a_path_follows_the_lane(run: Run) -> None:
+    class Curved(Scenario):
+        name = source = "curved"
+
+        def declare(self) -> None:
+            self.road = Map(map_file="crossing")
+            self.a = Vehicle()
+
+        def behavior(self) -> Behaviour:
+            return self.a.change_position(
+                target_xyz=lambda: ahead(self, 60.0), on_road_network=True
+            )
+
+    def ahead(s: Any, distance: float) -> Point:
+        state, road_map = s.a.state, s.a.context.world.map
+        pose = road_map.pose(road_map.advance(state.lane_position, distance).position)
+        return Point(pose.x, pose.y, pose.z)
+
+    done = run(Curved)
+    assert done.result.status == "success"
+    assert max(abs(e["offset"]) for e in done.states("a")) < 0.2

@@ -1,0 +1,69 @@
+"""What is said about the codes is true: the examples are compiled."""
+
+from pathlib import Path
+
+import pytest
+
+from osc2tx.diagnostics import CODES, Severity
+from osc2tx.diagnostics.explanations import Explanation
+from osc2tx.driver import Compilation
+from osc2tx.options import CompileOptions
+
+PRELUDE = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
+WITHOUT_TEXT = {"OSC101", "OSC105"}  # not about what is written, or too long to write down
+
+
+def codes_of(explanation: Explanation, text: str, folder: Path) -> dict[str, Severity]:
+    """Return what the compiler says about an example, without the two lines all of them need."""
+    is_whole = "import" in text or "namespace" in text
+    (folder / "limits.osc").touch()  # one example imports it
+    path = folder / "example.osc"
+    path.write_text(text if is_whole else PRELUDE + text, encoding="utf-8")
+    options = CompileOptions(explanation.standard, explanation.dialect)  # type: ignore[arg-type]
+    compilation = Compilation(path, path.name, options)
+    compilation.check()
+    return {report.code: report.severity for report in compilation.diagnostics}
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_a_code_has_an_example_and_a_remedy(code: str) -> None:
+    explanation = CODES[code].explanation
+    assert explanation is not None, f"write a section [{code}] in osc2tx/diagnostics/texts"
+    assert explanation.remedy.endswith(".")
+    assert explanation.faulty.strip()
+    assert explanation.mended.strip() or code in WITHOUT_TEXT
+
+
+EXAMPLES = sorted(set(CODES) - WITHOUT_TEXT)
+
+
+@pytest.mark.parametrize("code", EXAMPLES)
+def test_the_faulty_text_shows_the_code_and_the_mended_does_not(code: str, tmp_path: Path) -> None:
+    explanation = CODES[code].explanation
+    assert explanation is not None
+    shown = codes_of(explanation, explanation.faulty, tmp_path)
+    assert code in shown
+    assert errors(shown, code) <= {code}
+    left = codes_of(explanation, explanation.mended, tmp_path)
+    assert code not in left
+    assert not errors(left, code)
+
+
+def errors(found: dict[str, Severity], code: str) -> set[str]:
+    """Return the errors; those of the backend count only in the examples about it."""
+    family = "OSC5" if not code.startswith("OSC5") else "none"
+    return {
+        name
+        for name, severity in found.items()
+        if severity is Severity.ERROR and not name.startswith(family)
+    }
+
+
+def test_the_files_hold_no_other_codes() -> None:
+    import tomllib
+
+    folder = Path(__file__).parents[3] / "osc2tx/diagnostics/texts"
+    for path in folder.iterdir():
+        for code in tomllib.loads(path.read_text(encoding="utf-8")):
+            assert code in CODES
+            assert path.name == f"{code[3]}xx.toml"

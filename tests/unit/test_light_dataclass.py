@@ -1,0 +1,134 @@
+"""The cheap `dataclass` behaves like that of the standard library."""
+
+import copy
+import dataclasses
+import pickle
+from collections.abc import Callable
+from dataclasses import FrozenInstanceError, field, fields, replace
+from typing import Any
+
+import pytest
+
+from osc2tx.light_dataclass import dataclass as light
+
+Decorator = Callable[..., Any]
+
+
+def family(dataclass: Decorator, frozen: bool, slots: bool, eq: bool) -> Any:
+    """A class with all kinds of fields, and its base."""
+
+    @dataclass(frozen=frozen, slots=slots, eq=eq)
+    class Base:
+        first: int
+        second: str = "b"
+
+    @dataclass(frozen=frozen, slots=slots, eq=eq)
+    class Derived(Base):
+        listed: list[int] = field(default_factory=list)
+        silent: int = field(default=3, repr=False, compare=False)
+        fixed: tuple[int, ...] = field(default=(1,), init=False)
+        made: list[str] = field(init=False, default_factory=list)
+        later: int = field(init=False, repr=False, compare=False)
+        named: int = field(default=7, kw_only=True)
+
+        def __post_init__(self) -> None:
+            object.__setattr__(self, "later", self.first + 1)
+
+    return Derived
+
+
+def outcome(work: Callable[[], Any]) -> Any:
+    try:
+        return work()
+    except Exception as error:
+        return type(error)
+
+
+@pytest.mark.parametrize("eq", [True, False])
+@pytest.mark.parametrize("slots", [True, False])
+@pytest.mark.parametrize("frozen", [True, False])
+def test_like_the_standard_library(frozen: bool, slots: bool, eq: bool) -> None:
+    results = []
+    for dataclass in (dataclasses.dataclass, light):
+        kind = family(dataclass, frozen, slots, eq)
+        one = kind(1, "x", [2], 9, named=4)
+        found = [
+            [(f.name, getattr(one, f.name)) for f in fields(one)],
+            kind.__match_args__,
+            [(f.name, getattr(kind(first=5), f.name)) for f in fields(one)],
+            repr(one) if eq else None,
+            one == kind(1, "x", [2], 8, named=4),
+            one == kind(1, "x", [3], 9, named=4),
+            one == 3,
+            kind(1).listed is kind(1).listed,
+            replace(one, first=4).later,
+            copy.deepcopy(one) == one,
+            outcome(lambda kind=kind: kind()),
+            outcome(lambda kind=kind: kind(1, wrong=2)),
+            outcome(lambda kind=kind: kind(1, "x", [], 3, 4)),
+            outcome(lambda one=one: setattr(one, "first", 2)),
+            outcome(lambda one=one: delattr(one, "second")),
+            outcome(lambda one=one: setattr(one, "unknown", 2)) if not frozen else None,
+            outcome(lambda kind=kind: type(hash(kind(1)))) if not (eq and frozen) else None,
+        ]
+        results.append(found)
+    assert results[0] == results[1]
+
+
+@light(frozen=True, slots=True)
+class Point:
+    x: int
+    y: int = 0
+
+
+@light(frozen=True, slots=True)
+class Place(Point):
+    name: str = ""
+
+
+@light(frozen=True)
+class Nothing:
+    pass
+
+
+@light(slots=True)
+class Own:
+    x: int
+
+    def __init__(self) -> None:
+        self.x = 3
+
+    def __repr__(self) -> str:
+        return "mine"
+
+
+def test_values() -> None:
+    assert {Point(1), Point(1, 0)} == {Point(1)} and Point(1) != Place(1)
+    assert {Nothing(), Nothing()} == {Nothing()} and repr(Nothing()) == "Nothing()"
+    assert repr(Place(1, 2, "here")) == "Place(x=1, y=2, name='here')"
+    with pytest.raises(FrozenInstanceError):
+        Place(1).x = 2  # type: ignore[misc]
+    assert Own().x == 3 and repr(Own()) == "mine"
+
+
+def test_a_base_constructed_first_and_last() -> None:
+    assert Place(1, 2, "c").name == "c"
+    assert Point(3, 4).y == 4
+    assert Place(5, 6, "d").y == 6
+
+
+def test_pickling() -> None:
+    assert pickle.loads(pickle.dumps(Place(1, 2, "here"))) == Place(1, 2, "here")
+
+
+def test_patterns() -> None:
+    match Place(1, 2, "here"):
+        case Point(x, y=2):
+            assert x == 1
+        case _:
+            pytest.fail("no match")
+
+
+def test_what_is_not_supported_is_refused() -> None:
+    with pytest.raises(TypeError):
+        light(order=True)
