@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from osc2tx.analysis import Analysis, ScenarioLevel
-    from osc2tx.backends.py_trees import GeneratedModule
+    from osc2tx.backends.py_trees.emitter import GeneratedModule
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
     from osc2tx.syntax.ast import File
@@ -125,7 +125,7 @@ class Compilation:
         """Whether the backend can write all of it down; what it cannot is reported."""
         if self.ir is None:
             return False
-        from osc2tx.backends.py_trees import check_support
+        from osc2tx.backends.py_trees.support import check_support
 
         check_support(self.ir, self.sink)
         self.is_complete = not self._failed()

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx.ir.expressions import Argument, Expression, RangeValue
+from osc2tx.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

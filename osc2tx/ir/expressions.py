@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
+from osc2tx.light_dataclass import dataclass
 
 
 class Kind(Enum):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Behavior, ModifierCall, Trigger
 from osc2tx.ir.expressions import Expression, RangeValue, ValueType
+from osc2tx.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from osc2tx.backends.py_trees import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx_runtime import Scenario
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx import ir
-from osc2tx.backends.py_trees import GeneratedModule, emit
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions

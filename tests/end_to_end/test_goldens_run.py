@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import GeneratedModule, emit
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario

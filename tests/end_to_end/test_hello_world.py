@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import GeneratedModule, emit
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.config import ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import SCENARIOS, Trace, compile_scenario, permuted_module, run

@@ -8,7 +8,24 @@ only place view models; `formatting` lets black have the last word. `source_map`
 that the module does not cite itself.
 """
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from osc2tx.backends.py_trees.support import check_support
 
-__all__ = ["GeneratedModule", "check_support", "emit"]
+if TYPE_CHECKING:
+    from osc2tx import ir
+    from osc2tx.backends.py_trees.emitter import GeneratedModule
+
+__all__ = ["check_support", "emit"]
+
+
+def emit(module: ir.Module) -> GeneratedModule:
+    """Write the module for one source file with at least one scenario.
+
+    The writers are loaded when something is written: checking a file does not need them.
+    """
+    from osc2tx.backends.py_trees.emitter import emit as emit_module
+
+    return emit_module(module)
