@@ -20,6 +20,7 @@ from osc2tx.semantics.symbols import (
     ActorSymbol,
     EnumMemberSymbol,
     EnumSymbol,
+    EventSymbol,
     Member,
     MethodSymbol,
     ModifierSymbol,
@@ -244,7 +245,18 @@ class Collector:
             for member in members_of(statement, owner, context, self.origin):
                 self._add_member(owner, member)
 
+    def _check_parameters(self, member: Member) -> None:
+        """Report parameters of a method or event that have the same name."""
+        if not isinstance(member, MethodSymbol | EventSymbol):
+            return
+        seen: dict[str, Symbol] = {}
+        for parameter in member.parameters:
+            earlier = seen.setdefault(parameter.name, parameter)
+            if earlier is not parameter:
+                report_duplicate(self.sink, parameter, earlier)
+
     def _add_member(self, owner: TypeSymbol, member: Member) -> None:
+        self._check_parameters(member)
         key = member.name
         earlier = owner.members.get(key)
         if earlier is not None and earlier.namespace != member.namespace:
