@@ -125,3 +125,17 @@ def test_two_runs_and_permuted_branches_give_the_same_bytes(
     module = compile_scenario(FILE)
     assert run(load(emit(module)), settings).text == trace.text
     assert run(load(permuted_module(module)), settings).text == trace.text
+
+
+@pytest.mark.parametrize("start", [10.0, 25.0, 40.0])
+def test_the_story_holds_from_other_starts(load: Load, settings: RunSettings, start: float) -> None:
+    trace = run(
+        load(emit(compile_scenario(FILE))),
+        replace(settings, spawn={"hero": ("16", -3, start)}),
+    )
+    assert trace.status == "success"
+    assert trace.of_kind("collision") == []
+    hero, npc = trace.states("hero")[-1], trace.states("npc")[-1]
+    assert (hero["lane"], npc["lane"]) == (-5, -4)  # the truck may stop one road earlier
+    swerve = trace.action(line(68), "start")
+    assert 11.5 < gap(trace, swerve) <= 12.0
