@@ -223,7 +223,12 @@ class BehaviorLowering:
         callee: sym.ScenarioSymbol,
         actor: ir.Expression | None,
         comments: tuple[str, ...],
-    ) -> ir.InvokeScenario:
+    ) -> ir.InvokeScenario | None:
+        if not has_behavior(callee):
+            self._ctx.unsupported(
+                "OSC504", node.span, f"scenario `{callee.qualified_name}` has no `do`"
+            )
+            return None
         self._ctx.invoked.append(callee)
         arguments = lower_arguments(
             self._ctx, self._ctx.model.binding_of(node), node.arguments
@@ -316,6 +321,16 @@ def lower_modifier(ctx: LoweringContext, node: ast.ModifierApplication) -> ir.Mo
         at=at.member if isinstance(at, ir.EnumValue) else "all",
         comments=statement_comments(node),
     )
+
+
+def has_behavior(scenario: sym.ScenarioSymbol) -> bool:
+    """Whether a scenario or one of its bases has a `do`."""
+    current: sym.ScenarioSymbol | None = scenario
+    while current is not None:
+        if any(isinstance(statement, ast.DoDirective) for statement in current.statements):
+            return True
+        current = current.base
+    return False
 
 
 def _label(node: ast.BehaviorMember) -> str | None:

@@ -70,7 +70,16 @@ def _values(declaration: ir.Declaration) -> tuple[ir.Expression, ...]:
             return tuple(value.value for value in values)
         case ir.Parameter(value=value, domain=domain):
             return tuple(part for part in (value, domain) if part is not None)
-        case ir.Variable(value=value):
-            return () if value is None else (value,)
-        case ir.Event():
-            return ()  # its condition is read late
+        case ir.Variable(value=value, sample=sample):
+            times = () if sample is None else _times(sample.trigger)
+            return times if value is None else (value, *times)
+        case ir.Event(trigger=trigger, parameters=parameters):
+            defaults = tuple(p.default for p in parameters if p.default is not None)
+            return defaults if trigger is None else (*_times(trigger), *defaults)
+
+
+def _times(trigger: ir.Trigger) -> tuple[ir.Expression, ...]:
+    """Return what a trigger reads when it is declared; conditions on the world are read late."""
+    if isinstance(trigger.condition, ir.Elapsed | ir.Every):
+        return ir.condition_expressions(trigger.condition)
+    return ()

@@ -100,11 +100,17 @@ class Scenario:
         self._keys: dict[str, None] = {}
         self._inner_events: dict[str, Event] = {}
         self._overrides: list[tuple[str, str, Mode]] = []
-        self.declare()
+        self._declare()
         self._name_members()
         self._check_arguments()
         self.placement()
         self._own_placements = len(self.placements)
+
+    def _declare(self) -> None:
+        try:
+            self.declare()
+        except ArithmeticError as error:  # of a value that the scenario computes
+            raise ScenarioError(f"a value cannot be computed: {error}", self.source) from error
 
     # --- written by generated classes ---
 

@@ -83,7 +83,7 @@ def every(period: float, offset: float = 0.0) -> Condition:
         offset: Seconds.
     """
     if period <= 0:
-        raise ValueError(f"every({period}): the period must be above zero")
+        raise ScenarioError(f"every {period:g} s: the period must be above zero")
 
     def watch(context: ExecutionContext) -> Watch:
         start = context.step

@@ -24,9 +24,9 @@ class Range:
             raise ValueError(f"within({self.low}, {self.high}): from the lower to the upper bound")
 
 
-def within(low: float, high: float) -> Range:
-    """Return the range of a sampled parameter."""
-    return Range(low, high)
+def within(one: float, other: float) -> Range:
+    """Return the range of a sampled parameter; its bounds may come in either order."""
+    return Range(min(one, other), max(one, other))
 
 
 def choose(

@@ -253,3 +253,20 @@ def test_a_modifier_that_the_action_does_not_take_is_refused_before_the_run() ->
         UnsupportedError, match=r"x.osc:8: hero task does not take the modifier Note"
     ):
         Run(Until(node, elapsed(1.0))).go()
+
+
+def test_a_value_that_cannot_be_computed_is_an_error_of_the_scenario() -> None:
+    class Halves(Scenario):
+        source = "halves.osc"
+
+        def declare(self) -> None:
+            self.none = 0.0
+            self.half = 1.0 / self.none
+
+    with pytest.raises(ScenarioError, match="cannot be computed") as caught:
+        Halves()
+    assert caught.value.source == "halves.osc"
+
+
+def test_bounds_of_a_range_come_in_either_order() -> None:
+    assert within(3.0, 1.0) == within(1.0, 3.0)

@@ -48,29 +48,31 @@ class Conditions(Scenario):
             )
         )
         self.help_needed = Event()
-        self.wait_time = self.parameter("wait time", within(1 * s, 2 * s))
+        self.wait_time = self.parameter("wait time", within(20 * s, 25 * s))
+        self.late = Event(elapsed(self.wait_time))
+        self.wait_time_2 = self.parameter("wait time 2", within(1 * s, 2 * s))
 
-    def behavior(self) -> Behaviour:  # input.osc:13
+    def behavior(self) -> Behaviour:  # input.osc:14
         return Parallel(
             "conditions",
             self.ego_serial(),
             self.other_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # input.osc:14
+    def ego_serial(self) -> Behaviour:  # input.osc:15
         return Serial(
             "ego: serial",
             Wait(self.close),
             Wait(self.help_needed, lambda: self.ego.speed > 10 * kph),
             Wait(fall(lambda: self.ego.speed > 30 * kph and self.other.speed != 0 * kph)),
-            Wait(elapsed(self.wait_time)),
+            Wait(elapsed(self.wait_time_2)),
             Wait(every(2 * s, offset=1 * s)),
             Wait(lambda: self.ego.speed < self.other.speed),
             self.ego.keep_speed(duration=3 * s, label="first"),
             Wait(self.ended("second")),
         )
 
-    def other_serial(self) -> Behaviour:  # input.osc:23
+    def other_serial(self) -> Behaviour:  # input.osc:24
         return Serial(
             "other: serial",
             Wait(self.started("first")),
@@ -79,6 +81,7 @@ class Conditions(Scenario):
                 self.other.drive(speed(20 * kph), duration=(1 * s, 4 * s)),
                 # whatever comes first
                 self.help_needed,
+                self.late,
                 lambda: 10 * kph <= self.ego.speed <= 20 * kph,
                 label="second",
             ),
