@@ -89,7 +89,9 @@ class PlacementLowering:
         found = self._found.setdefault(node.actor.name, _Found(node.span))
         for modifier in placing:
             if modifier.at == "start" or modifier.name not in found.modifiers:
-                found.modifiers[modifier.name] = replace(modifier, at="start")
+                # What holds throughout stays in the tree as well, and its comments with it.
+                comments = modifier.comments if modifier.at == "start" else ()
+                found.modifiers[modifier.name] = replace(modifier, at="start", comments=comments)
         rest = tuple(m for m in node.modifiers if m.at != "start")
         if node.action == "assign_position" and not rest and not node.arguments:
             found.comments.extend(node.comments)

@@ -76,10 +76,16 @@ def _lower_scenario(
         methods=methods,
         placements=(*_member_placements(ctx, statements), *placements),
         body=body,
-        end_comments=node.end_comments,
+        end_comments=_end_comments(ctx, scenario),
         overrides=_overrides(ctx, statements),
         is_imported=is_imported,
     )
+
+
+def _end_comments(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[str, ...]:
+    """Return the comments below the last member; those at the end of the file go to the last."""
+    is_last = bool(ctx.model.scenarios) and scenario is ctx.model.scenarios[-1]
+    return (*scenario.node.end_comments, *(ctx.model.root.comments if is_last else ()))
 
 
 def _own_actor(scenario: sym.ScenarioSymbol) -> tuple[ir.Actor, ...]:

@@ -77,6 +77,7 @@ class ScenarioWriter:
             functions=functions,
             placements=placements,
             methods=methods,
+            end_comments=comments(self._scenario.end_comments),
         )
 
     def _docstring(self) -> tuple[PyDocLine, ...]:

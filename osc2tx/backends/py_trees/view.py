@@ -96,6 +96,7 @@ class ScenarioView:
     functions: tuple[FunctionView, ...]
     placements: tuple[StatementView, ...]
     methods: tuple[MethodView, ...]
+    end_comments: tuple[PyComment, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
