@@ -7,7 +7,7 @@ the speed is free: it stays, or another action controls it; who stands sets out 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar, TypeVar, Unpack
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.behaviour.base import Status
@@ -17,6 +17,7 @@ from osc2tx_runtime.paths import PathError, absolute
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.values import (
     Path,
+    Pose,
     RelativePath,
     RelativeTrajectory,
     RelativeTransform,
@@ -72,15 +73,21 @@ def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
     return value() if callable(value) else value
 
 
-class _OnPath(CourseAction):
+CourseT = TypeVar("CourseT", bound=Path | Trajectory)
+RelativeT = TypeVar("RelativeT", bound=RelativePath | RelativeTrajectory)
+
+
+class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
+    """What paths and trajectories have in common: two ways to say where they are."""
+
     exact: ClassVar[bool]
 
     def __init__(
         self,
         actor: MovableObject,
         *modifiers: Modifier,
-        absolute: Path | Callable[[], Path] | None = None,
-        relative: RelativePath | Callable[[], RelativePath] | None = None,
+        absolute: CourseT | Callable[[], CourseT] | None = None,
+        relative: RelativeT | Callable[[], RelativeT] | None = None,
         reference: PhysicalObject | None = None,
         transform: RelativeTransform = "object_relative",
         start_offset: float = 0.0,
@@ -90,23 +97,44 @@ class _OnPath(CourseAction):
         super().__init__(actor, modifiers, options)
         if (absolute is None) == (relative is None):
             raise ScenarioError(f"{self.action_name}: give either absolute or relative")
-        self.absolute = absolute
-        self.relative = relative
+        self.absolute: CourseT | Callable[[], CourseT] | None = absolute
+        self.relative: RelativeT | Callable[[], RelativeT] | None = relative
         self.reference = reference or actor
         self.transform: RelativeTransform = transform
         self.offsets = (start_offset, end_offset)
 
-    def commands(self) -> dict[str, Command]:
-        """The path, from here."""
-        return {LATERAL: path_command(self.here, self._path(), self.offsets, exact=self.exact)}
-
-    def _path(self) -> Path:
+    def course(self) -> CourseT:
+        """The course in the world, now."""
         if self.absolute is not None:
             return now(self.absolute)
         assert self.relative is not None
         relative, reference = now(self.relative), self.world.state(self.reference.id)
         points = absolute(self.world.map, relative.points, reference, self.transform)
+        return self.resolved(relative, points)
+
+    def resolved(self, relative: RelativeT, points: tuple[Pose, ...]) -> CourseT:
+        """The course whose points have been brought into the world."""
+        raise NotImplementedError
+
+
+class _OnPath(_OnCourse[Path, RelativePath]):
+    def commands(self) -> dict[str, Command]:
+        """The path, from here."""
+        return {LATERAL: path_command(self.here, self.course(), self.offsets, exact=self.exact)}
+
+    def resolved(self, relative: RelativePath, points: tuple[Pose, ...]) -> Path:
+        """The path through the points."""
         return Path(points, relative.interpolation)
+
+
+class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
+    def commands(self) -> dict[str, Command]:
+        """The trajectory, from now."""
+        return trajectory_commands(self.here, self.course(), self.offsets, exact=self.exact)
+
+    def resolved(self, relative: RelativeTrajectory, points: tuple[Pose, ...]) -> Trajectory:
+        """The trajectory through the points."""
+        return Trajectory(points, relative.time_stamps, relative.interpolation)
 
 
 @action("movable_object", "follow_path", slots=(LATERAL,))
@@ -133,43 +161,6 @@ class ReplayPath(_OnPath):
     """Be on a path exactly, whatever the limits; arguments as of `follow_path`."""
 
     exact = True
-
-
-class _OnTrajectory(CourseAction):
-    exact: ClassVar[bool]
-
-    def __init__(
-        self,
-        actor: MovableObject,
-        *modifiers: Modifier,
-        absolute: Trajectory | Callable[[], Trajectory] | None = None,
-        relative: RelativeTrajectory | Callable[[], RelativeTrajectory] | None = None,
-        reference: PhysicalObject | None = None,
-        transform: RelativeTransform = "object_relative",
-        start_offset: float = 0.0,
-        end_offset: float = 0.0,
-        **options: Unpack[ActionOptions],
-    ) -> None:
-        super().__init__(actor, modifiers, options)
-        if (absolute is None) == (relative is None):
-            raise ScenarioError(f"{self.action_name}: give either absolute or relative")
-        self.absolute = absolute
-        self.relative = relative
-        self.reference = reference or actor
-        self.transform: RelativeTransform = transform
-        self.offsets = (start_offset, end_offset)
-
-    def commands(self) -> dict[str, Command]:
-        """The trajectory, from now."""
-        return trajectory_commands(self.here, self._trajectory(), self.offsets, exact=self.exact)
-
-    def _trajectory(self) -> Trajectory:
-        if self.absolute is not None:
-            return now(self.absolute)
-        assert self.relative is not None
-        relative, reference = now(self.relative), self.world.state(self.reference.id)
-        points = absolute(self.world.map, relative.points, reference, self.transform)
-        return Trajectory(points, relative.time_stamps, relative.interpolation)
 
 
 @action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL))
