@@ -10,6 +10,7 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from osc2tx_runtime.actions.checks import EXCLUSIVE
 from osc2tx_runtime.actors import (
     Animal,
     Environment,
@@ -122,7 +123,7 @@ OTHER_OBJECTS: Mapping[str, Callable[..., Any]] = {
 """Likewise, but generated modules cannot declare them yet: the compiler has no names for them."""
 
 
-def capabilities() -> dict[str, dict[str, Any]]:
+def capabilities() -> dict[str, Any]:
     """Lists what there is, by kind and name, in sorted order.
 
     Returns:
@@ -130,6 +131,7 @@ def capabilities() -> dict[str, dict[str, Any]]:
         `slots` and how it `ends`;
         `modifiers`: name to parameters; `placement`: the same for those an actor can start with;
         `methods`: `physical_object.object_distance` to parameters; `fields`: name to type;
+        `exclusive`: groups of modifiers of which an action takes one;
         `objects`: actor or value type to what its constructor takes; `other_objects`: those the
         compiler does not know yet.
     """
@@ -140,6 +142,7 @@ def capabilities() -> dict[str, dict[str, Any]]:
             kind.name: _parameters(kind)
             for kind in sorted(PLACEMENT_MODIFIERS, key=lambda each: each.name)
         },
+        "exclusive": [[kind.name for kind in kinds] for kinds in EXCLUSIVE],
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
         "fields": dict(sorted(FIELDS.items())),
         "objects": {name: _keywords(OBJECTS[name]) for name in sorted(OBJECTS)},

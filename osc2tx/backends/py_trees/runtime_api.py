@@ -75,6 +75,7 @@ class RuntimeSupport:
         actions: `vehicle.drive` to what it takes.
         modifiers: Modifier to its parameters.
         placement: The same for modifiers that place an actor.
+        exclusive: Groups of modifiers of which an action takes one.
         methods: `physical_object.object_distance` to its parameters.
         fields: Members one can read, `movable_object.speed`.
         objects: Type of actor or struct to what its constructor takes.
@@ -83,6 +84,7 @@ class RuntimeSupport:
     actions: Mapping[str, ActionSupport]
     modifiers: Mapping[str, frozenset[str]]
     placement: Mapping[str, frozenset[str]]
+    exclusive: tuple[frozenset[str], ...]
     methods: Mapping[str, frozenset[str]]
     fields: frozenset[str]
     objects: Mapping[str, frozenset[str]]
@@ -108,6 +110,7 @@ def runtime_support() -> RuntimeSupport:
         },
         modifiers=sets("modifiers"),
         placement=sets("placement"),
+        exclusive=tuple(frozenset(group) for group in table["exclusive"]),
         methods=sets("methods"),
         fields=frozenset(table["fields"]),
         objects=sets("objects"),

@@ -171,6 +171,7 @@ class _SupportCheck:
         self.expressions((node.actor,))
         self.arguments(node.arguments, support.arguments, f"action `{key}`")
         self.required(node, key, support.required)
+        self.exclusive(node)
         for index, modifier in enumerate(node.modifiers):
             self.modifier(modifier, key, support.modifiers)
             earlier = (m for m in node.modifiers[:index] if m.name == modifier.name)
@@ -178,6 +179,19 @@ class _SupportCheck:
                 self.sink.report(
                     "OSC508", modifier.span, f"modifier `{modifier.name}` stands here twice"
                 )
+
+    def exclusive(self, node: ir.Invoke) -> None:
+        """Report modifiers that speak of the same thing."""
+        for group in self.runtime.exclusive:
+            found = [modifier for modifier in node.modifiers if modifier.name in group]
+            for other in found[1:]:
+                if other.name != found[0].name:
+                    self.sink.report(
+                        "OSC508",
+                        other.span,
+                        f"`{found[0].name}` and `{other.name}` speak of the same thing",
+                        help="give one of them",
+                    )
 
     def required(self, node: ir.Invoke, action: str, needed: frozenset[str]) -> None:
         given = {identifier(argument.parameter) for argument in node.arguments}

@@ -28,9 +28,16 @@ from osc2tx_runtime.modifiers import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["check_modifiers"]
+__all__ = ["EXCLUSIVE", "check_modifiers"]
 
 ModifierT = TypeVar("ModifierT", bound=Modifier)
+
+# Of each group an action takes one; what stands in two groups speaks of both things.
+EXCLUSIVE: tuple[tuple[type[Modifier], ...], ...] = (
+    (ChangeSpeed, KeepSpeed, Position, KeepPosition, AlongTrajectory),
+    (Lane, ChangeLane, KeepLane, Yaw, Orient, Along, AlongTrajectory),
+    (Lateral, Yaw, Orient, Along, AlongTrajectory),
+)
 
 _USE_ASSIGN = "does not take effect at the start of a movement; use {} before it"
 _NO_START: dict[type[Modifier], str] = {
@@ -54,18 +61,12 @@ def check_modifiers(action: Action) -> None:
     along = [m for m in modifiers if isinstance(m, Speed) and m.direction == "longitudinal"]
     across = [m for m in modifiers if isinstance(m, Speed) and m.direction == "lateral"]
     rest = [m for m in modifiers if not isinstance(m, Speed)]
-    _alone(name, along, rest, (ChangeSpeed, KeepSpeed, Position, KeepPosition, AlongTrajectory))
-    _alone(
-        name,
-        [m for m in rest if isinstance(m, Acceleration)],
-        rest,
-        (ChangeSpeed, KeepSpeed, Position, KeepPosition, AlongTrajectory),
-    )
+    _alone(name, along, rest, EXCLUSIVE[0])
+    _alone(name, _of(rest, Acceleration), rest, EXCLUSIVE[0])
     if whole_way:
         _alone(name, [*along, *_of(rest, Acceleration)], rest, whole_way)
-    _exclusive(name, rest, ChangeSpeed, KeepSpeed, Position, KeepPosition, AlongTrajectory)
-    _exclusive(name, rest, Lane, ChangeLane, KeepLane, Yaw, Orient, Along, AlongTrajectory)
-    _exclusive(name, rest, Lateral, Yaw, Orient, Along, AlongTrajectory)
+    for kinds in EXCLUSIVE:
+        _exclusive(name, rest, *kinds)
     _alone(name, across, rest, (Lane, Lateral, ChangeLane, KeepLane, Yaw, Orient, Along))
     _at(action, along)
     for modifier in rest:
