@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, SUCCESS, Status
+from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.slots import place_key
 
 if TYPE_CHECKING:
@@ -25,9 +26,10 @@ class Limits:
     """
 
     def __init__(self, node: Node, duration: Duration) -> None:
-        low, high = duration if isinstance(duration, tuple) else (duration, duration)
-        if not 0 <= low <= high:
-            raise ValueError(f"duration {duration}: from the least to the most, not negative")
+        given = duration if isinstance(duration, tuple) else (duration, duration)
+        low, high = min(given), max(given)  # bounds of a range come in either order
+        if not low >= 0:
+            raise ScenarioError(f"{node.name}: a duration of {low:g} s is negative")
         self._node = node
         self._seconds = (low, high)
         self._low = self._high = self._start = 0

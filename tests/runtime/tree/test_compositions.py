@@ -266,3 +266,8 @@ def test_the_tree_works_under_py_trees_own_tick_and_display() -> None:
         "--> hero task",
         "--> wait @go",
     ]
+
+
+def test_a_negative_duration_is_an_error_of_the_scenario() -> None:
+    with pytest.raises(ScenarioError, match="a duration of -1 s is negative"):
+        Serial("late", Wait(elapsed(1.0)), duration=-1.0)
