@@ -6,7 +6,7 @@ from enum import Enum
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.ir.expressions import Argument, Expression, RangeValue
+from osc2tx.ir.expressions import Argument, Expression
 from osc2tx.light_dataclass import dataclass
 
 
@@ -226,28 +226,3 @@ class On(BehaviorBase):
 
 Composition: TypeAlias = Serial | Parallel | OneOf
 Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | InvokeScenario | Wait | Emit | On
-
-__all__ = [
-    "Behavior",
-    "Composition",
-    "Condition",
-    "Edge",
-    "Elapsed",
-    "Emit",
-    "EventRef",
-    "Every",
-    "InnerEvent",
-    "Invoke",
-    "InvokeScenario",
-    "LabelEvent",
-    "Level",
-    "ModifierCall",
-    "Moment",
-    "On",
-    "OneOf",
-    "Parallel",
-    "RangeValue",
-    "Serial",
-    "Trigger",
-    "Wait",
-]

@@ -30,6 +30,7 @@ class ExpressionWriter:
         fields: Python names of the scenario's fields.
         use_unit: Told of each unit that is written; returns the name it goes by.
         use_name: Told of each name that must be imported from the runtime library.
+        methods: The scenario's methods; their parameters must not hide what their bodies use.
     """
 
     def __init__(
@@ -37,8 +38,12 @@ class ExpressionWriter:
         fields: NameTable,
         use_unit: Callable[[ir.Unit], PyName],
         use_name: Callable[[str], PyName],
+        methods: tuple[ir.Method, ...] = (),
     ) -> None:
         """See the class."""
+        parts = (part for method in methods for part in ir.walk(method.expression))
+        units = (part.unit.name for part in parts if isinstance(part, ir.Quantity))
+        self._hidden = {"self", "within", *map(identifier, units)}
         self._fields = fields
         self._use_unit = use_unit
         self._use_name = use_name
@@ -51,6 +56,11 @@ class ExpressionWriter:
     def field(self, name: str) -> PyExpr:
         """Write a field of the scenario."""
         return self_attribute(self._fields[name])
+
+    def parameter(self, name: str) -> PyName:
+        """Name a parameter of a method; one called `m` would hide the unit in `5 * m`."""
+        wanted = identifier(name)
+        return PyName(f"{wanted}_" if wanted in self._hidden else wanted)
 
     def late(self, expression: PyExpr) -> PyExpr:
         """Write `lambda: expression`."""
@@ -68,7 +78,7 @@ class ExpressionWriter:
             case ir.FieldRef(name=name):
                 return self.field(name)
             case ir.ParameterRef(name=name):
-                return name_expression(PyName(identifier(name)))
+                return name_expression(self.parameter(name))
             case ir.ScenarioSelf():
                 return PyExpr("self", Level.ATOM)
             case ir.EventArgument(event=event, parameter=parameter):
@@ -103,16 +113,17 @@ class ExpressionWriter:
         return PyExpr(f"{number.within(Level.TERM)} * {unit}", Level.TERM)
 
     def _method_call(self, call: ir.MethodCall) -> PyExpr:
-        arguments = ", ".join(self._argument(argument) for argument in call.arguments)
         own = isinstance(call.base, ir.ScenarioSelf)
+        arguments = ", ".join(self._argument(argument, own) for argument in call.arguments)
         method = self._fields[call.method] if own else PyName(identifier(call.method))
         return PyExpr(f"{self._atom(call.base)}.{method}({arguments})", Level.ATOM)
 
-    def _argument(self, argument: ir.Argument) -> str:
+    def _argument(self, argument: ir.Argument, own: bool) -> str:
         value = self.write(argument.value).within(Level.CONDITIONAL)
         if argument.is_positional:
             return value
-        return f"{PyName(identifier(argument.parameter))}={value}"
+        name = argument.parameter
+        return f"{self.parameter(name) if own else PyName(identifier(name))}={value}"
 
     def _unary(self, unary: ir.Unary) -> PyExpr:
         if unary.operator == "-" and isinstance(unary.operand, ir.Quantity):

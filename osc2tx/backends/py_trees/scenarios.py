@@ -54,7 +54,7 @@ class ScenarioWriter:
         for member in (*scenario.declarations, *scenario.methods):
             self._names.add(member.name, identifier(member.name))
         self._uses = uses
-        expressions = ExpressionWriter(self._names, uses.unit, uses.name)
+        expressions = ExpressionWriter(self._names, uses.unit, uses.name, scenario.methods)
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
         self.source_map: ScenarioMap = scenario_map(scenario)
 
@@ -179,7 +179,7 @@ class ScenarioWriter:
             name=self._names[method.name],
             parameters=tuple(
                 FunctionParameterView(
-                    PyName(identifier(parameter.name)),
+                    self._calls.expressions.parameter(parameter.name),
                     self._annotation(parameter.type),
                     None if parameter.default is None else write(parameter.default),
                 )

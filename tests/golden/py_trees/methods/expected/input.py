@@ -6,7 +6,7 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 
 from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, s
+from osc2tx_runtime.units import kph, m, s
 
 require_api(1)
 
@@ -33,13 +33,21 @@ class Methods(Scenario):
     def share(self, v: float, part: float = 0.5) -> float:  # input.osc:14
         return v * part
 
-    def is_faster(self, a: Vehicle, b: Vehicle) -> bool:  # input.osc:15
+    # A parameter may be called like a unit, or like a word of Python.
+    def longer(self, m_: float, self_: float = 1 * m) -> float:  # input.osc:16
+        return m_ + self_ + 5 * m
+
+    def is_faster(self, a: Vehicle, b: Vehicle) -> bool:  # input.osc:17
         return a.speed > b.speed
 
-    def behavior(self) -> Behaviour:  # input.osc:17
+    def behavior(self) -> Behaviour:  # input.osc:19
         return Serial(
             "methods",
             self.ego.drive(speed(lambda: self.share(self.limit)), duration=2 * s),
+            Wait(
+                lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
+                > self.longer(1 * m, self_=2 * m)
+            ),
             Wait(
                 lambda: self.is_faster(self.ego, self.other)
                 or self.ego.speed >= self.share(self.limit, part=0.4)
