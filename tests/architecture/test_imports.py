@@ -28,6 +28,7 @@ MAY_IMPORT = {
     "ir": {"ir", "diagnostics", "light_dataclass"},
     "lowering": {"lowering", "ir", "semantics", "syntax.ast"} | LEAVES,
     "backends": {"backends", "ir"} | LEAVES,
+    "formatter": {"formatter", "syntax"} | LEAVES,
     # the shell around the stages
     "config": {"options", "diagnostics.nearest", "light_dataclass"},
     "inputs": {"light_dataclass"},

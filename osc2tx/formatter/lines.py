@@ -1,0 +1,103 @@
+"""Logical lines: the tokens of one line end to the next, and the comments around them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from osc2tx.formatter.gaps import Comment, Gap, read_gap
+from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, NEWLINE, TokenTable
+
+_LAYOUT = frozenset({INDENT, DEDENT, NEWLINE, EOF})
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A token, with what the source had before it on the same logical line.
+
+    Attributes:
+        kind: Its type.
+        text: Its text.
+        comments: Comments between it and the token before.
+        joined: Whether it stood on a line of its own behind a backslash.
+    """
+
+    kind: int
+    text: str
+    comments: tuple[Comment, ...] = ()
+    joined: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class CommentLine:
+    """A comment on a line of its own, between two logical lines."""
+
+    depth: int
+    comment: Comment
+
+
+@dataclass(slots=True)
+class LogicalLine:
+    """A logical line.
+
+    Attributes:
+        depth: Number of blocks around it.
+        blank_lines: Number of blank lines above it.
+        pieces: Its tokens.
+        trailing: Comments behind the last one.
+        above: Comment lines between it and the line before.
+        opens_block: Whether a block follows.
+    """
+
+    depth: int
+    blank_lines: int
+    above: list[CommentLine]
+    pieces: list[Piece] = field(default_factory=list)
+    trailing: tuple[Comment, ...] = ()
+    opens_block: bool = False
+
+
+def read_lines(table: TokenTable) -> list[LogicalLine]:
+    """Return the logical lines of a text; the last one has no tokens, only the last comments."""
+    lines: list[LogicalLine] = []
+    widths = [0]
+    closed: list[int] = []  # widths of the blocks that end before the next line
+    end = 0
+    for index, kind in enumerate(table.types):
+        if kind == INDENT:
+            widths.append(table.widths[index])
+            lines[-1].opens_block = True
+        elif kind == DEDENT:
+            closed.append(widths.pop())
+        elif kind == NEWLINE:
+            lines[-1].trailing = _gap(table, end, index).comments
+            end = table.starts[index]  # the line end itself counts for the blank lines
+        else:
+            gap = _gap(table, end, index)
+            if not lines or (lines[-1].pieces and table.types[index - 1] in _LAYOUT):
+                lines.append(_new_line(gap, widths, closed))
+                gap = Gap((), 0, False)
+                closed = []
+            if kind != EOF:
+                lines[-1].pieces.append(Piece(kind, table.text(index), gap.comments, gap.joined))
+                end = table.ends[index]
+    return lines
+
+
+def _gap(table: TokenTable, end: int, index: int) -> Gap:
+    return read_gap(table.source.text, end, table.starts[index])
+
+
+def _new_line(gap: Gap, widths: list[int], closed: list[int]) -> LogicalLine:
+    """Begin a line; comments above it stay in the blocks that end there if indented like them.
+
+    A block comment that stands before a statement on its line goes above it.
+    """
+    depth = len(widths) - 1
+    open_widths = [*widths, *reversed(closed)]
+    above: list[CommentLine] = []
+    deepest = len(open_widths) - 1
+    for comment in gap.comments:
+        while deepest > depth and comment.column < open_widths[deepest]:
+            deepest -= 1
+        above.append(CommentLine(deepest, comment))
+    return LogicalLine(depth, gap.blank_lines, above)

@@ -1,0 +1,163 @@
+"""The rules of the style guide (§9.2.2), case by case."""
+
+from __future__ import annotations
+
+import pytest
+
+from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.formatter import format_source
+
+LINES = [
+    ("after commas", "f( a ,b,c )", "f(a, b, c)"),
+    ("after colons", "ego.drive(speed :3mps)", "ego.drive(speed: 3mps)"),
+    ("around operators", "keep(a>=b+1m and   not c=>d)", "keep(a >= b + 1m and not c => d)"),
+    ("signs", "keep(x == - 3m - -y)", "keep(x == -3m - -y)"),
+    ("inside of brackets", "x: length = a[ 1 ]", "x: length = a[1]"),
+    ("ranges", "keep(x in [ 1m .. 2m ])", "keep(x in [1m..2m])"),
+    ("lists", "keep(x in [1m ,2m])", "keep(x in [1m, 2m])"),
+    ("brackets behind words", "keep (not(a) and(b))", "keep(not (a) and (b))"),
+    ("the conditional operator", "keep(a==(b?c:d))", "keep(a == (b ? c : d))"),
+    ("and a colon behind it", "f(a:b?c:d, e :f)", "f(a: b ? c : d, e: f)"),
+    ("enumeration values", "f(color ! red)", "f(color!red)"),
+    ("members and casts", "keep(a . b . as ( car ).c)", "keep(a.b.as(car).c)"),
+    (
+        "methods",
+        "def f(x:int=1)->bool is  expression x>0",
+        "def f(x: int = 1) -> bool is expression x > 0",
+    ),
+    ("fields", "x:length=3m", "x: length = 3m"),
+    ("events", "event e is @ f as g if g.x>1m", "event e is @f as g if g.x > 1m"),
+    ("lists of a type", "x:list   of int", "x: list of int"),
+]
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [case[1:] for case in LINES], ids=[c[0] for c in LINES]
+)
+def test_blanks(before: str, after: str) -> None:
+    assert formatted(f"scenario s:\n\t{before}\n") == f"scenario s:\n    {after}\n"
+
+
+def test_blanks_at_file_level() -> None:
+    assert formatted("export a,*,b::*\n") == "export a, *, b::*\n"
+    assert formatted("import  osc . standard\n") == "import osc.standard\n"
+
+
+def test_blanks_in_behavior() -> None:
+    before = "scenario s:\n  do  a :serial (duration:3s) :\n    wait@e\n    b  :emit e\n"
+    assert formatted(before) == (
+        "scenario s:\n    do a: serial(duration: 3s):\n        wait @e\n        b: emit e\n"
+    )
+
+
+def test_blocks_are_indented_by_four() -> None:
+    before = "scenario s:\n  a: car with:\n   keep(it.x == 1)\n  b: car\n"
+    assert formatted(before) == (
+        "scenario s:\n    a: car with:\n        keep(it.x == 1)\n    b: car\n"
+    )
+
+
+def test_blank_lines() -> None:
+    before = "\n\nimport osc.standard\nactor a\nscenario s:\n\n  x: int\n\n\n  y: int"
+    before += "\n\n\n\n\nactor b\n\n\n"
+    assert formatted(before) == (
+        "import osc.standard\nactor a\n\nscenario s:\n    x: int\n\n    y: int\n\n\nactor b\n"
+    )
+
+
+def test_a_declaration_with_a_block_stands_apart_with_its_comment() -> None:
+    before = "actor a:\n  x: int\n# of b\nactor b:\n  x: int\nactor c\n"
+    assert formatted(before) == (
+        "actor a:\n    x: int\n\n# of b\nactor b:\n    x: int\n\nactor c\n"
+    )
+
+
+def test_comments() -> None:
+    before = (
+        "#one\nactor a: #two\n  x: int#three\n  #four\n #five\n#six\nactor b #  seven\n#!tool\n##\n"
+    )
+    assert formatted(before) == (
+        "# one\nactor a:  # two\n    x: int  # three\n    # four\n\n# five\n# six\n"
+        "actor b  #  seven\n#!tool\n##\n"
+    )
+
+
+def test_comments_at_the_end_of_blocks_stay_in_them() -> None:
+    before = "scenario s:\n  do serial:\n    wait @e\n    # of the serial\n  # of the scenario\n"
+    assert formatted(before) == (
+        "scenario s:\n    do serial:\n        wait @e\n        # of the serial\n"
+        "    # of the scenario\n"
+    )
+
+
+def test_what_fits_stands_on_one_line() -> None:
+    assert formatted("enum e: [\n  a,\n  b\n]\n") == "enum e: [a, b]\n"
+    assert formatted("scenario s:\n  keep(a \\\n    == 1)\n") == "scenario s:\n    keep(a == 1)\n"
+
+
+def test_long_lines_are_broken_in_the_last_brackets_first() -> None:
+    names = ", ".join(f"parameter_{n}: {n}m" for n in range(3))
+    action = f"some_actor.some_action({names}, another: call(a, b))"
+    before = f"scenario s:\n  do serial(duration: 10s):\n    {action}\n"
+    assert formatted(before) == (
+        "scenario s:\n"
+        "    do serial(duration: 10s):\n"
+        "        some_actor.some_action(\n"
+        "            parameter_0: 0m,\n"
+        "            parameter_1: 1m,\n"
+        "            parameter_2: 2m,\n"
+        "            another: call(a, b)\n"
+        "        )\n"
+    )
+
+
+def test_long_conditions_are_broken_before_operators() -> None:
+    terms = [f"a_rather_long_name_{n} == {n}m" for n in range(4)]
+    assert formatted(f"scenario s:\n  keep({' and '.join(terms)})\n") == (
+        "scenario s:\n    keep(\n        " + "\n        and ".join(terms) + "\n    )\n"
+    )
+
+
+def test_comments_in_brackets_keep_their_places() -> None:
+    before = "enum e: [a, # first\n  # about b\n  b  # last\n  # end\n]\n"
+    assert formatted(before) == (
+        "enum e: [\n    a,  # first\n    # about b\n    b  # last\n    # end\n]\n"
+    )
+
+
+def test_only_the_author_breaks_long_lines_outside_of_brackets() -> None:
+    long = "x: length = " + " + ".join(["some_name"] * 9)
+    assert formatted(f"scenario s:\n    {long}\n") == f"scenario s:\n    {long}\n"
+    broken = long.replace("some_name + some_name", "some_name \\\n        + some_name", 1)
+    assert formatted(f"scenario s:\n  {broken}\n") == f"scenario s:\n    {broken}\n"
+
+
+def test_line_ends_and_marks() -> None:
+    assert formatted("\ufeffactor a:\r\n  x: int\r\n") == "actor a:\n    x: int\n"
+    assert formatted("actor a") == "actor a\n"
+    assert formatted("") == ""
+    assert formatted("# only a comment") == "# only a comment\n"
+
+
+def test_strings_stay_as_they_are() -> None:
+    text = 'scenario s:\n    x: string = """two\n   lines  # no comment"""\n'
+    assert formatted(text) == text
+
+
+def test_comments_of_other_languages_stay_where_they_are_allowed() -> None:
+    source = SourceFile("s.osc", "/* one\n two */\nactor /* three */ a\n")
+    text = format_source(source, DiagnosticSink(), allow=frozenset({"OSC111"}))
+    assert text == "/* one\n two */\nactor /* three */ a\n"
+
+
+def test_a_text_with_syntax_errors_is_refused() -> None:
+    sink = DiagnosticSink()
+    assert format_source(SourceFile("s.osc", "actor (\n"), sink) is None
+    assert sink.has_errors
+
+
+def formatted(text: str) -> str | None:
+    sink = DiagnosticSink()
+    result = format_source(SourceFile("s.osc", text), sink)
+    assert not sink.has_errors, sink.sorted()
+    return result
