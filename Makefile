@@ -7,7 +7,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: docs-diagnostics demo test test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo test test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/
@@ -28,8 +28,25 @@ lint: $(STAMP)
 goldens: $(STAMP)
 	$(BIN)/pytest -q --update-golden
 
+# The site, in out/site; every link is checked.
+docs: $(VENV)/.docs
+	$(BIN)/python tools/make_cli_doc.py
+	$(BIN)/python tools/make_config_doc.py
+	$(BIN)/python tools/make_diagnostics_doc.py
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs --quiet build
+
+$(VENV)/.docs: $(STAMP)
+	$(BIN)/python -m pip install --quiet -e ".[docs]"
+	touch $@
+
 docs-diagnostics: $(STAMP)
 	$(BIN)/python tools/make_diagnostics_doc.py
+
+docs-config: $(STAMP)
+	$(BIN)/python tools/make_config_doc.py
+
+coverage: $(STAMP)
+	$(BIN)/python tools/make_coverage.py
 
 parser: $(STAMP)
 	sh tools/make_parser.sh
@@ -40,6 +57,7 @@ tables: $(STAMP)
 	$(BIN)/python tools/make_runtime_api.py
 	$(BIN)/osc2tx build scenarios/ -o generated/
 	$(BIN)/python tools/make_readme_example.py
+	$(BIN)/python tools/make_coverage.py
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)

@@ -9,7 +9,7 @@ Prints, for generated files of 1,000, 10,000 and 100,000 lines (`--huge`: 200,00
 - the highest memory of a process that parses the text, in KB a line.
 
 Then what it costs to start: the library from its snapshot against parsing it, and `osc2tx check` of
-one scenario in a new process against `python -c "import antlr4"`.
+one scenario in a new process, for the first time and again, against `python -c "import antlr4"`.
 
 Times are CPU seconds, the least of a few runs. Ratios count, not seconds: the column `x loop`
 compares all with a loop over the characters of the same text.
@@ -217,7 +217,8 @@ def print_start() -> None:
         "import antlr4": ["-c", "import antlr4"],
         "import click": ["-c", "import click"],
         "check without snapshot": check,
-        "check": check,
+        "check": [*check, "--no-cache"],
+        "check, remembered": check,
     }
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "PYTHONPYCACHEPREFIX": folder, "XDG_CACHE_HOME": folder}

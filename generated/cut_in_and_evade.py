@@ -125,7 +125,7 @@ class CutInAndEvade(Scenario):
         )
 
     # --- Truck ---
-    def npc_part(self) -> Behaviour:  # cut_in_and_evade.osc:66
+    def npc_part(self) -> Behaviour:  # cut_in_and_evade.osc:68
         return Serial(
             "npc_part",
             Until(

@@ -1,3 +1,31 @@
-"""osc2tx: compiles OpenSCENARIO DSL 2.1/2.2 into readable py_trees modules."""
+"""osc2tx: compiles OpenSCENARIO DSL 2.1/2.2 into readable py_trees modules.
+
+`compile_file` and `compile_text` are the compiler as a library; `osc2tx.testing` helps test
+scenarios with pytest.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from osc2tx.api import CompileResult, compile_file, compile_text
+    from osc2tx.diagnostics import Diagnostic
 
 __version__ = "0.1.0"
+__all__ = ["CompileResult", "Diagnostic", "__version__", "compile_file", "compile_text"]
+
+# Loaded when they are asked for: the command line starts without them.
+_HOMES = {
+    "CompileResult": "osc2tx.api",
+    "Diagnostic": "osc2tx.diagnostics",
+    "compile_file": "osc2tx.api",
+    "compile_text": "osc2tx.api",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

@@ -1,6 +1,7 @@
 """Runs the stages on one source file and keeps what they make.
 
-    source ─ ast ─ model ─ analysis ─ ir ─ module
+    source ─ ast ─ model ─ analysis ─ ir ─┬─ module
+                                          └─ xml
 
 Each product is made when it is first asked for, from the one before it. A product is `None` when
 the source has errors that stand in the way; the sink says which.
@@ -9,26 +10,35 @@ the source has errors that stand in the way; the sink says which.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
-from osc2tx.diagnostics.suppressions import Settled, settle
-from osc2tx.imports import ImportLoader
+from osc2tx.diagnostics.report import ScenarioEntry
+from osc2tx.imports import ImportLoader, Lookup, leads_outside, look_up
+from osc2tx.light_dataclass import dataclass
 from osc2tx.options import CompileOptions, ProductName
+from osc2tx.reported import LossEntry, settle_all
 from osc2tx.stack import room_for_trees
 from osc2tx.syntax import dump_ast, parse, read_source
-from osc2tx.syntax.suppressions import find_suppressions
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from osc2tx.analysis import Analysis, ScenarioLevel
     from osc2tx.backends.py_trees.emitter import GeneratedModule
+    from osc2tx.backends.xosc.emitter import XmlScenario
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
     from osc2tx.syntax.ast import File
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """A file that a source makes: `stem` of its compilation, then `suffix`, holds `text`."""
+
+    suffix: str
+    text: str
 
 
 class Compilation:
@@ -39,11 +49,19 @@ class Compilation:
         name: How diagnostics and generated files call it; relative, forward slashes.
         options: How to compile it.
         sink: What the stages had to say so far.
+        lookups: Where imported files were looked for, and what was found there.
         is_complete: Whether all stages that can report something ran and found no error.
     """
 
     def __init__(
-        self, path: Path, name: str, options: CompileOptions, *, roots: Sequence[Path] = ()
+        self,
+        path: Path,
+        name: str,
+        options: CompileOptions,
+        *,
+        roots: Sequence[Path] = (),
+        is_trusted: bool = True,
+        text: str | None = None,
     ) -> None:
         """Take the file; nothing is read yet.
 
@@ -52,17 +70,29 @@ class Compilation:
             name: What to call it.
             options: How to compile it.
             roots: Folders whose files it may import, besides its own folder.
+            is_trusted: Whether somebody asked for this very file; else it is not read if it is a
+                link to somewhere outside of the folders.
+            text: The text, for a file that exists only in the mind of the caller.
         """
         self.path = path
         self.name = name
         self.options = options
         self.sink = DiagnosticSink()
+        self.lookups: dict[Path, Lookup] = {}
         self.is_complete = False
         self._roots = (path.parent, *roots)
+        self._is_trusted = is_trusted
+        self._text = text
 
     @cached_property
     def source(self) -> SourceFile | None:
         """The text."""
+        if self._text is not None:
+            return SourceFile(self.name, self._text, self.path)
+        if not self._is_trusted and leads_outside(self.path, self._roots):
+            message = f"cannot read `{self.name}`: it is a link to a file outside of the folder"
+            self.sink.report("OSC101", None, message, help="name the file itself to compile it")
+            return None
         return read_source(self.path, self.name, self.sink)
 
     @cached_property
@@ -73,17 +103,28 @@ class Compilation:
         return parse(self.source, self.sink, allow=self._relaxed)
 
     @cached_property
+    def formatted(self) -> str | None:
+        """The text in the style of the standard (§9.2.2); not made if it has syntax errors."""
+        if self.source is None:
+            return None
+        from osc2tx.formatter import format_source
+
+        return format_source(self.source, self.sink, allow=self._relaxed)
+
+    @cached_property
     def model(self) -> SemanticModel | None:
         """The checked program; not made for a text with syntax errors, as they breed others."""
         if self.ast is None or self._failed():
             return None
         from osc2tx.semantics import DIALECTS, ModelBuilder
 
+        loader = ImportLoader(self.path, self.name, self._roots, self.sink, self._relaxed)
+        self.lookups = loader.lookups
         builder = ModelBuilder(
             self.sink,
             standard=self.options.standard,
             dialect=DIALECTS[self.options.dialect],
-            load=ImportLoader(self.path, self.name, self._roots, self.sink, self._relaxed),
+            load=loader,
         )
         with room_for_trees():
             return builder.build(self.ast)
@@ -96,7 +137,7 @@ class Compilation:
         from osc2tx.analysis import analyse
 
         with room_for_trees():
-            return analyse(self.model, self.sink)
+            return analyse(self.model, self.sink, self.options.one_of)
 
     @property
     def levels(self) -> Sequence[ScenarioLevel]:
@@ -114,7 +155,7 @@ class Compilation:
         from osc2tx.lowering import lower
 
         with room_for_trees():
-            module = lower(self.model, self.options, self.sink)
+            module = lower(self.model, self.analysis.constraints, self.options, self.sink)
             if self._failed():
                 return None
             verify(module)
@@ -125,31 +166,119 @@ class Compilation:
         """Whether the backend can write all of it down; what it cannot is reported."""
         if self.ir is None:
             return False
-        from osc2tx.backends.py_trees.support import check_support
+        if self.options.target != "xosc":
+            from osc2tx.backends.py_trees.support import check_support
 
-        check_support(self.ir, self.sink)
+            check_support(self.ir, self.sink)
         self.is_complete = not self._failed()
-        return self.is_complete
+        if self.options.target == "xosc":
+            self._report_losses()
+        return not self._failed()
 
     @cached_property
     def module(self) -> GeneratedModule | None:
         """The Python module; `None` also for a file that declares no scenario."""
-        if self.ir is None or not self.is_supported or not self.ir.scenarios:
+        if self.ir is None or self.options.target == "xosc":
+            return None
+        if not self.is_supported or not self.ir.scenarios:
             return None
         from osc2tx.backends.py_trees import emit
 
         with room_for_trees():
             return emit(self.ir)
 
+    @cached_property
+    def xml(self) -> tuple[XmlScenario, ...]:
+        """The scenarios of the file as OpenSCENARIO XML, each with what became of it.
+
+        Empty for a library, if there are errors, and if only modules are asked for.
+        """
+        if self.ir is None or not self.ir.scenarios or self.options.target == "py":
+            return ()
+        from osc2tx.backends.xosc import emit
+
+        with room_for_trees():
+            found = emit(self.ir, self.options.xml, self.path.parent, self.stem)
+        for scenario in found:
+            for place in scenario.map_places:
+                self.lookups[place] = look_up(place)
+        return found
+
     @property
-    def is_readable(self) -> bool:
-        """Whether there is a text at all."""
-        return self.source is not None
+    def stem(self) -> str:
+        """What the names of all outputs begin with."""
+        if self.ir is None or not self.ir.scenarios:
+            return ""
+        from osc2tx.backends.py_trees.emitter import module_stem
+
+        return module_stem(self.ir.source)
+
+    def outputs(self) -> Sequence[Output]:
+        """Return the files that the source makes; none for a library, or if there are errors.
+
+        A scenario that OpenSCENARIO XML cannot say makes only the report that says why.
+        """
+        if self.ir is None or not self.is_supported:
+            return self._xml_outputs() if self.options.target == "xosc" else ()
+        modules = (
+            ()
+            if self.module is None
+            else (
+                Output(".py", self.module.python),
+                Output(".map.json", self.module.source_map),
+            )
+        )
+        return (*modules, *self._xml_outputs())
+
+    def _xml_outputs(self) -> tuple[Output, ...]:
+        return tuple(
+            Output(f"{scenario.infix}{suffix}", text)
+            for scenario in self.xml
+            for suffix, text in (
+                (".xosc", scenario.xml),
+                (".params.xosc", scenario.parameters),
+                (".xosc.report.json", scenario.report_json),
+            )
+            if text is not None
+        )
+
+    @property
+    def losses(self) -> tuple[LossEntry, ...]:
+        """How the scenarios fared on their way to XML, as far as that was asked for."""
+        return tuple(
+            LossEntry(scenario.name, scenario.xml is not None, scenario.report.summary())
+            for scenario in self.xml
+        )
+
+    def _report_losses(self) -> None:
+        """Report what keeps scenarios from being XML."""
+        for scenario in self.xml:
+            for entry in scenario.report.obstacles:
+                self.sink.report(entry.code, entry.span, entry.message, help=entry.help)
 
     @property
     def start(self) -> Span:
         """The place of what concerns the file as a whole, even if there is no text."""
         return Span(self.source or SourceFile(self.name, "", self.path), 0, 0)
+
+    @property
+    def reports(self) -> tuple[Diagnostic, ...]:
+        """All that was reported, suppressed or not."""
+        return self.sink.sorted()
+
+    @property
+    def scenarios(self) -> tuple[ScenarioEntry, ...]:
+        """The levels as plain data, for reports."""
+        return tuple(
+            ScenarioEntry(
+                source=found.scenario.span.source,
+                name=found.scenario.qualified_name,
+                level=found.level.value,
+                open=tuple(opening.text for opening in found.open),
+                summary=str(found),
+            )
+            for found in self.levels
+        )
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
@@ -194,30 +323,15 @@ def _dump_module(compilation: Compilation) -> str | None:
     return None if compilation.module is None else compilation.module.python
 
 
+def _dump_xml(compilation: Compilation) -> str | None:
+    written = [scenario.xml for scenario in compilation.xml if scenario.xml is not None]
+    return "\n".join(written) if written else None
+
+
 _DUMPS: Mapping[ProductName, Callable[[Compilation], str | None]] = {
     "ast": _dump_ast,
     "model": _dump_model,
     "ir": _dump_ir,
     "py": _dump_module,
+    "xosc": _dump_xml,
 }
-
-
-def settle_all(compilations: Sequence[Compilation]) -> Settled:
-    """Return what was reported on several files, each report once, and what comments suppress.
-
-    A report in a file that several others import counts once; a suppression there is used if it
-    is of use to one of them.
-    """
-    found: dict[tuple[object, ...], Diagnostic] = {}
-    for compilation in compilations:
-        for reported in compilation.sink.sorted():
-            span = reported.primary or compilation.start
-            diagnostic = replace(reported, primary=span)
-            place = (span.source.identity, span.start, span.end)
-            found.setdefault((diagnostic.code, diagnostic.message, *place), diagnostic)
-    judged = {
-        compilation.source: compilation.is_complete
-        for compilation in compilations
-        if compilation.source is not None
-    }
-    return settle(found.values(), judged, find_suppressions)

@@ -9,7 +9,23 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
+from osc2tx.light_dataclass import dataclass
 from osc2tx.syntax import ast, parse, read_source
+
+
+@dataclass(frozen=True, slots=True)
+class Lookup:
+    """What was found where an imported file could be.
+
+    Attributes:
+        path: The place, links followed; empty if no file can have such a name.
+        text: What the file says; `None` if nothing was read.
+        is_refused: Whether there may be something that was not read, or could not be.
+    """
+
+    path: str
+    text: str | None = None
+    is_refused: bool = False
 
 
 class ImportLoader:
@@ -19,6 +35,9 @@ class ImportLoader:
     read: only files below the given folders are opened, and links are followed before a path is
     judged. What is refused is reported here and gives an empty tree; `None` means that there is
     no such file, which is for the caller to report.
+
+    Attributes:
+        lookups: All places that were looked at; the product depends on what is there.
     """
 
     def __init__(
@@ -44,6 +63,8 @@ class ImportLoader:
         self._sink = sink
         self._relaxed = relaxed
         self._parsed: dict[Path, ast.File] = {}
+        self._read: dict[Path, Lookup] = {}
+        self.lookups: dict[Path, Lookup] = {}
 
     def __call__(self, statement: ast.Import, source: SourceFile) -> ast.File | None:
         """Return the tree of the imported file.
@@ -76,14 +97,18 @@ class ImportLoader:
         return None
 
     def _open(self, statement: ast.Import, path: Path, written: str) -> ast.File | None:
+        asked = path
         try:
             path = path.resolve()
             allowed = any(path.is_relative_to(root) for root in self._roots)
             if allowed and not path.exists():
+                self.lookups[asked] = Lookup(str(path))
                 return None
         except (OSError, ValueError):  # a name that no file can have
+            self.lookups[asked] = Lookup("")
             return None
         if not allowed:
+            self.lookups[asked] = Lookup(str(path), is_refused=True)
             return self._refuse(
                 statement,
                 f"`{written}` lies outside of the folders that may be imported from",
@@ -91,6 +116,7 @@ class ImportLoader:
             )
         if path not in self._parsed:
             self._parsed[path] = self._parse(statement, path)
+        self.lookups[asked] = self._read[path]
         return self._parsed[path]
 
     def _parse(self, statement: ast.Import, path: Path) -> ast.File:
@@ -99,7 +125,9 @@ class ImportLoader:
         found = DiagnosticSink()
         source = read_source(path, name, found)
         if source is not None:
+            self._read[path] = Lookup(str(path), source.text)
             return parse(source, self._sink, allow=self._relaxed)
+        self._read[path] = Lookup(str(path), is_refused=True)
         for report in found.sorted():
             self._sink.report(report.code, statement.span, report.message, help=report.help)
         return _nothing(statement)
@@ -125,3 +153,25 @@ def _local_path(uri: str) -> str | None:
     if len(parts.scheme) > 1 and "://" in uri:  # one letter is a drive
         return None
     return uri
+
+
+def look_up(place: Path) -> Lookup:
+    """Return what is at a place, for a file that is no scenario."""
+    try:
+        path = place.resolve()
+        return Lookup(str(path), path.read_text(encoding="utf-8"))
+    except (FileNotFoundError, NotADirectoryError):
+        return Lookup(str(path))
+    except (OSError, ValueError):
+        return Lookup("", is_refused=True)
+
+
+def leads_outside(path: Path, folders: Sequence[Path]) -> bool:
+    """Return whether a file is a link to something that is in none of the folders."""
+    if not path.is_symlink():
+        return False
+    try:
+        target = path.resolve()
+    except (OSError, RuntimeError):  # a link to itself is for the reader to report
+        return False
+    return not any(target.is_relative_to(folder.resolve()) for folder in folders)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+
+from osc2tx.light_dataclass import dataclass
 
 
 class InputError(Exception):
@@ -29,10 +30,12 @@ class Input:
         path: Where it is.
         folder: The folder that was asked for, or that of the file that was asked for; imports
             may reach everything in it, and outputs mirror its layout.
+        is_asked: Whether this very file was asked for.
     """
 
     path: Path
     folder: Path
+    is_asked: bool
 
     @property
     def name(self) -> str:
@@ -48,12 +51,22 @@ def find_inputs(paths: Sequence[str | Path]) -> list[Input]:
     Raises:
         InputError: If a path does not exist, or a folder holds no scenario file.
     """
-    found: dict[Path, Input] = {}
+    found: dict[str, Input] = {}
+    folders: dict[Path, str] = {}
     for path in map(Path, paths):
         for item in _inputs_of(path):
             _require_unicode(item.path)
-            found.setdefault(item.path.resolve(), item)
+            found.setdefault(_real_path(item.path, folders), item)
     return list(found.values())
+
+
+def _real_path(path: Path, folders: dict[Path, str]) -> str:
+    """Return the path with links followed; those of a folder once for all its files."""
+    if path.is_symlink():
+        return os.path.realpath(path)
+    if path.parent not in folders:
+        folders[path.parent] = os.path.realpath(path.parent)
+    return os.path.join(folders[path.parent], path.name)
 
 
 def _inputs_of(path: Path) -> list[Input]:
@@ -61,13 +74,17 @@ def _inputs_of(path: Path) -> list[Input]:
         if not path.exists():
             raise InputError(f"{path}: no such file or folder")
         if not path.is_dir():
-            return [Input(path, path.parent)]
+            return [Input(path, path.parent, is_asked=True)]
     except (OSError, ValueError) as error:
         raise InputError(f"{str(path)!r}: {error}") from None
     inputs = []
     for folder, folders, files in os.walk(path, onerror=_refuse):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        inputs += [Input(Path(folder, name), path) for name in sorted(files) if _is_source(name)]
+        inputs += [
+            Input(Path(folder, name), path, is_asked=False)
+            for name in sorted(files)
+            if _is_source(name)
+        ]
     if not inputs:
         raise InputError(f"{path}: no .osc file in this folder", unreadable=False)
     return inputs

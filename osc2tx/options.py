@@ -2,18 +2,48 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Literal, TypeAlias
+
+from osc2tx.light_dataclass import dataclass
 
 Standard: TypeAlias = Literal["2.1", "2.2"]
 Dialect: TypeAlias = Literal["asam", "carla"]
 OneOfPolicy: TypeAlias = Literal["race", "first", "seeded"]
-ProductName: TypeAlias = Literal["ast", "model", "ir", "py"]
+ProductName: TypeAlias = Literal["ast", "model", "ir", "py", "xosc"]
+Target: TypeAlias = Literal["all", "py", "xosc"]
+XmlVersion: TypeAlias = Literal["1.0", "1.1", "1.2", "1.3"]
+XmlProfile: TypeAlias = Literal["generic", "esmini", "scenario_runner"]
 
 STANDARDS: tuple[Standard, ...] = ("2.1", "2.2")
 DIALECTS: tuple[Dialect, ...] = ("asam", "carla")
 ONE_OF_POLICIES: tuple[OneOfPolicy, ...] = ("race", "first", "seeded")
-PRODUCT_NAMES: tuple[ProductName, ...] = ("ast", "model", "ir", "py")  # of `--emit`
+PRODUCT_NAMES: tuple[ProductName, ...] = ("ast", "model", "ir", "py", "xosc")  # of `--emit`
+TARGETS: tuple[Target, ...] = ("all", "py", "xosc")
+XML_VERSIONS: tuple[XmlVersion, ...] = ("1.0", "1.1", "1.2", "1.3")
+ONLY_VERSIONS: Mapping[str, XmlVersion] = {"scenario_runner": "1.0"}  # of profiles that have one
+XML_PROFILES: tuple[XmlProfile, ...] = ("generic", "esmini", "scenario_runner")
+
+
+@dataclass(frozen=True, slots=True)
+class XmlOptions:
+    """What can be chosen about OpenSCENARIO XML.
+
+    Attributes:
+        version: Version of the standard to write.
+        profile: The tool that is to read it.
+        allow_approx: Whether constructs may mean nearly the same.
+        signals: Events from outside with their times, as for `osc2tx run --signal`.
+        spawns: Start places of actors that the scenario does not place, as for `--spawn`.
+        map_path: Folders with maps, besides that of the source and the built-in ones.
+    """
+
+    version: XmlVersion = "1.3"
+    profile: XmlProfile = "generic"
+    allow_approx: bool = False
+    signals: tuple[str, ...] = ()
+    spawns: tuple[str, ...] = ()
+    map_path: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +54,13 @@ class CompileOptions:
         standard: Version of OpenSCENARIO DSL.
         dialect: The language as the standard has it, or as a simulator's users write it.
         one_of: Which member of a `one_of` counts.
+        target: What is made: modules, OpenSCENARIO XML, or both, XML then only where it can say
+            what the scenario says.
+        xml: What counts for OpenSCENARIO XML only.
     """
 
     standard: Standard = "2.1"
     dialect: Dialect = "asam"
     one_of: OneOfPolicy = "race"
+    target: Target = "all"
+    xml: XmlOptions = XmlOptions()

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
 from osc2tx import __version__
-from osc2tx.diagnostics import render
-from osc2tx.diagnostics.report import Report, ScenarioEntry, make_report
-
-if TYPE_CHECKING:
-    from osc2tx.driver import Compilation
+from osc2tx.diagnostics.report import Report, make_report
+from osc2tx.reported import Reported, settle_all
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)
@@ -45,31 +42,42 @@ class Exit(IntEnum):
     INTERRUPTED = 130
 
 
+@dataclass(slots=True)
+class Session:
+    """One run of the command line.
+
+    Attributes:
+        has_document: Whether a program that reads our output has got its document.
+    """
+
+    has_document: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class Reporter:
     """Prints what a command has to say.
 
     Attributes:
+        session: The run of the command line that this is for.
         form: How diagnostics are printed.
         is_strict: Whether warnings count for the exit code.
         most_shown: How many diagnostics of one file are shown, 0 for all; `None` leaves it to
             the form: readers are spared an avalanche, programs are not.
     """
 
+    session: Session
     form: OutputFormat = "text"
     is_strict: bool = False
     most_shown: int | None = None
 
     def report(
-        self, compilations: Sequence[Compilation], bugs: Sequence[str] = ()
+        self, compilations: Sequence[Reported], bugs: Sequence[str] = ()
     ) -> tuple[Exit, Report]:
         """Print all diagnostics, and bugs of ours.
 
         Returns:
             The exit code they call for, and what there is to report.
         """
-        from osc2tx.driver import settle_all
-
         most = self.most_shown
         if most is None:
             most = MOST_SHOWN if self.form in FORMATS_FOR_READERS else 0
@@ -81,7 +89,8 @@ class Reporter:
             folder=Path.cwd(),
             most_shown=most,
         )
-        report = replace(report, scenarios=tuple(_scenarios(compilations)))
+        entries = (entry for item in compilations for entry in item.scenarios)
+        report = replace(report, scenarios=tuple(entries))
         self._print(report, failed=bool(bugs))
         for bug in bugs:
             complain(bug)
@@ -93,28 +102,43 @@ class Reporter:
         """Print that there is nothing to report, where programs expect a document."""
         self._print(Report(), failed=False)
 
+    def warn(self, sentences: Sequence[str]) -> Exit:
+        """Print warnings that belong to no place in a source; return the exit code they call for.
+
+        They are told once each, before all that is not a diagnostic.
+        """
+        for sentence in sentences:
+            complain(f"warning: {sentence}")
+        return Exit.WARNINGS if self.is_strict and sentences else Exit.OK
+
+    def find_fault(self, file: Path, message: str) -> None:
+        """Print what is wrong with an output."""
+        complain(f"{file}: {message}")
+        if self.form == "github":
+            from osc2tx.diagnostics.render import render_remark
+
+            text = render_remark(file.as_posix(), "osc2tx build --check", message)
+            click.echo(text, nl=False)
+
     def say(self, line: str) -> None:
         """Print a line that sums up, where it does not disturb."""
         click.echo(line, err=self.form != "text")
 
     def _print(self, report: Report, *, failed: bool) -> None:
-        match self.form:
-            case "text":
-                _print_text(report)
-            case "json":
-                click.echo(render.render_json(report, version=__version__), nl=False)
-            case "sarif":
-                text = render.render_sarif(report, version=__version__, failed=failed)
-                click.echo(text, nl=False)
-            case "github":
-                click.echo(render.render_github(report), nl=False)
+        if self.form == "text":
+            _print_text(report)
+        elif self.form != "github" and self.session.has_document:
+            return  # a second document would spoil the first, as in the rounds of --watch
+        else:
+            self.session.has_document = True
+            click.echo(_document(report, self.form, failed=failed), nl=False)
 
     def _exit_code(
-        self, compilations: Sequence[Compilation], report: Report, bugs: Sequence[str]
+        self, compilations: Sequence[Reported], report: Report, bugs: Sequence[str]
     ) -> Exit:
         if bugs:
             return Exit.BUG
-        if not all(compilation.is_readable for compilation in compilations):
+        if any(compilation.source is None for compilation in compilations):
             return Exit.UNREADABLE
         if report.errors:
             return Exit.ERRORS
@@ -132,7 +156,8 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
         max_diagnostics: int | None,
         **more: Any,
     ) -> Any:
-        reporter = Reporter(output_format, strict, max_diagnostics)
+        session = click.get_current_context().find_object(Session) or Session()
+        reporter = Reporter(session, output_format, strict, max_diagnostics)
         return command(*args, reporter=reporter, **more)
 
     options = (
@@ -155,11 +180,51 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return with_reporter
 
 
+def report_failure(message: str, arguments: Sequence[str], session: Session) -> None:
+    """Print a document that says why there is nothing else, if the reader waits for one.
+
+    Args:
+        message: Why the command did not begin.
+        arguments: The command line; it may be wrong, so only the form is looked for.
+        session: Knows whether there is a document already.
+    """
+    form = _form_asked_for(arguments)
+    if form != "text" and not session.has_document:
+        session.has_document = True
+        click.echo(_document(Report(failure=message), form, failed=True), nl=False)
+
+
+def _form_asked_for(arguments: Sequence[str]) -> OutputFormat:
+    form: OutputFormat = "text"
+    for index, argument in enumerate(arguments):
+        name, sign, value = argument.partition("=")
+        if name == "--output-format":
+            written = value if sign else "".join(arguments[index + 1 : index + 2])
+            form = next((known for known in OUTPUT_FORMATS if known == written), form)
+    return form
+
+
+def _document(report: Report, form: OutputFormat, *, failed: bool) -> str:
+    from osc2tx.diagnostics import render
+
+    match form:
+        case "json":
+            return render.render_json(report, version=__version__)
+        case "sarif":
+            return render.render_sarif(report, version=__version__, failed=failed)
+        case "github":
+            return render.render_github(report)
+        case "text":
+            raise ValueError("a text for people is no document")
+
+
 def _print_text(report: Report) -> None:
     if not report.diagnostics:
         return
+    from osc2tx.diagnostics.render import render_all  # mostly there is nothing to render
+
     color = sys.stderr.isatty() and "NO_COLOR" not in os.environ
-    text = render.render_all(report.diagnostics, color=color, folder=report.folder)
+    text = render_all(report.diagnostics, color=color, folder=report.folder)
     click.echo(text, err=True, color=color)
     for file, count in report.hidden.items():
         complain(f"{file}: {count} more not shown" if file else f"{count} more not shown")
@@ -180,14 +245,3 @@ def found(report: Report) -> str:
 def count_of(number: int, noun: str) -> str:
     """Return a number with its noun."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def _scenarios(compilations: Sequence[Compilation]) -> Iterator[ScenarioEntry]:
-    for compilation in compilations:
-        for found in compilation.levels:
-            yield ScenarioEntry(
-                source=found.scenario.span.source,
-                name=found.scenario.qualified_name,
-                level=found.level.value,
-                open=tuple(opening.text for opening in found.open),
-            )

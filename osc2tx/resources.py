@@ -14,9 +14,7 @@ def resource_dir(name: str) -> Path:
     Raises:
         FileNotFoundError: If there is no such folder.
     """
-    from importlib.resources import files
-
-    package = Path(str(files("osc2tx")))
+    package = Path(__file__).resolve().parent
     if (package / name).is_dir():
         return package / name
     checkout = package.parent

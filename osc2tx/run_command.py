@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import importlib.util
 import sys
-import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from osc2tx.build import compile_all, run_all
-from osc2tx.cli import compile_options
+from osc2tx.building.jobs import compile_all, run_all
+from osc2tx.cli.options import compile_options
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.inputs import InputError, find_inputs
+from osc2tx.loading import scenarios_of_file, scenarios_of_module
 from osc2tx.reporting import Exit, Reporter, complain, report_options
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import SettingsError
@@ -44,7 +42,7 @@ def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @click.command()
-@click.argument("file", metavar="FILE")
+@click.argument("file", metavar="FILE", type=click.Path())
 @click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
 @compile_options
 @report_options
@@ -52,9 +50,7 @@ def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def run(
     file: str,
     scenario: str | None,
-    std: str | None,
-    dialect: str | None,
-    one_of: str | None,
+    given: GivenOptions,
     reporter: Reporter,
     **run_texts: str | tuple[str, ...] | None,
 ) -> Exit:
@@ -71,7 +67,7 @@ def run(
     if path.suffix == ".py":
         reporter.report_nothing()
         return _run_written(path, scenario, settings, reporter)
-    (compilation,) = compile_all([path], GivenOptions(std, dialect, one_of))
+    (compilation,) = compile_all([path], given)
     return _run_source(compilation, scenario, settings, reporter)
 
 
@@ -86,23 +82,20 @@ def _run_source(
     path = compilation.path
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
-    with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
-        place = Path(folder, f"{module.stem}.py")
-        place.write_text(module.python, encoding="utf-8")
-        place.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")
-        with _imported(place, Path(folder).name) as imported:
-            return _run_one_of(_scenarios_of(imported), path, wanted, settings, reporter)
+    with scenarios_of_module(module) as scenarios:
+        return _run_one_of(scenarios, path, wanted, settings, reporter)
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
     """Run a module that somebody gives us: it may be anything."""
     imported = ExitStack()
     try:
-        module = imported.enter_context(_imported(path, f"osc2tx_run_{path.stem}"))
+        module = scenarios_of_file(path, f"osc2tx_run_{path.stem}")
+        scenarios = imported.enter_context(module)
     except (ImportError, SyntaxError, ValueError, OSError) as error:
         raise InputError(f"{path}: cannot be imported: {error}") from error
     with imported:
-        return _run_one_of(_scenarios_of(module), path, wanted, settings, reporter)
+        return _run_one_of(scenarios, path, wanted, settings, reporter)
 
 
 def _run_one_of(
@@ -123,31 +116,6 @@ def _run_one_of(
         return Exit.INTERRUPTED
     reporter.say(verdict(scenario.name, result))
     return Exit.OK if result.status == "success" else Exit.FAILED
-
-
-@contextmanager
-def _imported(place: Path, name: str) -> Iterator[ModuleType]:
-    """Import a module from its file under a name of its own, and forget it afterwards."""
-    spec = importlib.util.spec_from_file_location(name, place)
-    assert spec is not None and spec.loader is not None, "every .py file has a loader"
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-        yield module
-    finally:
-        del sys.modules[name]
-
-
-def _scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:
-    """Return the scenario classes that a module defines, by the names in the source."""
-    return {
-        value.name: value
-        for value in vars(module).values()
-        if isinstance(value, type)
-        and issubclass(value, Scenario)
-        and value.__module__ == module.__name__
-    }
 
 
 def choose_scenario(

@@ -40,7 +40,8 @@ prints what this page says about a code.
 
 In the last three, summary and verdict go to stderr. Columns count characters, in SARIF UTF-16
 units. Paths are relative to the folder in which osc2tx was started. If osc2tx cannot begin (wrong
-usage, no such file), there is no document.
+usage, no such file), the document says so: `failure` in JSON, a notification in SARIF, an error
+without place on GitHub.
 
 `--strict` turns exit code 0 into 1 if there are warnings, and `run` then does not start.
 `--max-diagnostics N` shows at most N of one file and counts the rest; 0 shows all.

@@ -11,7 +11,11 @@ from pathlib import Path
 from osc2tx_runtime.capabilities import capabilities
 
 TABLE = Path(__file__).parent.parent / "osc2tx/backends/py_trees/runtime_api.json"
-USED = ("actions", "modifiers", "placement", "exclusive", "methods", "fields", "objects")
+USED = (
+    *("actions", "modifiers", "placement", "exclusive"),
+    *("conflicts", "no_start", "rules"),
+    *("methods", "fields", "objects", "needed", "reserved"),
+)
 
 
 def render() -> str:

@@ -7,8 +7,8 @@ and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` ru
    by `locate`; `overrides` drops the defaults that are replaced; `tape` flattens expressions;
    `solver` propagates `domains` to a fixed point by `forward` and `backward` over `arithmetic`.
    The result is the `ConstraintAnalysis` in `constraints`; `report_constraints` reports conflicts.
-2. Liveness. `ending` finds what never ends by itself, `usage` what is used; `liveness`, `usage` and
-   `conditions` report.
+2. Liveness. `ending` finds what never ends by itself, `usage` what is used; `liveness`, `usage`,
+   `recursion` and `conditions` report.
 3. Levels. `levels` says for each scenario whether it is abstract, logical or concrete, with what is
    open; `cast` judges its actors, `format` writes values in the units of the source.
 
@@ -20,7 +20,14 @@ unknown; nothing recurses along chains of expressions or members.
 """
 
 from osc2tx.analysis.analyse import Analysis, analyse
-from osc2tx.analysis.constraints import ConstraintAnalysis, ParameterDomain, State
+from osc2tx.analysis.constraints import (
+    ConstraintAnalysis,
+    ParameterDomain,
+    State,
+    TypeConstraints,
+    analyse_global,
+    single_value,
+)
 from osc2tx.analysis.levels import Level, Opening, ScenarioLevel
 
 __all__ = [
@@ -31,5 +38,8 @@ __all__ = [
     "ParameterDomain",
     "ScenarioLevel",
     "State",
+    "TypeConstraints",
     "analyse",
+    "analyse_global",
+    "single_value",
 ]

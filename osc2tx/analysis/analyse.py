@@ -7,10 +7,12 @@ from osc2tx.analysis.constraints import ConstraintAnalysis, analyse_constraints
 from osc2tx.analysis.ending import find_endings
 from osc2tx.analysis.levels import ScenarioLevel, find_levels
 from osc2tx.analysis.liveness import report_liveness
+from osc2tx.analysis.recursion import report_recursion
 from osc2tx.analysis.report_constraints import report_constraints
 from osc2tx.analysis.usage import find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.light_dataclass import dataclass
+from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel
 
 
@@ -27,13 +29,20 @@ class Analysis:
     levels: tuple[ScenarioLevel, ...]
 
 
-def analyse(model: SemanticModel, sink: DiagnosticSink) -> Analysis:
-    """Analyse a program without errors; report contradictions, and what can never happen."""
+def analyse(model: SemanticModel, sink: DiagnosticSink, one_of: OneOfPolicy = "race") -> Analysis:
+    """Analyse a program without errors; report contradictions, and what can never happen.
+
+    Args:
+        model: The checked program.
+        sink: Where reports go.
+        one_of: Which member of a `one_of` counts.
+    """
     usage = find_usage(model)
     constraints = analyse_constraints(model)
-    report_constraints(model, constraints, usage.settings, sink)
+    report_constraints(model, constraints, usage, sink)
     endings = find_endings(model)
+    report_recursion(model, sink)
     report_liveness(model, endings, frozenset(usage.invoked), sink)
     report_usage(model, usage, sink)
     report_conditions(model, usage, sink)
-    return Analysis(constraints, find_levels(model, constraints, endings))
+    return Analysis(constraints, find_levels(model, constraints, endings, one_of))

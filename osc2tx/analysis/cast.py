@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import field
 
+from osc2tx.analysis.applied import library_modifiers
 from osc2tx.analysis.constraints import ConstraintAnalysis, State
 from osc2tx.analysis.library_facts import (
     PACING_MODIFIERS,
@@ -54,7 +55,8 @@ def openings_of_cast(
     for ancestor in supertypes(scenario):
         for statement in ancestor.statements:
             if isinstance(statement, ast.ModifierApplication):
-                _look_at_modifier(model, cast, statement.actor, statement)
+                for modifier in library_modifiers(model, statement):
+                    _look_at_modifier(model, cast, statement.actor, modifier)
     for directive in do_directives(scenario):
         for member in do_members(directive.member):
             if isinstance(member, ast.Invocation):
@@ -97,7 +99,7 @@ def _look_at_modifier(
     actor: ast.Expression | None,
     node: ast.ModifierApplication,
 ) -> None:
-    part = _part_of(model, cast, node.actor if node.actor is not None else actor)
+    part = _part_of(model, cast, actor)
     binding = model.bindings.get(node)
     if part is None or binding is None or part.is_settled:
         return
@@ -121,7 +123,9 @@ def _look_at_invocation(model: SemanticModel, cast: _Cast, node: ast.Invocation)
         return
     for member in node.with_members:
         if isinstance(member, ast.ModifierApplication):
-            _look_at_modifier(model, cast, node.actor, member)
+            for modifier in library_modifiers(model, member):
+                whose = member.actor if member.actor is not None else node.actor
+                _look_at_modifier(model, cast, whose, modifier)
     part = _part_of(model, cast, node.actor)
     if part is None or part.is_settled:
         return

@@ -84,6 +84,26 @@ class Collector:
         own = list(self._of_type(place, owner, depth=0))
         return [*self._of_globals(own), *own]
 
+    def collect_global(self, parameter: sym.FieldSymbol) -> list[Entry]:
+        """Return what constrains a global parameter, and those that it depends on."""
+        place = Place(model=self._model, owner=None, prefix=(), it=None)
+        own: list[Entry] = []
+        if isinstance(parameter.node, ast.ParameterDeclaration):
+            own = list(self._of_field(place, parameter, parameter.node, depth=0))
+        others = [e for e in self._of_globals(own) if e not in own]
+        return [*others, *own]
+
+    def collect_globals(self) -> list[Entry]:
+        """Return what constrains the global parameters of the program."""
+        place = Place(model=self._model, owner=None, prefix=(), it=None)
+        return [
+            entry
+            for symbol in self._model.symbols
+            if isinstance(symbol, sym.FieldSymbol)
+            and isinstance(symbol.node, ast.ParameterDeclaration)
+            for entry in self._of_field(place, symbol, symbol.node, depth=0)
+        ]
+
     def _of_globals(self, entries: list[Entry]) -> list[Entry]:
         """Return what constrains the global parameters that some constraints mention."""
         place = Place(model=self._model, owner=None, prefix=(), it=None)
@@ -102,8 +122,23 @@ class Collector:
 
     def _of_type(self, place: Place, owner: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
         for ancestor in reversed(list(supertypes(owner))):
+            yield from self._of_condition(place, ancestor)
             for statement in ancestor.statements:
                 yield from self._of_statement(place, ancestor, statement, depth)
+
+    def _of_condition(self, place: Place, type_: sym.TypeSymbol) -> Iterator[Entry]:
+        """Yield what holds for all instances of a type with conditional inheritance."""
+        match type_:
+            case (
+                sym.StructSymbol(condition=ast.InheritanceCondition() as condition)
+                | sym.ActorSymbol(condition=ast.InheritanceCondition() as condition)
+                | sym.ScenarioSymbol(condition=ast.InheritanceCondition() as condition)
+                | sym.ActionSymbol(condition=ast.InheritanceCondition() as condition)
+            ):
+                field = self._model.symbol_of(condition.field)
+                if isinstance(field, sym.FieldSymbol):
+                    key = (*place.prefix, field)
+                    yield self._setting(place, key, field.type, condition.value, "condition")
 
     def _of_statement(
         self, place: Place, ancestor: sym.TypeSymbol, statement: ast.Statement, depth: int
@@ -126,7 +161,7 @@ class Collector:
         key = (*place.prefix, field)
         type_ = symbol_of(field.type)
         is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
-            t.origin == "user" for t in supertypes(type_)
+            t.origin != "library" for t in supertypes(type_)
         )
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
             inner = replace(place, owner=type_, prefix=key, it=key)
@@ -227,6 +262,8 @@ class Collector:
             return
         callee = binding.callee
         prefix = (*place.prefix, node)
+        if node in place.prefix:
+            return  # a modifier that applies itself
         if callee.origin == "user":
             it = None if isinstance(callee, sym.ModifierSymbol) else prefix
             inner = replace(place, owner=callee, prefix=prefix, it=it, it_type=None)

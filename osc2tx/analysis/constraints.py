@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from enum import Enum
 
-from osc2tx.analysis.collect import Collector, Constraint
+from osc2tx.analysis.collect import Collector, Constraint, Entry
 from osc2tx.analysis.domains import Choice, Domain, Interval, Value, close, is_void
 from osc2tx.analysis.locate import name_of
 from osc2tx.analysis.overrides import InForce, apply_overrides
@@ -84,16 +84,16 @@ class ParameterDomain:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TypeConstraints:
-    """The constraints of one type.
+    """The constraints of one type, or of a global parameter.
 
     Attributes:
-        owner: The type.
+        owner: The type; `None` for a global parameter.
         in_force: Its constraints after overriding.
         domains: What is left of each parameter that a constraint mentions.
         conflicts: Groups of constraints that cannot hold together.
     """
 
-    owner: sym.TypeSymbol
+    owner: sym.TypeSymbol | None
     in_force: InForce
     domains: Mapping[Key, Domain]
     conflicts: tuple[tuple[Constraint, ...], ...]
@@ -125,6 +125,17 @@ class TypeConstraints:
             replaced=tuple(c for c in self.in_force.replaced if c.subject == key),
         )
 
+    def domains_to_set(self) -> Mapping[Key, Domain]:
+        """Return what is left of each parameter when all plain defaults may be replaced.
+
+        That is what settings of a run may choose from: they come after every default.
+        """
+        plain = {
+            c for c in self.in_force.constraints if c.is_default and c.subject and not c.is_range
+        }
+        firm = [c for c in self.in_force.constraints if c not in plain]
+        return solve([c.tape for c in firm], range(len(firm))).domains
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ConstraintAnalysis:
@@ -152,8 +163,18 @@ def analyse_constraints(model: SemanticModel) -> ConstraintAnalysis:
     """Collect and propagate the constraints of every type in the user's files."""
     collector = Collector(model)
     return ConstraintAnalysis(
-        {owner: _analyse(collector, owner) for owner in declared_types(model)}
+        {owner: _analyse(owner, collector.collect(owner)) for owner in declared_types(model)}
     )
+
+
+def analyse_global(model: SemanticModel, parameter: sym.FieldSymbol) -> TypeConstraints:
+    """Collect and propagate what constrains a global parameter."""
+    return _analyse(None, Collector(model).collect_global(parameter))
+
+
+def analyse_globals(model: SemanticModel) -> TypeConstraints:
+    """Collect and propagate what constrains the global parameters together."""
+    return _analyse(None, Collector(model).collect_globals())
 
 
 def declared_types(model: SemanticModel) -> list[sym.TypeSymbol]:
@@ -162,8 +183,8 @@ def declared_types(model: SemanticModel) -> list[sym.TypeSymbol]:
     return sorted(found, key=lambda symbol: isinstance(symbol, sym.ScenarioSymbol))
 
 
-def _analyse(collector: Collector, owner: sym.TypeSymbol) -> TypeConstraints:
-    in_force = apply_overrides(collector.collect(owner))
+def _analyse(owner: sym.TypeSymbol | None, entries: list[Entry]) -> TypeConstraints:
+    in_force = apply_overrides(entries)
     constraints = in_force.constraints
     tapes = [constraint.tape for constraint in constraints]
     active = list(range(len(constraints)))
@@ -176,7 +197,7 @@ def _analyse(collector: Collector, owner: sym.TypeSymbol) -> TypeConstraints:
         solution = solve(tapes, active)
     by_key: dict[Key, list[Constraint]] = {}
     for constraint in constraints:
-        for key in constraint.tape.keys:
+        for key in constraint.tape.keys_in_order:
             by_key.setdefault(key, []).append(constraint)
     return TypeConstraints(
         owner=owner,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from osc2tx.analysis.library_facts import is_instant, is_open_ended
+from osc2tx.analysis.applied import library_modifiers
+from osc2tx.analysis.library_facts import BOUNDING_MODIFIERS, is_instant, is_open_ended
 from osc2tx.analysis.trees import do_directives, do_members, nodes_below
 from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
@@ -80,9 +81,9 @@ class _Judge:
     def _is_endless(self, member: ast.BehaviorMember) -> bool:
         match member:
             case ast.Composition():
-                return not is_bounded(member) and self._has_endless_content(member)
+                return not is_bounded(self.model, member) and self._has_endless_content(member)
             case ast.Invocation():
-                return not is_bounded(member) and self._goes_on(self._callee(member))
+                return not is_bounded(self.model, member) and self._goes_on(self._callee(member))
             case _:
                 return False
 
@@ -108,8 +109,8 @@ class _Judge:
         return binding.callee if binding is not None else None
 
 
-def is_bounded(node: ast.Composition | ast.Invocation) -> bool:
-    """Whether a member has a duration or an `until` of its own."""
+def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> bool:
+    """Whether a member has a duration, an `until` or a goal of its own."""
     first = "duration" if isinstance(node, ast.Composition) else ""
     if isinstance(node, ast.Composition) and node.operator is ast.CompositionOperator.PARALLEL:
         first = ""  # the first argument is the overlap
@@ -117,8 +118,27 @@ def is_bounded(node: ast.Composition | ast.Invocation) -> bool:
         if (argument.name.text if argument.name is not None else first) == "duration":
             return True
     return any(
-        isinstance(member, ast.UntilDirective) or _speaks_of_duration(member)
+        isinstance(member, ast.UntilDirective)
+        or _speaks_of_duration(member)
+        or _is_goal(model, member)
         for member in node.with_members
+    )
+
+
+def _is_goal(model: SemanticModel, member: ast.WithMember) -> bool:
+    """Whether a modifier says what is reached at the end."""
+    return isinstance(member, ast.ModifierApplication) and any(
+        modifier.modifier.text in BOUNDING_MODIFIERS or _speaks_of_end(modifier)
+        for modifier in library_modifiers(model, member)
+    )
+
+
+def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:
+    return any(
+        argument.name is not None
+        and argument.name.text == "at"
+        and argument.value.span.text == "end"
+        for argument in modifier.arguments
     )
 
 

@@ -16,7 +16,7 @@ MOST_CHOICES = 6
 
 
 def format_range(model: SemanticModel, parameter: ParameterDomain) -> str:
-    """Return what a bounded parameter can be, as `in [80 kph..95 kph]`."""
+    """Return what a bounded parameter can be, as `in [80kph..95kph]`."""
     unit = unit_of(model, parameter.constraints)
     return f"in {format_domain(parameter.domain, parameter.type, unit)}"
 
@@ -72,4 +72,4 @@ def format_number(number: Number, unit: sym.UnitSymbol | None) -> str:
     """Return a number in SI in the unit that it was written in."""
     if unit is None:
         return f"{number:.10g}" if isinstance(number, float) else str(number)
-    return f"{(number - unit.offset) / unit.factor:.10g} {unit.name}"
+    return f"{(number - unit.offset) / unit.factor:.10g}{unit.name}"

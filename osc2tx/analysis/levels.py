@@ -21,6 +21,7 @@ from osc2tx.analysis.tape import Key
 from osc2tx.analysis.trees import do_directives, do_members
 from osc2tx.diagnostics import Span
 from osc2tx.light_dataclass import dataclass
+from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -74,10 +75,19 @@ class ScenarioLevel:
 
 
 def find_levels(
-    model: SemanticModel, constraints: ConstraintAnalysis, endings: Endings
+    model: SemanticModel,
+    constraints: ConstraintAnalysis,
+    endings: Endings,
+    one_of: OneOfPolicy,
 ) -> tuple[ScenarioLevel, ...]:
-    """Judge the scenarios of the root file."""
-    return tuple(_judge(model, scenario, constraints, endings) for scenario in model.scenarios)
+    """Judge the scenarios of the root file.
+
+    A `one_of` is a choice only if one is drawn; a race or a rule leaves nothing open.
+    """
+    is_drawn = one_of == "seeded"
+    return tuple(
+        _judge(model, scenario, constraints, endings, is_drawn) for scenario in model.scenarios
+    )
 
 
 def _judge(
@@ -85,6 +95,7 @@ def _judge(
     scenario: sym.ScenarioSymbol,
     constraints: ConstraintAnalysis,
     endings: Endings,
+    is_drawn: bool,
 ) -> ScenarioLevel:
     openings = [
         *_open_parameters(model, scenario, constraints),
@@ -92,7 +103,7 @@ def _judge(
             Opening(text, span, Level.ABSTRACT)
             for text, span in openings_of_cast(model, scenario, constraints)
         ),
-        *_open_members(model, scenario),
+        *_open_members(model, scenario, is_drawn),
     ]
     if not do_directives(scenario):
         openings.append(Opening("no `do`", scenario.span, Level.ABSTRACT))
@@ -130,13 +141,15 @@ def _open_members_of_fields(
             yield key, format_range(model, parameter), parameter.constraints[-1].span
 
 
-def _open_members(model: SemanticModel, scenario: sym.ScenarioSymbol) -> Iterator[Opening]:
+def _open_members(
+    model: SemanticModel, scenario: sym.ScenarioSymbol, is_drawn: bool
+) -> Iterator[Opening]:
     """Yield what the `do` tree leaves open."""
     for directive in do_directives(scenario):
         for member in do_members(directive.member):
             match member:
                 case ast.Composition():
-                    yield from _open_composition(member)
+                    yield from _open_composition(member, is_drawn)
                     yield from _open_with(model, member.with_members)
                 case ast.Invocation():
                     name = member.behavior.text
@@ -148,13 +161,14 @@ def _open_members(model: SemanticModel, scenario: sym.ScenarioSymbol) -> Iterato
                     continue
 
 
-def _open_composition(node: ast.Composition) -> Iterator[Opening]:
+def _open_composition(node: ast.Composition, is_drawn: bool) -> Iterator[Opening]:
     given = {
         argument.name.text if argument.name is not None else "": argument
         for argument in node.arguments
     }
     span = keyword_span(node)
-    if node.operator is ast.CompositionOperator.ONE_OF and len(node.members) > 1:
+    is_choice = node.operator is ast.CompositionOperator.ONE_OF and len(node.members) > 1
+    if is_choice and is_drawn:
         yield Opening(f"one_of in line {span.line}", span, Level.LOGICAL)
     for name, argument in given.items():
         if isinstance(argument.value, ast.RangeLiteral):

@@ -27,7 +27,13 @@ OPEN_ENDED: Mapping[tuple[str, str], str] = MappingProxyType(
         ("vehicle", "keep_space_headway"): "8.8.3.11",
         ("person", "walk"): "8.8.4.1",
         ("animal", "walk"): "8.8.4.1",  # the text has it, the types do not
+        ("traffic_light_controller", "play_cycles"): "8.15.9.7.1",
     }
+)
+
+# Modifiers that bound an open-ended action: it is over when their way is.
+BOUNDING_MODIFIERS: Mapping[str, str] = MappingProxyType(
+    {"along": "8.9.11", "along_trajectory": "8.9.12", "distance": "8.9.13"}
 )
 
 # Actions that take no time.
@@ -44,6 +50,12 @@ INSTANT: Mapping[tuple[str, str], str] = MappingProxyType(
         ("environment", "fog"): "8.11.6",
         ("environment", "clouds"): "8.11.7",
         ("environment", "assign_celestial_position"): "8.11.8",
+        ("traffic_light_controller", "set_bulb_state"): "8.15.9.1.1",
+        ("traffic_light_controller", "set_state"): "8.15.9.2.1",
+        ("traffic_light_controller", "set_semantic_state"): "8.15.9.3.1",
+        ("traffic_light_controller", "set_group_bulb_state"): "8.15.9.4.1",
+        ("traffic_light_controller", "set_group_state"): "8.15.9.5.1",
+        ("traffic_light_controller", "set_group_semantic_state"): "8.15.9.6.1",
         ("vehicle", "set_lights"): "",  # of dialect carla
         ("stationary_object", "assign_position"): "",  # of dialect carla
     }

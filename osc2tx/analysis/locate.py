@@ -39,7 +39,8 @@ class Place:
             path.append(symbol)
             current = current.base
         root = self._root(current)
-        return None if root is None else (*root, *reversed(path))
+        key = () if root is None else (*root, *reversed(path))
+        return key or None  # the instance as a whole is no parameter of it
 
     def _root(self, expression: ast.Expression) -> Key | None:
         if isinstance(expression, ast.ItExpression):

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from osc2tx.analysis.collect import Constraint
-from osc2tx.analysis.constraints import ConstraintAnalysis, TypeConstraints
+from osc2tx.analysis.constraints import ConstraintAnalysis, TypeConstraints, analyse_globals
 from osc2tx.analysis.domains import Interval
 from osc2tx.analysis.forward import exact_result
 from osc2tx.analysis.locate import name_of
 from osc2tx.analysis.solver import values_on
 from osc2tx.analysis.tape import Operation
+from osc2tx.analysis.usage import Usage
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.types import INT, UINT, Type
@@ -25,20 +26,21 @@ MOST_LABELS = 6
 def report_constraints(
     model: SemanticModel,
     analysis: ConstraintAnalysis,
-    settings: Iterable[ast.Node],
+    usage: Usage,
     sink: DiagnosticSink,
 ) -> None:
-    """Report what is wrong with the constraints of all types.
+    """Report what is wrong with the constraints of all types and global parameters.
 
     Args:
         model: The checked program.
         analysis: Its constraints.
-        settings: The declarations, calls and invocations of the program.
+        usage: Where the program gives values, and divides them.
         sink: Where reports go.
     """
-    misfits = _report_integers(model, settings, sink)
+    misfits = _report_integers(model, usage.settings, sink)
+    misfits |= _report_divisions(model, usage.divisions, sink)
     reported: list[frozenset[ast.Node]] = []
-    for found in analysis.types.values():
+    for found in [*analysis.types.values(), analyse_globals(model)]:
         for conflict in found.conflicts:
             nodes = frozenset(constraint.node for constraint in conflict)
             if nodes & misfits or any(earlier <= nodes for earlier in reported):
@@ -171,6 +173,30 @@ def _report_integers(
     return frozenset(found)
 
 
+def _report_divisions(
+    model: SemanticModel, divisions: Iterable[ast.Binary], sink: DiagnosticSink
+) -> frozenset[ast.Node]:
+    """Report divisors that are a zero as written; computed ones are found with the constraints."""
+    found = {node for node in divisions if _is_zero(model, node.right)}
+    for node in divisions:
+        if node in found:
+            sink.report("OSC425", node.right.span, "this divisor is always zero")
+    return frozenset(found)
+
+
+def _is_zero(model: SemanticModel, expression: ast.Expression) -> bool:
+    match expression:
+        case ast.Unary(operator=ast.UnaryOperator.NEGATE, operand=operand):
+            return _is_zero(model, operand)
+        case ast.IntegerLiteral(value=value) | ast.FloatLiteral(value=value):
+            return value == 0
+        case ast.PhysicalLiteral(value=value):
+            unit = model.units.get(expression)
+            return value == 0 and unit is not None and unit.offset == 0
+        case _:
+            return False
+
+
 def _typed_values(
     model: SemanticModel, settings: Iterable[ast.Node]
 ) -> Iterator[tuple[ast.Expression, Type, str]]:
@@ -225,8 +251,9 @@ def _report_arithmetic(
             if len(intervals) < len(operands) or not all(o.is_point for o in intervals[-1:]):
                 continue
             if operation.name in ("/", "%"):
-                if intervals[1].lower == 0 and isinstance(operation.node, ast.Binary):
-                    span = operation.node.right.span
+                node = operation.node
+                if node not in misfits and isinstance(node, ast.Binary) and intervals[1].lower == 0:
+                    span = node.right.span
                     sink.report("OSC425", span, "this divisor is always zero")
             elif operation.kind in KINDS and all(o.is_point for o in intervals):
                 _check_overflow(operation, intervals, sink)

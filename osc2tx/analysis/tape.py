@@ -71,6 +71,11 @@ class Tape:
         return frozenset(o.key for o in self.operations if o.key is not None)
 
     @property
+    def keys_in_order(self) -> tuple[Key, ...]:
+        """The parameters, as they stand in it: the order of a set is not the same in each run."""
+        return tuple(dict.fromkeys(o.key for o in self.operations if o.key is not None))
+
+    @property
     def root(self) -> Operation:
         """The whole expression."""
         return self.operations[-1]

@@ -26,6 +26,7 @@ class Usage:
         waits: Event specifications of the root file.
         emits: `emit`s of the root file.
         settings: What gives values to fields and parameters: declarations, calls, invocations.
+        divisions: Divisions and remainders.
     """
 
     emitted: set[sym.Symbol] = field(default_factory=set)
@@ -35,6 +36,7 @@ class Usage:
     waits: list[ast.EventSpecification] = field(default_factory=list)
     emits: list[ast.EmitDirective] = field(default_factory=list)
     settings: list[ast.Node] = field(default_factory=list)
+    divisions: list[ast.Binary] = field(default_factory=list)
 
 
 def find_usage(model: SemanticModel) -> Usage:
@@ -77,6 +79,8 @@ def _look_at(model: SemanticModel, usage: Usage, node: ast.Node, is_root: bool) 
             usage.settings.append(node)
         case ast.Call() | ast.CallDirective():
             usage.settings.append(node)
+        case ast.Binary(operator=ast.BinaryOperator.DIVIDE | ast.BinaryOperator.MODULO):
+            usage.divisions.append(node)
 
 
 def _note(symbol: sym.Symbol | None, usage: Usage) -> None:

@@ -8,10 +8,9 @@ A code is permanent; a retired one is not used again.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from osc2tx.diagnostics.explanations import Explanation, explanation_of
 from osc2tx.diagnostics.model import Severity
+from osc2tx.light_dataclass import dataclass
 
 ERROR, WARNING = Severity.ERROR, Severity.WARNING
 
@@ -68,18 +67,23 @@ CODES = _table(
     Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
     Code("OSC113", "implicit-serial", WARNING, "`do:` stands for `do serial:`.", "7.3.13"),
     Code("OSC114", "empty-parentheses", WARNING, "Empty parentheses are too much.", "7.3.10"),
+    Code("OSC115", "line-too-long", ERROR, "A logical line is longer than anybody needs.", "7.2.1"),
     # --- 5xx not supported by a backend ---
     Code("OSC501", "unsupported-declaration", ERROR, "No backend can express this member yet."),
-    Code("OSC502", "unsupported-constraint", ERROR, "The constraint neither fixes nor bounds."),
+    Code("OSC502", "unsupported-constraint", ERROR, "A constraint depends on the run.", "7.3.11"),
     Code("OSC503", "unsupported-expression", ERROR, "No backend can express this expression yet."),
     Code("OSC504", "unsupported-invocation", ERROR, "No backend can express this invocation yet."),
-    Code("OSC505", "start-after-the-start", ERROR, "`at: start` asks for a jump during the run."),
+    Code("OSC505", "start-after-the-start", WARNING, "`at: start` has to hold by then."),
     Code("OSC506", "unsupported-directive", ERROR, "No backend can express this directive yet."),
     Code("OSC507", "no-such-runtime-action", ERROR, "The runtime library has no such action."),
     Code("OSC508", "no-such-runtime-modifier", ERROR, "The action cannot honour this modifier."),
     Code("OSC509", "no-such-runtime-argument", ERROR, "The runtime cannot honour this argument."),
     Code("OSC510", "nothing-to-do", WARNING, "The scenario has no `do`."),
     Code("OSC511", "circular-value", ERROR, "A value is defined by itself.", "7.3.6"),
+    Code("OSC512", "external-method", ERROR, "An external method is no Python function.", "7.3.7"),
+    Code("OSC513", "unfitting-arguments", ERROR, "Arguments do not fit each other."),
+    Code("OSC514", "not-in-xml", ERROR, "OpenSCENARIO XML cannot say this."),
+    Code("OSC515", "nearly-in-xml", ERROR, "OpenSCENARIO XML can only nearly say this."),
     # --- 2xx names and imports ---
     Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),
     Code("OSC202", "unknown-type", ERROR, "No type has this name.", "7.3"),
@@ -96,6 +100,7 @@ CODES = _table(
     Code("OSC213", "newer-standard", ERROR, "A construct belongs to a later standard."),
     Code("OSC214", "unknown-export", ERROR, "What is exported does not exist.", "7.7.4"),
     Code("OSC215", "name-not-visible", ERROR, "A name lives in an unused namespace.", "7.7.4"),
+    Code("OSC216", "reserved-name", ERROR, "`osc.…` is for the standard.", "7.3.7.4"),
     # --- 3xx types and units ---
     Code("OSC301", "type-mismatch", ERROR, "A value has the wrong type.", "7.4.2.6"),
     Code("OSC302", "dimension-mismatch", ERROR, "Physical dimensions differ.", "7.3.4"),
@@ -117,6 +122,7 @@ CODES = _table(
     Code("OSC319", "invalid-override", ERROR, "An overriding method does not fit.", "7.3.7"),
     Code("OSC320", "event-specification", ERROR, "It excludes parameters.", "7.3.10"),
     Code("OSC321", "invalid-extension", ERROR, "This cannot be extended so.", "7.3.9"),
+    Code("OSC322", "same-dimension", ERROR, "Two types have one dimension.", "7.3.4"),
     # --- 4xx behaviors, modifiers and constraints ---
     Code("OSC401", "several-do", ERROR, "A behavior has more than one `do`.", "7.3.13"),
     Code("OSC402", "unknown-argument", ERROR, "No parameter has this name.", "7.3.5.1.3"),
@@ -147,6 +153,7 @@ CODES = _table(
     Code("OSC435", "single-alternative", WARNING, "`one_of` has one member.", "7.3.13.3"),
     Code("OSC436", "constant-condition", WARNING, "A condition never changes.", "7.3.10"),
     Code("OSC437", "unused-parameter", WARNING, "A parameter is never read.", "7.3.6"),
+    Code("OSC438", "endless-recursion", ERROR, "A scenario invokes itself.", "7.3.13"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),

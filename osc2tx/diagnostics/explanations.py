@@ -7,9 +7,10 @@ asks. A test compiles all of them: the faulty text shows the code, the mended te
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
+
+from osc2tx.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,6 +23,7 @@ class Explanation:
         mended: The same text without it; empty where the mistake is not in the text.
         standard: Version of the standard that the example is about.
         dialect: Its dialect.
+        target: What is made of it; some codes are only about one target.
     """
 
     remedy: str
@@ -29,13 +31,15 @@ class Explanation:
     mended: str = ""
     standard: str = "2.1"
     dialect: str = "asam"
+    target: str = "all"
 
     @property
     def options(self) -> str:
         """The options with which the example shows the code, as on the command line."""
         standard = f"--std {self.standard}" if self.standard != "2.1" else ""
         dialect = f"--dialect {self.dialect}" if self.dialect != "asam" else ""
-        return " ".join(option for option in (standard, dialect) if option)
+        target = f"--target {self.target}" if self.target != "all" else ""
+        return " ".join(option for option in (standard, dialect, target) if option)
 
 
 def explanation_of(code: str) -> Explanation | None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 from osc2tx.diagnostics.source import Span
+from osc2tx.light_dataclass import dataclass
 
 
 class Severity(Enum):

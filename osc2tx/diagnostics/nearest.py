@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+LIKENESS = 0.6
 
-def did_you_mean(written: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
-    """Return a line of help with the known name that looks most like what is written, if any.
+
+def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:
+    """Return the known name that looks most like what is written, if any does.
 
     Args:
         written: The unknown name.
@@ -15,5 +17,10 @@ def did_you_mean(written: str, known: Iterable[str], likeness: float = 0.6) -> s
     """
     from difflib import get_close_matches  # only needed where something is wrong
 
-    close = get_close_matches(written, sorted(set(known)), 1, likeness)
-    return f"did you mean `{close[0]}`?" if close else None
+    return next(iter(get_close_matches(written, sorted(set(known)), 1, likeness)), None)
+
+
+def did_you_mean(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:
+    """Return a line of help with the nearest name, if there is one; see `nearest`."""
+    close = nearest(written, known, likeness)
+    return f"did you mean `{close}`?" if close else None

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.source import SourceFile
+from osc2tx.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class ScenarioEntry:
-    """A scenario: its file, its name, its level (§6.3), and what is open."""
+    """A scenario: its file, its name, its level (§6.3), what is open, and all this in one line."""
 
     source: SourceFile
     name: str
     level: str
     open: tuple[str, ...]
+    summary: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,7 @@ class Report:
         suppressed: How many warnings are kept back by comments.
         folder: Where the reader works; files below it are cited relative to it.
         scenarios: The scenarios of these files, with how far each is worked out.
+        failure: Why osc2tx did not begin, if it did not.
     """
 
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -44,6 +47,7 @@ class Report:
     suppressed: int = 0
     folder: Path | None = None
     scenarios: tuple[ScenarioEntry, ...] = ()
+    failure: str | None = None
 
 
 def make_report(

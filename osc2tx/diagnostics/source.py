@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Final
+
+from osc2tx.light_dataclass import dataclass
 
 LINE_END = re.compile(r"\r\n|\r|\n")
 
@@ -19,20 +21,29 @@ class SourceFile:
         name: How diagnostics and generated files call it (relative, forward slashes).
         text: The decoded text, line ends as they were written.
         path: Where it was read from; `None` for texts that never were a file.
-        identity: The same for all texts read from one file.
     """
 
     name: str
     text: str
     path: Path | None = None
-    line_starts: tuple[int, ...] = field(init=False, repr=False)
-    identity: Path | str = field(init=False, repr=False)
+    _line_starts: tuple[int, ...] = field(default=(), init=False, repr=False)
+    _identity: Path | str = field(default="", init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        """Index the line starts; CR, LF and CR LF each end a line (§7.2.1.2)."""
-        object.__setattr__(self, "identity", self.path.resolve() if self.path else self.name)
-        starts = (match.end() for match in LINE_END.finditer(self.text))
-        object.__setattr__(self, "line_starts", (0, *starts))
+    @property
+    def line_starts(self) -> tuple[int, ...]:
+        """The offsets at which lines start; CR, LF and CR LF each end one (§7.2.1.2)."""
+        if not self._line_starts:
+            starts = (match.end() for match in LINE_END.finditer(self.text))
+            object.__setattr__(self, "_line_starts", (0, *starts))
+        return self._line_starts
+
+    @property
+    def identity(self) -> Path | str:
+        """The same for all texts read from one file."""
+        if not self._identity:
+            identity = self.path.resolve() if self.path else self.name
+            object.__setattr__(self, "_identity", identity)
+        return self._identity
 
     def position(self, offset: int) -> tuple[int, int]:
         """Return the one-based line and column of an offset."""

@@ -9,12 +9,12 @@ the front end, which knows a comment from a string.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 from osc2tx.diagnostics.lookup import find_code, meant_code
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.sink import DiagnosticSink, in_order
 from osc2tx.diagnostics.source import SourceFile, Span
+from osc2tx.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,13 +1,14 @@
 """The intermediate representation: what a program means, ready for any backend.
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `expressions`, `behaviors`, `nodes`; then `verify` (the invariants)
-and `dump` (the printable form).
+Modules, in reading order: `values`, `expressions`, `operations`, `behaviors`, `coverage`, `nodes`;
+then `verify` (the invariants) and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
     Behavior,
     BehaviorBase,
+    Call,
     Composition,
     CompositionBase,
     Condition,
@@ -16,6 +17,7 @@ from osc2tx.ir.behaviors import (
     Emit,
     EventRef,
     Every,
+    Finish,
     InnerEvent,
     Invoke,
     InvokeScenario,
@@ -30,18 +32,19 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
+from osc2tx.ir.constants import constant
+from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.expressions import (
     Argument,
     Attribute,
     Binary,
     Conditional,
+    Domain,
     EnumValue,
     EventArgument,
     Expression,
-    ExpressionBase,
     FieldRef,
-    Kind,
     ListValue,
     Literal,
     MethodCall,
@@ -50,22 +53,24 @@ from osc2tx.ir.expressions import (
     RangeValue,
     ScenarioSelf,
     Unary,
-    Unit,
-    ValueType,
     children,
     is_live,
     walk,
 )
 from osc2tx.ir.nodes import (
     Actor,
+    Constraint,
     Declaration,
     DeclarationBase,
     Event,
+    External,
     FieldValue,
     Method,
     MethodParameter,
     Module,
     Override,
+    OwnField,
+    OwnType,
     Parameter,
     Placement,
     Sample,
@@ -73,6 +78,19 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
+from osc2tx.ir.operations import (
+    Choices,
+    Conversion,
+    Downcast,
+    Element,
+    HalfRange,
+    Index,
+    ListOperation,
+    ListOperator,
+    Lookup,
+    TypeTest,
+)
+from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -82,14 +100,22 @@ __all__ = [
     "Behavior",
     "BehaviorBase",
     "Binary",
+    "Call",
+    "Choices",
     "Composition",
     "CompositionBase",
     "Condition",
     "Conditional",
+    "Constraint",
+    "Conversion",
+    "Coverage",
     "Declaration",
     "DeclarationBase",
+    "Domain",
+    "Downcast",
     "Edge",
     "Elapsed",
+    "Element",
     "Emit",
     "EnumValue",
     "Event",
@@ -98,16 +124,23 @@ __all__ = [
     "Every",
     "Expression",
     "ExpressionBase",
+    "External",
     "FieldRef",
     "FieldValue",
+    "Finish",
+    "HalfRange",
+    "Index",
     "InnerEvent",
     "Invoke",
     "InvokeScenario",
     "Kind",
     "LabelEvent",
     "Level",
+    "ListOperation",
+    "ListOperator",
     "ListValue",
     "Literal",
+    "Lookup",
     "Method",
     "MethodCall",
     "MethodParameter",
@@ -117,6 +150,8 @@ __all__ = [
     "On",
     "OneOf",
     "Override",
+    "OwnField",
+    "OwnType",
     "Parallel",
     "Parameter",
     "ParameterRef",
@@ -129,6 +164,7 @@ __all__ = [
     "Serial",
     "Struct",
     "Trigger",
+    "TypeTest",
     "Unary",
     "Unit",
     "ValueType",
@@ -136,6 +172,7 @@ __all__ = [
     "Wait",
     "children",
     "condition_expressions",
+    "constant",
     "dump_ir",
     "is_live",
     "verify",

@@ -169,6 +169,7 @@ class Invoke(BehaviorBase):
         modifiers: Those that act during the invocation.
         duration: Time or range of time.
         until: Any of these ends it.
+        is_own: The scenario's own files declare it, and a package of the user carries it out.
     """
 
     actor: Expression
@@ -178,6 +179,7 @@ class Invoke(BehaviorBase):
     modifiers: tuple[ModifierCall, ...]
     duration: Expression | None = None
     until: tuple[Trigger, ...] = ()
+    is_own: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -217,12 +219,27 @@ class Emit(BehaviorBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Finish(BehaviorBase):
+    """Ends the scenario: `emit end`, or `emit fail`."""
+
+    succeeds: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Call(BehaviorBase):
+    """Calls a method, in no time."""
+
+    call: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class On(BehaviorBase):
     """Reacts at each occurrence of the trigger, for as long as what stands beside it runs."""
 
     trigger: Trigger
-    reactions: tuple[Emit, ...]
+    reactions: tuple[Emit | Finish | Call, ...]
 
 
 Composition: TypeAlias = Serial | Parallel | OneOf
-Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | InvokeScenario | Wait | Emit | On
+Directive: TypeAlias = Wait | Emit | Finish | Call | On
+Behavior: TypeAlias = Serial | Parallel | OneOf | Invoke | InvokeScenario | Directive

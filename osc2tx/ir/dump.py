@@ -7,18 +7,21 @@ from typing import assert_never
 
 from osc2tx.ir.behaviors import (
     Behavior,
+    Call,
     Condition,
     Edge,
     Elapsed,
     Emit,
     EventRef,
     Every,
+    Finish,
     InnerEvent,
     Invoke,
     InvokeScenario,
     LabelEvent,
     Level,
     ModifierCall,
+    Moment,
     On,
     OneOf,
     Parallel,
@@ -26,23 +29,9 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
+from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.expressions import (
-    Argument,
-    Attribute,
-    Binary,
-    Conditional,
-    EnumValue,
-    EventArgument,
     Expression,
-    FieldRef,
-    ListValue,
-    Literal,
-    MethodCall,
-    ParameterRef,
-    Quantity,
-    RangeValue,
-    ScenarioSelf,
-    Unary,
 )
 from osc2tx.ir.nodes import (
     Actor,
@@ -50,12 +39,14 @@ from osc2tx.ir.nodes import (
     Event,
     FieldValue,
     Module,
+    OwnType,
     Parameter,
     Placement,
     Scenario,
     Struct,
     Variable,
 )
+from osc2tx.ir.show import show, show_arguments
 
 INDENT = "  "
 
@@ -66,6 +57,8 @@ def dump_ir(module: Module) -> str:
         f"module {module.source} (standard {module.standard}, dialect {module.dialect}, "
         f"one_of {module.one_of})"
     ]
+    for own in module.types:
+        lines.extend(_indented(_own_type(own)))
     for scenario in module.scenarios:
         lines.extend(_indented(_scenario(scenario)))
     return "\n".join(lines) + "\n"
@@ -75,6 +68,14 @@ def _indented(lines: Iterator[str]) -> Iterator[str]:
     return (INDENT + line for line in lines)
 
 
+def _own_type(own: OwnType) -> Iterator[str]:
+    base = "" if own.base is None else f" inherits {own.base}"
+    yield f"{'actor' if own.is_actor else 'struct'} {own.name}{base} @{own.span.line}"
+    for field in own.fields:
+        default = "" if field.default is None else f" = {show(field.default)}"
+        yield f"{INDENT}{field.name}: {field.type}{default} @{field.span.line}"
+
+
 def _scenario(scenario: Scenario) -> Iterator[str]:
     origin = f" of {scenario.span.source.name}" if scenario.is_imported else ""
     yield f"scenario {scenario.name}{origin} @{scenario.span.line}"
@@ -82,13 +83,38 @@ def _scenario(scenario: Scenario) -> Iterator[str]:
         yield from _indented(_declaration(declaration))
     for method in scenario.methods:
         parameters = ", ".join(f"{p.name}: {p.type}" for p in method.parameters)
-        signature = f"{method.name}({parameters}) -> {method.result}"
-        yield f"{INDENT}method {signature} = {show(method.expression)} @{method.span.line}"
+        result = "" if method.result is None else f" -> {method.result}"
+        signature = f"{method.name}({parameters}){result}"
+        body = "" if method.expression is None else show(method.expression)
+        if method.external is not None:
+            body = f"external {method.external.module}.{method.external.function}"
+        yield f"{INDENT}method {signature} = {body} @{method.span.line}"
+    for constraint in scenario.constraints:
+        yield f"{INDENT}keep {show(constraint.expression)} @{constraint.span.line}"
+    for item in scenario.coverage:
+        yield f"{INDENT}{_coverage(item)}"
     for placement in scenario.placements:
         yield from _indented(_placement(placement))
     for override in scenario.overrides:
         yield f"{INDENT}override {override.overridden} by {override.by} {override.mode}"
     yield from _indented(_behavior(scenario.body))
+
+
+def _coverage(item: Coverage) -> str:
+    what = ", ".join(item.items) if item.expression is None else show(item.expression)
+    event = item.event.value if isinstance(item.event, Moment) else item.event.name
+    options = {
+        "unit": item.unit and item.unit.name,
+        "range": item.within,
+        "every": item.every,
+        "buckets": item.buckets,
+        "ignore": item.ignore and show(item.ignore),
+        "illegal": item.illegal and show(item.illegal),
+        "target": item.target,
+        "text": item.text,
+    }
+    given = "".join(f" {name}={value}" for name, value in options.items() if value)
+    return f"{item.kind} {item.name} = {what} at {event}{given} @{item.span.line}"
 
 
 def _declaration(declaration: Declaration) -> Iterator[str]:
@@ -97,8 +123,8 @@ def _declaration(declaration: Declaration) -> Iterator[str]:
         case Actor(name=name, type=type_):
             yield f"actor {name}: {type_} @{line}"
             yield from _indented(_field_values(declaration.values))
-        case Struct(name=name, type=type_):
-            yield f"struct {name}: {type_} @{line}"
+        case Struct(name=name, type=type_, value=value):
+            yield f"struct {name}: {type_}{'' if value is None else f' = {show(value)}'} @{line}"
             yield from _indented(_field_values(declaration.values))
         case Parameter(name=name, type=type_, value=value, domain=domain):
             word = "constant" if declaration.is_fixed else "parameter"
@@ -133,7 +159,7 @@ def _placement(placement: Placement) -> Iterator[str]:
 
 def _modifier(modifier: ModifierCall) -> str:
     at = "" if modifier.at == "all" else f" at {modifier.at}"
-    return f"{modifier.name}({_arguments(modifier.arguments)}){at} @{modifier.span.line}"
+    return f"{modifier.name}({show_arguments(modifier.arguments)}){at} @{modifier.span.line}"
 
 
 def _behavior(node: Behavior) -> Iterator[str]:
@@ -146,18 +172,23 @@ def _behavior(node: Behavior) -> Iterator[str]:
             for member in node.members:
                 yield from _indented(_behavior(member))
         case Invoke(action=action, arguments=arguments):
-            called = f"{show(node.actor)}.{action}({_arguments(arguments)})"
-            yield f"Invoke {node.owner}.{action}: {called}{place}"
+            called = f"{show(node.actor)}.{action}({show_arguments(arguments)})"
+            own = "own " if node.is_own else ""
+            yield f"Invoke {own}{node.owner}.{action}: {called}{place}"
             yield from _indented(_modifier(modifier) for modifier in node.modifiers)
             yield from _indented(_limits(node.duration, node.until))
         case InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):
             who = f"{show(actor)}." if actor is not None else ""
-            yield f"InvokeScenario {who}{scenario}({_arguments(arguments)}){place}"
+            yield f"InvokeScenario {who}{scenario}({show_arguments(arguments)}){place}"
             yield from _indented(_limits(node.duration, node.until))
         case Wait(trigger=trigger):
             yield f"Wait {_trigger(trigger)}{place}"
         case Emit(event=event, arguments=arguments):
-            yield f"Emit {event.name}({_arguments(arguments)}){place}"
+            yield f"Emit {event.name}({show_arguments(arguments)}){place}"
+        case Finish(succeeds=succeeds):
+            yield f"Finish {'end' if succeeds else 'fail'}{place}"
+        case Call(call=call):
+            yield f"Call {show(call)}{place}"
         case On(trigger=trigger, reactions=reactions):
             yield f"On {_trigger(trigger)}{place}"
             for reaction in reactions:
@@ -206,42 +237,3 @@ def _condition(condition: Condition) -> str:
         case Every(period=period, offset=offset):
             shift = f", offset: {show(offset)}" if offset is not None else ""
             return f"every({show(period)}{shift})"
-
-
-def _arguments(arguments: tuple[Argument, ...]) -> str:
-    return ", ".join(f"{a.parameter}: {show(a.value)}" for a in arguments)
-
-
-def show(expression: Expression) -> str:
-    """Return an expression as DSL text, fully parenthesised."""
-    match expression:
-        case Literal(value=value):
-            return str(value).lower() if isinstance(value, bool) else repr(value)
-        case Quantity(value=value, unit=unit):
-            return f"{value}{unit.name}"
-        case EnumValue(member=member, type=type_):
-            return f"{type_.name}!{member}"
-        case FieldRef(name=name):
-            return name
-        case ParameterRef(name=name):
-            return name
-        case ScenarioSelf():
-            return "it"
-        case EventArgument(event=event, parameter=parameter):
-            return f"@{event}.{parameter}"
-        case Attribute(base=base, name=name):
-            return f"{show(base)}.{name}"
-        case MethodCall(base=base, method=method, arguments=arguments):
-            return f"{show(base)}.{method}({_arguments(arguments)})"
-        case Unary(operator=operator, operand=operand):
-            return f"({operator} {show(operand)})"
-        case Binary(operator=operator, left=left, right=right):
-            return f"({show(left)} {operator} {show(right)})"
-        case Conditional(condition=condition, when_true=when_true, when_false=when_false):
-            return f"({show(condition)} ? {show(when_true)} : {show(when_false)})"
-        case ListValue(elements=elements):
-            return f"[{', '.join(show(element) for element in elements)}]"
-        case RangeValue(lower=lower, upper=upper):
-            return f"[{show(lower)}..{show(upper)}]"
-        case _:
-            assert_never(expression)

@@ -2,56 +2,22 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
+from osc2tx.ir.operations import (
+    Choices,
+    Conversion,
+    Downcast,
+    Element,
+    HalfRange,
+    Index,
+    ListOperation,
+    Lookup,
+    TypeTest,
+)
+from osc2tx.ir.values import ExpressionBase, Unit
 from osc2tx.light_dataclass import dataclass
-
-
-class Kind(Enum):
-    """What sort of value an expression has."""
-
-    BOOL = "bool"
-    INTEGER = "int"
-    FLOAT = "float"
-    STRING = "string"
-    QUANTITY = "quantity"
-    ENUM = "enum"
-    ACTOR = "actor"
-    STRUCT = "struct"
-    LIST = "list"
-    RANGE = "range"
-
-
-@dataclass(frozen=True, slots=True)
-class ValueType:
-    """The type of a value; `name` is the declared name (`speed`, `vehicle`, `color`, …)."""
-
-    kind: Kind
-    name: str
-
-    def __str__(self) -> str:
-        """The declared name."""
-        return self.name
-
-
-@dataclass(frozen=True, slots=True)
-class Unit:
-    """A unit: `si = value * factor + offset`; `is_standard` if the library declares it."""
-
-    name: str
-    factor: float
-    offset: float
-    is_standard: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ExpressionBase:
-    """What all expressions have: a type and the place they come from."""
-
-    span: Span
-    type: ValueType
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -139,12 +105,21 @@ class Argument:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MethodCall(ExpressionBase):
-    """A method of an actor, a struct or the scenario; `owner` is the type that declares it."""
+    """A method of an object, a plain value or the scenario.
+
+    Attributes:
+        base: The object.
+        owner: The type that declares the method.
+        method: Its name.
+        arguments: In source order.
+        is_pure: The result depends on object and arguments alone, not on the world.
+    """
 
     base: Expression
     owner: str
     method: str
     arguments: tuple[Argument, ...]
+    is_pure: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -175,7 +150,7 @@ class Conditional(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ListValue(ExpressionBase):
-    """A list."""
+    """A list; what an element that is a list itself holds belongs to it (§7.4.2.7)."""
 
     elements: tuple[Expression, ...]
 
@@ -187,6 +162,9 @@ class RangeValue(ExpressionBase):
     lower: Expression
     upper: Expression
 
+
+Domain: TypeAlias = RangeValue | HalfRange | Choices
+"""What a parameter may be."""
 
 Expression: TypeAlias = (
     Literal
@@ -203,6 +181,15 @@ Expression: TypeAlias = (
     | Conditional
     | ListValue
     | RangeValue
+    | HalfRange
+    | Choices
+    | Element
+    | ListOperation
+    | Index
+    | Conversion
+    | Lookup
+    | TypeTest
+    | Downcast
 )
 
 
@@ -217,20 +204,33 @@ def children(expression: Expression) -> tuple[Expression, ...]:
             | ParameterRef()
             | ScenarioSelf()
             | EventArgument()
+            | Element()
         ):
             return ()
         case Attribute(base=base):
             return (base,)
         case MethodCall(base=base, arguments=arguments):
             return (base, *(argument.value for argument in arguments))
-        case Unary(operand=operand):
+        case ListOperation(base=base, argument=argument):
+            return (base,) if argument is None else (base, argument)
+        case Index(base=base, index=index):
+            return (base, index)
+        case (
+            Unary(operand=operand)
+            | Conversion(operand=operand)
+            | Lookup(operand=operand)
+            | TypeTest(operand=operand)
+            | Downcast(operand=operand)
+        ):
             return (operand,)
         case Binary(left=left, right=right):
             return (left, right)
         case Conditional(condition=condition, when_true=when_true, when_false=when_false):
             return (condition, when_true, when_false)
-        case ListValue(elements=elements):
+        case ListValue(elements=elements) | Choices(elements=elements):
             return elements
+        case HalfRange(bound=bound):
+            return (bound,)
         case RangeValue(lower=lower, upper=upper):
             return (lower, upper)
 
@@ -249,7 +249,8 @@ def walk(expression: Expression) -> tuple[Expression, ...]:
 def is_live(expression: Expression) -> bool:
     """Whether the value depends on the state of the world, so that it must be read late."""
     return any(
-        isinstance(part, MethodCall | EventArgument)
+        isinstance(part, EventArgument)
+        or (isinstance(part, MethodCall) and not part.is_pure)
         or (isinstance(part, Attribute | FieldRef) and part.is_variable)
         for part in walk(expression)
     )

@@ -6,7 +6,10 @@ from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Behavior, ModifierCall, Trigger
-from osc2tx.ir.expressions import Expression, RangeValue, ValueType
+from osc2tx.ir.coverage import Coverage
+from osc2tx.ir.expressions import Domain, Expression, RangeValue
+from osc2tx.ir.operations import Choices
+from osc2tx.ir.values import ValueType
 from osc2tx.light_dataclass import dataclass
 
 
@@ -46,29 +49,54 @@ class Actor(DeclarationBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Struct(DeclarationBase):
-    """A value of a struct type, its fields fixed by constraints."""
+    """A value of a struct type: one that it equals, or with fields that constraints fix.
+
+    Attributes:
+        type: Its struct type.
+        values: What constraints fix about it.
+        value: What it equals.
+        lineage: The type and its bases, most derived first.
+    """
 
     type: str
     values: tuple[FieldValue, ...]
+    value: Expression | None = None
+    lineage: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Parameter(DeclarationBase):
     """A value that is constant during a run and may be set before it.
 
+    Without default it is drawn from its domain, or must be given if that has no end.
+
     Attributes:
         type: Its type.
         value: Its value (`is_fixed`) or default.
-        domain: The values it may take; drawn from where there is no default.
+        domain: The values it may take.
         is_fixed: A hard constraint leaves no other value.
         is_global: One value for all scenarios of a run.
     """
 
     type: ValueType
     value: Expression | None
-    domain: RangeValue | None
+    domain: Domain | None
     is_fixed: bool
     is_global: bool = False
+
+    @property
+    def is_required(self) -> bool:
+        """Whether the scenario leaves it open, so that a value must be given."""
+        return self.value is None and not isinstance(self.domain, RangeValue | Choices)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Constraint:
+    """A relation between values that is checked before the run (§7.3.11)."""
+
+    expression: Expression
+    span: Span
+    comments: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -107,14 +135,31 @@ class Event(DeclarationBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class External:
+    """A function of the user's own Python code."""
+
+    module: str
+    function: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Method:
-    """A method of the scenario whose body is an expression."""
+    """A method of the scenario, or of a type it uses, with an expression or code of the user.
+
+    Attributes:
+        name: Its name; that of a method of a type has the type before a dot.
+        parameters: Of a method of a type, the object first.
+        result: Type of the result, if there is one.
+        expression: The body; `None` if it is external.
+        external: Where the body is.
+    """
 
     name: str
     span: Span
     parameters: tuple[MethodParameter, ...]
-    result: ValueType
-    expression: Expression
+    result: ValueType | None
+    expression: Expression | None
+    external: External | None = None
     comments: tuple[str, ...] = ()
 
 
@@ -123,12 +168,24 @@ Declaration: TypeAlias = Actor | Struct | Parameter | Variable | Event
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Placement:
-    """Where and how an actor is at the start of the scenario."""
+    """Where and how an actor is at the start of the scenario, or what the roads of a map are.
+
+    Attributes:
+        actor: The actor, or the map.
+        modifiers: What holds at the start.
+        span: Where that is said.
+        comments: The comment lines above it.
+        of_map: It is about roads.
+        is_throughout: All of it holds later as well, so a scenario that another invokes in the
+            middle of a run can do without.
+    """
 
     actor: str
     modifiers: tuple[ModifierCall, ...]
     span: Span
     comments: tuple[str, ...] = ()
+    of_map: bool = False
+    is_throughout: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -149,11 +206,14 @@ class Scenario:
         name: As in the source.
         comments: The comment lines above it.
         declarations: Cast, values and events in source order.
+        constraints: What must hold between the values.
         methods: Its methods, in source order.
         placements: Initial placement, in source order.
         body: Its `do` tree.
         end_comments: Comment lines below its last member.
         overrides: Which labelled members end which others.
+        coverage: What is sampled for coverage.
+        is_invoked: A scenario of the module invokes it.
         is_imported: It stands here because a scenario of the file invokes it.
     """
 
@@ -166,6 +226,9 @@ class Scenario:
     body: Behavior
     end_comments: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
+    coverage: tuple[Coverage, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
+    is_invoked: bool = False
     is_imported: bool = False
 
     @property
@@ -175,10 +238,41 @@ class Scenario:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OwnField:
+    """A field of a type that the scenario's files declare; without default it must be given."""
+
+    name: str
+    span: Span
+    type: ValueType
+    default: Expression | None
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OwnType:
+    """An actor or struct that the scenario's files declare.
+
+    Attributes:
+        name: As in the source.
+        base: The type it inherits from.
+        is_actor: Whether it is an actor.
+        fields: Those of its own that have values.
+    """
+
+    name: str
+    span: Span
+    base: str | None
+    is_actor: bool
+    fields: tuple[OwnField, ...]
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Module:
     """All scenarios of one source file, with the settings that give them their meaning.
 
     Attributes:
+        types: Types of their objects that are not the library's, bases first.
         comments: The comment lines at the head of the file.
     """
 
@@ -188,3 +282,4 @@ class Module:
     one_of: str
     scenarios: tuple[Scenario, ...]
     comments: tuple[str, ...] = ()
+    types: tuple[OwnType, ...] = ()

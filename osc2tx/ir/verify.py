@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.ir.behaviors import (
     Behavior,
+    Call,
     Condition,
     Edge,
     Elapsed,
@@ -26,7 +27,7 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
-from osc2tx.ir.expressions import Expression, FieldRef, Kind, ParameterRef, walk
+from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef, walk
 from osc2tx.ir.nodes import (
     Actor,
     Event,
@@ -36,6 +37,7 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
+from osc2tx.ir.values import Kind
 
 
 def verify(module: Module) -> None:
@@ -75,6 +77,17 @@ class _ScenarioVerifier:
         _require_unique(iter(self.labels), f"labels of {scenario.name}")
         self.check_declarations()
         self.check_methods()
+        for constraint in scenario.constraints:
+            self.check_expression(constraint.expression)
+        for item in scenario.coverage:
+            self.require(
+                (item.expression is None) == bool(item.items), f"coverage item {item.name!r}"
+            )
+            for expression in (item.expression, item.ignore, item.illegal):
+                if expression is not None:
+                    self.check_expression(expression)
+            if isinstance(item.event, EventRef):
+                self.check_event(item.event)
         for placement in scenario.placements:
             self.require(placement.actor in self.actors, f"placement of {placement.actor!r}")
             for modifier in placement.modifiers:
@@ -90,14 +103,12 @@ class _ScenarioVerifier:
         declared: set[str] = set()
         for declaration in self.scenario.declarations:
             match declaration:
+                case Struct(value=whole) if whole is not None:
+                    self.check_expression(whole, declared)
                 case Actor(values=values) | Struct(values=values):
                     for value in values:
                         self.check_expression(value.value, declared)
                 case Parameter(value=value, domain=domain):
-                    self.require(
-                        value is not None or domain is not None,
-                        f"parameter {declaration.name!r} without value and domain",
-                    )
                     for expression in (value, domain):
                         if expression is not None:
                             self.check_expression(expression, declared)
@@ -121,6 +132,12 @@ class _ScenarioVerifier:
         _require_unique((m.name for m in methods), f"methods of {self.scenario.name}")
         for method in methods:
             known = {parameter.name for parameter in method.parameters}
+            self.require(
+                (method.expression is None) != (method.external is None),
+                f"body of {method.name!r}",
+            )
+            if method.expression is None:
+                continue
             for part in walk(method.expression):
                 if isinstance(part, ParameterRef):
                     self.require(part.name in known, f"parameter {part.name!r} of {method.name!r}")
@@ -152,7 +169,9 @@ class _ScenarioVerifier:
             case On(trigger=trigger, reactions=reactions):
                 self.check_trigger(trigger)
                 for reaction in reactions:
-                    self.check_event(reaction.event)
+                    self.check_behavior(reaction)
+            case Call(call=call):
+                self.check_expression(call)
 
     def check_limits(self, duration: Expression | None, until: tuple[Trigger, ...]) -> None:
         if duration is not None:

@@ -1,9 +1,12 @@
 """Lowering: from the checked semantic model to the IR.
 
 Input is a model without errors; output is an IR module and, for what no backend can express,
-diagnostics of the 5xx family. Modules: `scenarios` (entry, declarations), `constraints` (what
-`keep` fixes), `behaviors` (the `do` tree), `triggers`, `expressions`, `names` (readable names
-of nodes), `placement` (what holds at the start of the run, taken out of the tree).
+diagnostics of the 5xx family. Modules: `scenarios` (entry), `declarations` (members), `constraints`
+(what they leave of the values; `domains` and `equations` write that down), `behaviors` (the `do`
+tree), `invocations` and `modifiers` in it, `triggers`, `expressions`, `calls` of methods (also
+`external` ones), `casts`, `coverage`, `names` (readable names of nodes), `ordering` (of values),
+`placement` (what holds at the start of the run, taken out of the tree), `own_actions` and
+`own_types` (what the scenario's files declare).
 """
 
 from osc2tx.lowering.scenarios import lower

@@ -1,99 +1,298 @@
-"""What `keep` fixes or bounds (§7.3.11), for the values a module writes down.
+"""What constraints leave of the values of a scenario (§7.3.11), as the IR writes it down.
 
-Only two forms have an effect that needs no solver: an equality and a range, each with a path
-alone on its left side. Any other form is refused, never ignored.
+A parameter becomes a constant (what sets it is hard), a value with a default, or a value out of a
+domain. Its domain is written with the bounds of the source where the source has them. A constraint
+that all this does not make true by itself is left over: it is checked before the run.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import field, replace
+from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.diagnostics import Span
+from osc2tx.analysis import TypeConstraints, analyse_global, single_value
+from osc2tx.analysis.collect import Constraint
+from osc2tx.analysis.domains import TRUE, Choice, Domain, hull
+from osc2tx.analysis.solver import values_on
+from osc2tx.analysis.tape import Key, domain_of_type
+from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.domains import DomainWriter, all_values, as_type, written_domain
+from osc2tx.lowering.equations import solve_for
 from osc2tx.lowering.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
 from osc2tx.syntax import ast
 
-Operator = ast.BinaryOperator
+Instance: TypeAlias = ast.Invocation | ast.Composition
 
 
 @dataclass(frozen=True, slots=True)
-class Bound:
-    """One equality or range constraint.
+class Setting:
+    """What is known of one parameter.
 
     Attributes:
-        root: The field it is about; `None` if the path starts at `it`.
-        path: What follows the root.
-        value: The value, or a range.
-        is_default: Declared with `default`, so that it may be overridden.
+        value: Its value (`is_fixed`) or default.
+        domain: What it may be.
+        is_fixed: Nothing can change the value.
+        comments: Comment lines of the constraints that say so.
+        constraints: The constraints that say so.
     """
 
-    root: str | None
-    path: tuple[str, ...]
-    value: ir.Expression
-    is_default: bool
-    span: Span
+    value: ir.Expression | None
+    domain: ir.Domain | None
+    is_fixed: bool
     comments: tuple[str, ...]
+    constraints: tuple[Constraint, ...]
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is known."""
+        return self.value is None and self.domain is None
 
 
-def lower_constraints(
-    ctx: LoweringContext, constraints: tuple[ast.KeepConstraint, ...]
-) -> tuple[Bound, ...]:
-    """Lower constraints, conjunctions taken apart."""
-    return tuple(bound for keep in constraints for bound in _lower_keep(ctx, keep))
+@dataclass(slots=True)
+class ConstraintLowering:
+    """Lowers the constraints of one scenario, or of a global parameter.
 
+    Attributes:
+        ctx: The checked program.
+        found: Its constraints.
+    """
 
-def _lower_keep(ctx: LoweringContext, keep: ast.KeepConstraint) -> Iterator[Bound]:
-    comments = statement_comments(keep)
-    for part in _conjuncts(keep.expression):
-        bound = _lower_bound(ctx, keep, part, comments)
-        if bound is not None:
-            yield bound
-        comments = ()
+    ctx: LoweringContext
+    found: TypeConstraints
+    _hard: dict[Key, Domain] = field(default_factory=dict)
+    _written: dict[Key, Domain] = field(default_factory=dict)
+    _used: set[Constraint] = field(default_factory=set)
 
+    @classmethod
+    def of_scenario(cls, ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ConstraintLowering:
+        """Take the constraints of a scenario."""
+        found = ctx.analysis.types[scenario]
+        return cls(ctx, found, dict(found.domains_to_set()))
 
-def _conjuncts(expression: ast.Expression) -> tuple[ast.Expression, ...]:
-    """Return the operands of a chain of `and`, left to right."""
-    parts: list[ast.Expression] = []
-    while isinstance(expression, ast.Binary) and expression.operator is Operator.AND:
-        parts.append(expression.right)
-        expression = expression.left
-    return (expression, *reversed(parts))
+    @classmethod
+    def of_global(cls, ctx: LoweringContext, parameter: sym.FieldSymbol) -> ConstraintLowering:
+        """Take the constraints of a global parameter."""
+        found = analyse_global(ctx.model, parameter)
+        return cls(ctx, found, dict(found.domains_to_set()))
 
+    def with_actor(self, actor: ir.Expression | None) -> ConstraintLowering:
+        """Return the same constraints, for expressions in which `actor` is something."""
+        return replace(self, ctx=replace(self.ctx, actor=actor))
 
-def _lower_bound(
-    ctx: LoweringContext, keep: ast.KeepConstraint, part: ast.Expression, comments: tuple[str, ...]
-) -> Bound | None:
-    if isinstance(part, ast.Binary) and part.operator in (Operator.EQUAL, Operator.IN):
-        path = _path(part.left)
-        is_range = isinstance(part.right, ast.RangeLiteral)
-        if path is not None and is_range == (part.operator is Operator.IN):
-            value = lower_expression(ctx, part.right)
-            if value is None:
-                return None
-            is_default = keep.strength is ast.KeepStrength.DEFAULT
-            return Bound(path[0], path[1:], value, is_default, part.span, comments)
-    ctx.unsupported(
-        "OSC502",
-        part.span,
-        "this constraint neither fixes nor bounds a value",
-        help="write `path == value` or `path in [low..high]`",
-    )
-    return None
+    def setting(self, key: Key, type_: types.Type) -> Setting:
+        """Return what is known of a parameter; its constraints count as written from now on."""
+        mentioned = self.found.by_key.get(key, ())
+        own = [c for c in mentioned if c.subject == key and c.value is not None]
+        if isinstance(type_, types.ListType | types.RangeType):
+            own = [c for c in own if not c.is_range]  # what is in it is left to a check
+        definition = next((c for c in reversed(own) if not c.is_range), None)
+        within = next((c for c in reversed(own) if c.is_range), None)
+        hard = self._hard.get(key, domain_of_type(type_))
+        writer = DomainWriter(self.ctx, key, type_, mentioned)
+        value = None if definition is None else self._expression(definition)
+        is_fixed = definition is not None and not definition.is_default
+        value = None if value is None else as_type(value, type_)
+        if not is_fixed and single_value(hard) is not None:
+            value, is_fixed, definition = writer.point(hard), True, None
+        elif definition is None and (authored := self._authored(writer)) is not None:
+            value, is_fixed = authored, True
+        elif definition is None and (solved := self._solved(key)) is not None:
+            (definition, value), is_fixed = solved, True
+        domain = None if is_fixed else self._domain(writer, within, hard)
+        self._note(key, type_, definition, domain, hard if is_fixed else None)
+        said = [c for c in mentioned if self._is_said(c, key, definition, domain)]
+        self._used.update(c for c in said if c is definition or c is within)
+        comments = dict.fromkeys(line for c in said for line in _comments(c))
+        return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
 
+    def members(self, field_: sym.FieldSymbol) -> Iterator[tuple[Key, Setting]]:
+        """Yield what is known of the members of an object; any value of an enum is something."""
+        for key, mentioned in self.found.by_key.items():
+            if len(key) > 1 and key[0] is field_ and isinstance(key[-1], sym.FieldSymbol):
+                setting = self.setting(key, key[-1].type)
+                if setting.is_empty:
+                    setting = replace(setting, domain=all_values(key[-1].type, mentioned[0].span))
+                if not setting.is_empty:
+                    yield key, setting
 
-def _path(expression: ast.Expression) -> tuple[str | None, *tuple[str, ...]] | None:
-    """Return root and members of a path; the root is `None` for `it`."""
-    members: list[str] = []
-    while isinstance(expression, ast.MemberAccess):
-        members.append(expression.name.text)
-        expression = expression.base
-    members.reverse()
-    match expression:
-        case ast.ItExpression():
-            return (None, *members)
-        case ast.NameExpression(name=name):
-            return (name.text, *members)
-        case _:
+    def of_instance(self, node: Instance) -> Iterator[tuple[sym.FieldSymbol, Setting]]:
+        """Yield what constraints say of the parameters of an invocation or composition.
+
+        Arguments are constraints too; a parameter that has one is left to it.
+        """
+        for key, mentioned in self.found.by_key.items():
+            parameter = key[-1]
+            if key[0] is not node or len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
+                continue
+            if any(c.subject == key and c.origin == "argument" for c in mentioned):
+                continue
+            if any(c.place.prefix for c in mentioned if c.subject == key):
+                continue  # the invoked scenario says it of itself
+            setting = self.setting(key, parameter.type)
+            if not setting.is_empty:
+                yield parameter, setting
+
+    def left_over(self) -> tuple[ir.Constraint, ...]:
+        """Return what has to be checked before the run; ask last."""
+        left = [c for c in self.found.in_force.constraints if self._is_left(c)]
+        lowered = (self._constraint(c) for c in left)
+        return tuple(constraint for constraint in lowered if constraint is not None)
+
+    # --- parts ---
+
+    def _expression(self, constraint: Constraint) -> ir.Expression | None:
+        assert constraint.value is not None
+        return lower_expression(self.ctx.at(constraint.place), constraint.value)
+
+    @staticmethod
+    def _authored(writer: DomainWriter) -> ir.Expression | None:
+        """Return what a longer constraint sets a parameter to.
+
+        Objects are not set by what is set to them: `keep(it.group == street)` is about `it`.
+        """
+        return None if isinstance(writer.type, types.StructType) else writer.equality()
+
+    def _domain(
+        self, writer: DomainWriter, within: Constraint | None, hard: Domain
+    ) -> ir.Domain | None:
+        if within is not None:
+            lowered = self._expression(within)
+            if isinstance(lowered, ir.ListValue):
+                elements = lowered.elements
+                return ir.Choices(span=lowered.span, type=lowered.type, elements=elements)
+            if isinstance(lowered, ir.RangeValue) and not writer.is_constant(lowered):
+                return lowered
+        bound = None if within is not None else writer.relative(self._earlier(writer.key))
+        if bound is not None and not isinstance(hard, Choice):
+            lowered, by = bound
+            if not writer.has_bounds:
+                self._used.add(by)
+                return lowered
+        return writer.domain(hard)
+
+    def _earlier(self, key: Key) -> list[Constraint]:
+        """Return the constraints that relate a parameter to earlier ones."""
+        found = []
+        for constraint in self.found.by_key.get(key, ()):
+            others = [k for k in constraint.tape.keys if k != key]
+            after = isinstance(key[0], ast.Node) or _is_last(key, others)
+            if others and after and not constraint.is_default:
+                found.append(constraint)
+        return found
+
+    def _note(
+        self,
+        key: Key,
+        type_: types.Type,
+        definition: Constraint | None,
+        domain: ir.Domain | None,
+        fixed: Domain | None,
+    ) -> None:
+        """Remember what the module lets the parameter be, at least."""
+        whole = domain_of_type(type_)
+        if definition is not None:
+            value = self._value_of(definition) if definition.subject == key else whole
+            others = None if not definition.is_default else whole
+            if definition.is_default and domain is not None:
+                others = written_domain(domain, type_, self._hard.get(key, whole))
+            self._written[key] = value if others is None else hull(value, others)
+        elif fixed is not None and single_value(fixed) is not None:
+            self._written[key] = fixed
+        elif domain is not None:
+            self._written[key] = written_domain(domain, type_, self._hard.get(key, whole))
+
+    def _solved(self, key: Key) -> tuple[Constraint, ir.Expression] | None:
+        """Return an equality between values, solved for the one that is declared last."""
+        for constraint in self.found.by_key.get(key, ()):
+            node = constraint.node
+            others = [k for k in constraint.tape.keys if k != key]
+            if constraint in self._used or constraint.is_default or not others:
+                continue
+            if not isinstance(node, ast.KeepConstraint) or not _is_last(key, others):
+                continue
+            solved = solve_for(self.ctx.at(constraint.place), node.expression, constraint, key)
+            if solved is not None:
+                return constraint, solved
+        return None
+
+    def _value_of(self, definition: Constraint) -> Domain:
+        """Return what the value that a parameter is set to can be."""
+        values = values_on(definition.tape, self._written)
+        root = definition.tape.root
+        return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
+
+    def _is_said(
+        self,
+        constraint: Constraint,
+        key: Key,
+        definition: Constraint | None,
+        domain: ir.Domain | None,
+    ) -> bool:
+        if constraint is definition:
+            return True
+        if constraint.subject == key and constraint.is_range and domain is not None:
+            return True
+        return constraint.tape.keys == {key} and self._holds(constraint)
+
+    def _holds(self, constraint: Constraint) -> bool:
+        return values_on(constraint.tape, self._written)[-1] == TRUE
+
+    def _is_left(self, constraint: Constraint) -> bool:
+        if constraint in self._used or constraint.origin == "argument":
+            return False
+        prefix = constraint.place.prefix
+        if prefix and isinstance(prefix[0], ast.Invocation) and self._checks_itself(prefix[0]):
+            return False
+        if self.found.owner is not None and constraint.place.owner is None:
+            return False  # what a global parameter says of itself
+        values = (self._written.get(key) for key in constraint.tape.keys)
+        is_known = all(value is not None and single_value(value) is not None for value in values)
+        if is_known and all(operation.name != "any" for operation in constraint.tape.operations):
+            return False  # the analysis saw that it holds
+        return not self._holds(constraint)
+
+    def _checks_itself(self, invoked: ast.Invocation) -> bool:
+        """Whether an invoked behavior sees to its own constraints: all but actions of the user."""
+        callee = self.ctx.model.binding_of(invoked).callee
+        return not isinstance(callee, sym.ActionSymbol) or callee.origin != "user"
+
+    def _constraint(self, constraint: Constraint) -> ir.Constraint | None:
+        node = constraint.node
+        if not isinstance(node, ast.KeepConstraint):
             return None
+        expression = lower_expression(self.ctx.at(constraint.place), node.expression)
+        if expression is None:
+            return None
+        if ir.is_live(expression):
+            self.ctx.unsupported(
+                "OSC502",
+                constraint.span,
+                "this constraint depends on the state of the world",
+                help="constraints hold between values that are known before the run; "
+                "wait for a condition, or end something at it",
+            )
+            return None
+        return ir.Constraint(
+            expression=expression, span=constraint.span, comments=_comments(constraint)
+        )
+
+
+def _is_last(key: Key, others: list[Key]) -> bool:
+    """Whether a plain parameter stands below others in the same text."""
+    last = key[0]
+    return isinstance(last, sym.FieldSymbol) and all(
+        isinstance(first, sym.FieldSymbol)
+        and first.span.source == last.span.source
+        and first.span.start < last.span.start
+        for first, *_ in others
+    )
+
+
+def _comments(constraint: Constraint) -> tuple[str, ...]:
+    node = constraint.node
+    return statement_comments(node) if isinstance(node, ast.KeepConstraint) else ()

@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import field, replace
 from typing import TypeVar
 
 from osc2tx import ir
+from osc2tx.analysis import ConstraintAnalysis
+from osc2tx.analysis.locate import Place
+from osc2tx.analysis.tape import Key
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
-from osc2tx.semantics.symbols import FieldSymbol, ScenarioSymbol
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    ActorSymbol,
+    FieldSymbol,
+    MethodSymbol,
+    ScenarioSymbol,
+    StructSymbol,
+    TypeSymbol,
+)
 from osc2tx.syntax import ast
 
 Part = TypeVar("Part")
+
+
+@dataclass(frozen=True, slots=True)
+class Receiver:
+    """The object whose members plain names mean, in the body of a method of its type."""
+
+    owner: TypeSymbol
+    value: ir.ParameterRef
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,33 +41,84 @@ class LoweringContext:
 
     Attributes:
         model: The program.
+        analysis: What its constraints allow.
         sink: Where complaints go.
         globals: The global parameters that the scenario uses, in order of use.
         event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
         invoked: The scenarios that it invokes, in order of use.
-        drawn: Parameters that stand for ranges of time in its tree, in order of use.
+        drawn: Parameters that stand for ranges in its tree, in order of use.
+        place: Where the names in an expression are looked up, in constraints.
+        it: What `it` is there.
+        types: Types of declared objects that are not the library's, in order of use.
+        actions: Actions that are invoked, in order of use.
+        given: Values of parameters of invocations that constraints may speak of.
+        receiver: The object whose method an expression is the body of.
+        methods: Methods of types that the scenario calls, by name, in order of use.
+        locals: What parameters stand for, where they are not those of a method.
+        actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
+        purity: Methods, and whether their results do not depend on the world.
     """
 
     model: SemanticModel
+    analysis: ConstraintAnalysis
     sink: DiagnosticSink
     globals: dict[str, FieldSymbol] = field(default_factory=dict)
     event_fields: dict[int, str] = field(default_factory=dict)
     invoked: list[ScenarioSymbol] = field(default_factory=list)
     drawn: list[ir.Parameter] = field(default_factory=list)
+    types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
+    actions: list[ActionSymbol] = field(default_factory=list)
+    place: Place | None = None
+    it: ir.Expression | None = None
+    given: dict[Key, ir.Expression] = field(default_factory=dict)
+    receiver: Receiver | None = None
+    methods: dict[str, MethodSymbol] = field(default_factory=dict)
+    purity: dict[MethodSymbol, bool] = field(default_factory=dict)
+    locals: Mapping[str, ir.Expression] = field(default_factory=dict)
+    actor: ir.Expression | None = None
 
-    def draw(self, bounds: ir.RangeValue) -> ir.FieldRef:
-        """Return a value from a range, as a parameter that one can set like any other.
+    def at(self, place: Place) -> LoweringContext:
+        """Return the context for an expression of a constraint."""
+        return replace(self, place=place, it=None)
 
-        Its name has a blank, so that no plain name of the scenario can be the same.
+    def with_it(self, it: ir.Expression) -> LoweringContext:
+        """Return the context for an expression in which `it` is something."""
+        return replace(self, it=it)
+
+    def with_local(self, name: str, value: ir.Expression) -> LoweringContext:
+        """Return the context for an expression in which a parameter stands for something."""
+        return replace(self, locals={**self.locals, name: value})
+
+    def inside(self, receiver: Receiver) -> LoweringContext:
+        """Return the context for the body of a method of a type."""
+        return replace(self, receiver=receiver, place=None, it=receiver.value)
+
+    def quiet(self) -> LoweringContext:
+        """Return a context to look ahead with: nothing is reported, and nothing is noted."""
+        return replace(
+            self,
+            sink=DiagnosticSink(),
+            globals=dict(self.globals),
+            invoked=[],
+            drawn=[],
+            methods=dict(self.methods),
+        )
+
+    def draw(self, name: str, domain: ir.Domain, type_: ir.ValueType) -> ir.FieldRef:
+        """Return a value from a domain, as a parameter that one can set like any other.
+
+        Its name has a blank or a dot, so that no plain name of the scenario can be the same.
         """
-        number = len(self.drawn) + 1
-        name = "wait time" if number == 1 else f"wait time {number}"
-        type_ = bounds.lower.type
+        taken = {parameter.name for parameter in self.drawn}
+        number, unique = 1, name
+        while unique in taken:
+            number += 1
+            unique = f"{name} {number}"
         parameter = ir.Parameter(
-            name=name, span=bounds.span, type=type_, value=None, domain=bounds, is_fixed=False
+            name=unique, span=domain.span, type=type_, value=None, domain=domain, is_fixed=False
         )
         self.drawn.append(parameter)
-        return ir.FieldRef(span=bounds.span, type=type_, name=name)
+        return ir.FieldRef(span=domain.span, type=type_, name=unique)
 
     def unsupported(self, code: str, span: Span, what: str, help: str | None = None) -> None:
         """Report what cannot be lowered."""

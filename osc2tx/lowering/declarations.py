@@ -7,9 +7,13 @@ from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
-from osc2tx.lowering.constraints import Bound, lower_constraints
+from osc2tx.lowering.calls import lower_method
+from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.domains import all_values
 from osc2tx.lowering.expressions import lower_expression, lower_type
+from osc2tx.lowering.objects import ObjectLowering, lineage
+from osc2tx.lowering.paths import is_path, path_declarations, path_members
 from osc2tx.lowering.triggers import lower_trigger
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -23,6 +27,7 @@ class DeclarationLowering:
         ctx: The checked program.
         scenario: The scenario.
         statements: Its member statements, inherited ones first.
+        constraints: What its constraints say.
     """
 
     def __init__(
@@ -30,19 +35,35 @@ class DeclarationLowering:
         ctx: LoweringContext,
         scenario: sym.ScenarioSymbol,
         statements: tuple[ast.Statement, ...],
+        constraints: ConstraintLowering,
     ) -> None:
         """See the class."""
         self._ctx = ctx
         self._scenario = scenario
         self._statements = statements
-        own = tuple(s for s in statements if isinstance(s, ast.KeepConstraint))
-        self._scenario_bounds = lower_constraints(ctx, own)
+        self._constraints = constraints
+        self._objects = ObjectLowering(ctx, constraints)
+        self.global_constraints: tuple[ir.Constraint, ...] = ()
 
     def lower_methods(self) -> tuple[ir.Method, ...]:
-        """Return the methods whose body is an expression; others are refused where called."""
+        """Return its own methods; the last declaration of a name is the one that counts."""
         declared = [s for s in self._statements if isinstance(s, ast.MethodDeclaration)]
-        last = {node.name.text: node for node in declared}
-        return present([self._method(node) for node in last.values()])
+        lowered = []
+        for name, node in {node.name.text: node for node in declared}.items():
+            symbol = self._scenario_member(name)
+            if isinstance(symbol, sym.MethodSymbol):
+                lowered.append(lower_method(self._ctx, symbol, statement_comments(node)))
+        return present(lowered)
+
+    def lower_type_methods(self) -> tuple[ir.Method, ...]:
+        """Return the methods of types that were called so far, and those that they call."""
+        lowered: dict[str, ir.Method | None] = {}
+        while missing := [name for name in self._ctx.methods if name not in lowered]:
+            for name in missing:
+                symbol = self._ctx.methods[name]
+                comments = () if symbol.node is None else statement_comments(symbol.node)
+                lowered[name] = lower_method(self._ctx, symbol, comments)
+        return present(list(lowered.values()))
 
     def lower_globals(self) -> tuple[ir.Parameter, ...]:
         """Return the global parameters that were used so far, as parameters of the scenario."""
@@ -50,10 +71,30 @@ class DeclarationLowering:
         while missing := [name for name in self._ctx.globals if name not in lowered]:
             for name in missing:  # one global may be defined by another
                 symbol = self._ctx.globals[name]
-                lowered[name] = self._parameter(symbol, symbol.span, self._global_comments(symbol))
+                constraints = ConstraintLowering.of_global(self._ctx, symbol)
+                comments = self._global_comments(symbol)
+                lowered[name] = _parameter(symbol, symbol.span, comments, constraints)
+                self.global_constraints += constraints.left_over()
         return tuple(
             replace(parameter, is_global=True)
             for parameter in present(list(reversed(lowered.values())))
+        )
+
+    def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether nothing but an invocation says what a struct of the library is."""
+        assert isinstance(symbol.type, types.StructType)
+        is_open = symbol.default is None and not self._objects.is_said(symbol)
+        return is_open and symbol.type.symbol.origin != "user" and self._is_given(symbol)
+
+    def _has_value(self, symbol: sym.FieldSymbol) -> bool:
+        return symbol.default is not None or self._is_given(symbol)
+
+    def _is_given(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether some invocation of the scenario gives a parameter a value."""
+        return any(
+            parameter is symbol
+            for binding in self._ctx.model.bindings.values()
+            for parameter, _ in binding.arguments
         )
 
     def _global_comments(self, symbol: sym.FieldSymbol) -> tuple[str, ...]:
@@ -65,7 +106,6 @@ class DeclarationLowering:
         """Return the declarations in source order, implicit events last."""
         declared = [d for statement in self._statements for d in self._statement(statement)]
         declared.extend(self._implicit_events())
-        self._refuse_unused_bounds({declaration.name for declaration in declared})
         return tuple(declared)
 
     def _statement(self, statement: ast.Statement) -> Iterator[ir.Declaration]:
@@ -73,19 +113,26 @@ class DeclarationLowering:
             case ast.ParameterDeclaration() | ast.VariableDeclaration():
                 comments = statement_comments(statement)
                 for name in statement.names:
-                    declaration = self._field(statement, name, comments)
+                    yield from self._declared(statement, name, comments)
                     comments = ()
-                    if declaration is not None:
-                        yield declaration
             case ast.EventDeclaration():
                 event = self._event(statement)
                 if event is not None:
                     yield event
-            case ast.RemoveDefault() | ast.CoverageDeclaration():
-                word = statement.span.text.split("(")[0].strip()
-                self._ctx.unsupported("OSC501", statement.span, f"`{word}` is not supported yet")
             case _:
-                pass  # constraints, behavior and modifiers are lowered elsewhere
+                pass  # constraints, coverage, behavior and modifiers are lowered elsewhere
+
+    def _declared(
+        self,
+        statement: ast.ParameterDeclaration | ast.VariableDeclaration,
+        name: ast.Name,
+        comments: tuple[str, ...],
+    ) -> tuple[ir.Declaration, ...]:
+        symbol = self._scenario_member(name.text)
+        if isinstance(symbol, sym.FieldSymbol) and is_path(symbol.type):
+            members = path_members(self._ctx, self._statements)
+            return path_declarations(self._ctx, symbol, members, comments)
+        return present([self._field(statement, name, comments)])
 
     def _field(
         self,
@@ -100,24 +147,44 @@ class DeclarationLowering:
             return self._variable(symbol, statement, comments)
         match symbol.type:
             case types.ActorType(symbol=actor):
+                self._ctx.types.append(actor)
                 return ir.Actor(
                     name=symbol.name,
                     span=name.span,
                     comments=comments,
                     type=actor.name,
                     lineage=lineage(actor),
-                    values=self._values(symbol),
+                    values=self._objects.values(symbol),
                 )
-            case types.StructType(symbol=struct):
-                return ir.Struct(
+            case types.StructType(symbol=struct) if self._is_for_caller(symbol):
+                return ir.Parameter(
                     name=symbol.name,
                     span=name.span,
                     comments=comments,
-                    type=struct.name,
-                    values=self._values(symbol),
+                    type=lower_type(symbol.type),
+                    value=None,
+                    domain=None,
+                    is_fixed=False,
                 )
-            case types.PrimitiveType() | types.PhysicalType() | types.EnumType():
-                return self._parameter(symbol, name.span, comments)
+            case types.StructType(symbol=struct):
+                self._ctx.types.append(struct)
+                return self._objects.struct(symbol, name.span, comments, lineage(struct))
+            case types.ListType() | types.RangeType() if not self._has_value(symbol):
+                self._ctx.unsupported(
+                    "OSC501",
+                    name.span,
+                    f"`{symbol.name}`, a {symbol.type}, has no value",
+                    help="give it one, `= value`",
+                )
+                return None
+            case (
+                types.PrimitiveType()
+                | types.PhysicalType()
+                | types.EnumType()
+                | types.ListType()
+                | types.RangeType()
+            ):
+                return _parameter(symbol, name.span, comments, self._constraints)
             case _:
                 self._ctx.unsupported(
                     "OSC501", name.span, f"a field of type `{symbol.type}` is not supported yet"
@@ -131,66 +198,6 @@ class DeclarationLowering:
                 return scenario.members[name]
             scenario = scenario.base
         return None
-
-    def _bounds(self, field: sym.FieldSymbol) -> tuple[Bound, ...]:
-        own = lower_constraints(self._ctx, field.constraints)
-        return (*own, *(b for b in self._scenario_bounds if b.root == field.name))
-
-    def _refuse_unused_bounds(self, names: set[str]) -> None:
-        for bound in self._scenario_bounds:
-            if bound.root not in names:
-                self._ctx.unsupported(
-                    "OSC502", bound.span, "this constraint is about no field of the scenario"
-                )
-
-    def _values(self, field: sym.FieldSymbol) -> tuple[ir.FieldValue, ...]:
-        """Return what the constraints fix about an object; the last word on a path wins."""
-        values: dict[tuple[str, ...], ir.FieldValue] = {}
-        for bound in self._bounds(field):
-            if isinstance(bound.value, ir.RangeValue) or not bound.path:
-                self._ctx.unsupported(
-                    "OSC502", bound.span, "only a fixed value is supported for a member yet"
-                )
-                continue
-            values[bound.path] = ir.FieldValue(
-                path=bound.path, value=bound.value, span=bound.span, comments=bound.comments
-            )
-        return tuple(values.values())
-
-    def _parameter(
-        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
-    ) -> ir.Parameter | None:
-        """Apply default and constraints in the order of the text (§7.3.11)."""
-        value: ir.Expression | None = None
-        domain: ir.RangeValue | None = None
-        is_fixed = False
-        if field.default is not None and not isinstance(field.default, ast.SampleExpression):
-            value = lower_expression(self._ctx, field.default)
-        for bound in self._bounds(field):
-            comments = (*comments, *bound.comments)
-            if isinstance(bound.value, ir.RangeValue):
-                domain = bound.value
-                value = value if is_fixed else None
-            elif not is_fixed:
-                value = bound.value
-                is_fixed = not bound.is_default
-        if value is None and domain is None:
-            self._ctx.unsupported(
-                "OSC501",
-                span,
-                f"parameter `{field.name}` has neither value nor range",
-                help="give it a default, `= value`, or a range, `with: keep(it in [low..high])`",
-            )
-            return None
-        return ir.Parameter(
-            name=field.name,
-            span=span,
-            comments=comments,
-            type=lower_type(field.type),
-            value=value,
-            domain=domain,
-            is_fixed=is_fixed,
-        )
 
     def _variable(
         self, field: sym.FieldSymbol, node: ast.VariableDeclaration, comments: tuple[str, ...]
@@ -234,24 +241,6 @@ class DeclarationLowering:
             return None
         return ir.Sample(expression=expression, trigger=trigger)
 
-    def _method(self, node: ast.MethodDeclaration) -> ir.Method | None:
-        symbol = self._scenario_member(node.name.text)
-        if not isinstance(symbol, sym.MethodSymbol) or not isinstance(
-            node.body, ast.ExpressionBody
-        ):
-            return None
-        expression = lower_expression(self._ctx, node.body.expression)
-        if expression is None:
-            return None
-        return ir.Method(
-            name=symbol.name,
-            span=node.span,
-            parameters=tuple(self._method_parameter(p) for p in symbol.parameters),
-            result=lower_type(symbol.result),
-            expression=expression,
-            comments=statement_comments(node),
-        )
-
     def _method_parameter(self, parameter: sym.ParameterSymbol) -> ir.MethodParameter:
         default = parameter.default
         return ir.MethodParameter(
@@ -284,11 +273,22 @@ class DeclarationLowering:
                 yield ir.Event(name=member.name, span=member.span, trigger=None, is_implicit=True)
 
 
-def lineage(actor: sym.ActorSymbol) -> tuple[str, ...]:
-    """Return an actor type and its ancestors, most derived first."""
-    names = []
-    current: sym.ActorSymbol | None = actor
-    while current is not None:
-        names.append(current.name)
-        current = current.base
-    return tuple(names)
+def _parameter(
+    field: sym.FieldSymbol,
+    span: Span,
+    comments: tuple[str, ...],
+    constraints: ConstraintLowering,
+) -> ir.Parameter:
+    setting = constraints.setting((field,), field.type)
+    domain = setting.domain
+    if setting.value is None and domain is None:
+        domain = all_values(field.type, span)
+    return ir.Parameter(
+        name=field.name,
+        span=span,
+        comments=(*comments, *setting.comments),
+        type=lower_type(field.type),
+        value=setting.value,
+        domain=domain,
+        is_fixed=setting.is_fixed,
+    )

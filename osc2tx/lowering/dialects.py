@@ -1,9 +1,15 @@
-"""Defaults that a dialect changed are written out, so that backends need not know dialects."""
+"""What a dialect changed is written out, so that backends need not know dialects.
+
+Defaults that it changed become arguments, and what it calls by another name gets the library's.
+"""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from osc2tx import ir
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -36,6 +42,28 @@ def dialect_defaults(
                 ir.Argument(parameter=parameter, value=value, is_positional=False, span=span)
             )
     return tuple(defaults)
+
+
+def set_position(ctx: LoweringContext, modifier: ir.ModifierCall) -> ir.ModifierCall:
+    """Return ScenarioRunner's `set_position` as the `position` that says the same.
+
+    Both are left-handed; a place on a road has no pitch or roll of its own.
+    """
+    arguments = []
+    for argument in modifier.arguments:
+        if argument.parameter not in ("pitch", "roll"):
+            name = "h" if argument.parameter == "yaw" else argument.parameter
+            arguments.append(replace(argument, parameter=name, is_positional=False))
+        elif ir.constant(argument.value) != 0.0:
+            ctx.unsupported(
+                "OSC509", argument.span, f"`{argument.parameter}` can only be 0: roads are level"
+            )
+    type_ = ir.ValueType(ir.Kind.STRING, "string")
+    frame = ir.Literal(span=modifier.span, type=type_, value="carla")
+    arguments.append(
+        ir.Argument(parameter="frame", value=frame, is_positional=False, span=modifier.span)
+    )
+    return replace(modifier, name="position", arguments=tuple(arguments), at="start")
 
 
 def _text(value: ir.Literal | ir.EnumValue) -> str:

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.lowering.context import LoweringContext, present
+from osc2tx.analysis.tape import Key
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.context import LoweringContext
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
+from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
 PRIMITIVE_KINDS = {
@@ -32,12 +36,17 @@ def lower_type(type_: types.Type) -> ir.ValueType:
             return ir.ValueType(ir.Kind.ENUM, str(type_))
         case types.ActorType():
             return ir.ValueType(ir.Kind.ACTOR, str(type_))
-        case types.ListType():
-            return ir.ValueType(ir.Kind.LIST, str(type_))
-        case types.RangeType():
-            return ir.ValueType(ir.Kind.RANGE, str(type_))
+        case types.ListType(element=element):
+            return ir.ValueType(ir.Kind.LIST, str(type_), lower_type(element))
+        case types.RangeType(element=element):
+            return ir.ValueType(ir.Kind.RANGE, str(type_), lower_type(element))
         case _:
             return ir.ValueType(ir.Kind.STRUCT, str(type_))
+
+
+def lower_unit(unit: sym.UnitSymbol) -> ir.Unit:
+    """Return the IR's view of a unit."""
+    return ir.Unit(unit.name, unit.factor, unit.offset, is_standard=unit.origin == "library")
 
 
 def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
@@ -52,16 +61,19 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
         ):
             return ir.Literal(span=span, type=type_, value=value)
         case ast.PhysicalLiteral(value=number):
-            unit = ctx.model.units[node]
-            is_standard = unit.origin == "library"
-            lowered = ir.Unit(unit.name, unit.factor, unit.offset, is_standard)
-            return ir.Quantity(span=span, type=type_, value=number, unit=lowered)
+            unit = lower_unit(ctx.model.units[node])
+            return ir.Quantity(span=span, type=type_, value=number, unit=unit)
         case ast.EnumLiteral() | ast.NameExpression():
             return _lower_name(ctx, node, type_)
         case ast.MemberAccess(base=base, name=name):
             return _lower_member(ctx, node, base, name, type_)
-        case ast.Call():
-            return _lower_call(ctx, node, type_)
+        case ast.Call() | ast.Cast() | ast.TypeTest():
+            return _lower_beyond(ctx, node)
+        case ast.Index(base=base, index=index):
+            lowered, which = lower_expression(ctx, base), lower_expression(ctx, index)
+            if lowered is None or which is None:
+                return None
+            return ir.Index(span=span, type=type_, base=lowered, index=which)
         case ast.Unary(operator=operator, operand=operand):
             inner = lower_expression(ctx, operand)
             if inner is None:
@@ -72,35 +84,69 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
         case ast.Conditional():
             return _lower_conditional(ctx, node, type_)
         case ast.ListLiteral(elements=elements):
-            parts = [lower_expression(ctx, element) for element in elements]
-            return ir.ListValue(span=span, type=type_, elements=present(parts))
+            parts: list[ir.Expression] = []
+            for element in elements:
+                part = lower_expression(ctx, element)
+                if part is None:
+                    return None
+                parts.extend(part.elements if isinstance(part, ir.ListValue) else [part])
+            return ir.ListValue(span=span, type=type_, elements=tuple(parts))
         case ast.RangeLiteral(lower=lower, upper=upper):
             bounds = lower_expression(ctx, lower), lower_expression(ctx, upper)
             if bounds[0] is None or bounds[1] is None:
                 return None
             return ir.RangeValue(span=span, type=type_, lower=bounds[0], upper=bounds[1])
-        case ast.ItExpression() | ast.Cast() | ast.TypeTest() | ast.Index():
-            ctx.unsupported("OSC503", span, "this expression is not supported here yet")
-            return None
+        case ast.ItExpression() if ctx.it is not None:
+            return replace(ctx.it, span=span)
+        case ast.ItExpression() if ctx.place is not None and ctx.place.it is not None:
+            return lower_key(ctx, ctx.place.it, span)
+        case ast.ItExpression():
+            return ir.ScenarioSelf(span=span, type=type_)
         case _:
             assert_never(node)
+
+
+def _lower_beyond(
+    ctx: LoweringContext, node: ast.Call | ast.Cast | ast.TypeTest
+) -> ir.Expression | None:
+    """Lower what is made of expressions itself: modules that import this one."""
+    from osc2tx.lowering.calls import lower_call
+    from osc2tx.lowering.casts import lower_cast, lower_type_test
+
+    match node:
+        case ast.Call():
+            return lower_call(ctx, node)
+        case ast.Cast():
+            return lower_cast(ctx, node)
+        case ast.TypeTest():
+            return lower_type_test(ctx, node)
 
 
 def _lower_name(
     ctx: LoweringContext, node: ast.EnumLiteral | ast.NameExpression, type_: ir.ValueType
 ) -> ir.Expression | None:
     match ctx.model.symbol_of(node):
-        case sym.EnumMemberSymbol(name=name, value=value, enum=enum):
+        case sym.EnumMemberSymbol(value=value, enum=enum):
+            # Members of equal value are one (§7.3.3): the first of them stands for all.
+            name = next(m.name for m in enum.members.values() if m.value == value)
             enum_type = ir.ValueType(ir.Kind.ENUM, enum.name)
             return ir.EnumValue(span=node.span, type=enum_type, member=name, value=value)
+        case sym.FieldSymbol(node=None, name="actor") if ctx.actor is not None:
+            return replace(ctx.actor, span=node.span)
+        case sym.FieldSymbol() if (given := _given(ctx, node)) is not None:
+            return replace(given, span=node.span)
         case sym.FieldSymbol(node=None, name="actor"):
             return ir.FieldRef(span=node.span, type=type_, name="actor")
+        case sym.FieldSymbol() as member if (base := _base_of(ctx, member)) is not None:
+            return member_of(ctx, base, member, node.span)
         case sym.FieldSymbol(owner=sym.ScenarioSymbol(), name=name) as own:
             changes = isinstance(own.default, ast.SampleExpression)
             return ir.FieldRef(span=node.span, type=type_, name=name, is_variable=changes)
         case sym.FieldSymbol(owner=None, name=name) as shared if shared.node is not None:
             ctx.globals.setdefault(name, shared)
             return ir.FieldRef(span=node.span, type=type_, name=name)
+        case sym.ParameterSymbol(name=name) if name in ctx.locals:
+            return replace(ctx.locals[name], span=node.span)
         case sym.ParameterSymbol(name=name):
             return ir.ParameterRef(span=node.span, type=type_, name=name)
         case _:
@@ -122,61 +168,71 @@ def _lower_member(
     if not isinstance(field, sym.FieldSymbol):
         ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
         return None
+    key = ctx.place.locate(node) if ctx.place is not None else None
+    if key is not None and not isinstance(key[0], sym.FieldSymbol):
+        return lower_key(ctx, key, node.span)
     lowered = lower_expression(ctx, base)
-    if lowered is None:
-        return None
+    return None if lowered is None else member_of(ctx, lowered, field, node.span)
+
+
+def member_of(
+    ctx: LoweringContext, base: ir.Expression, field: sym.FieldSymbol, span: Span
+) -> ir.Expression:
+    """Return a field of an object."""
+    type_ = lower_type(field.type)
+    if isinstance(base, ir.ScenarioSelf):
+        return ir.FieldRef(span=span, type=type_, name=field.name)
     return ir.Attribute(
-        span=node.span,
+        span=span,
         type=type_,
-        base=lowered,
+        base=base,
         owner=field.owner.name if field.owner is not None else "",
         name=field.name,  # not as written: a dialect may know it by another name
         is_variable=field.is_variable,
     )
 
 
-def _lower_call(ctx: LoweringContext, node: ast.Call, type_: ir.ValueType) -> ir.Expression | None:
-    binding = ctx.model.bindings.get(node)
-    callee = binding.callee if binding else None
-    if binding is None or not isinstance(callee, sym.MethodSymbol) or callee.owner is None:
-        ctx.unsupported("OSC503", node.span, f"`{node.callee.span.text}` is not supported here yet")
-        return None
-    if callee.origin == "user" and not is_own_method(callee):
+def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | None:
+    """Return what a path of the analysis stands for; an empty one is the scenario itself."""
+    if not key:
+        return ir.ScenarioSelf(span=span, type=ir.ValueType(ir.Kind.STRUCT, "scenario"))
+    first, *rest = key
+    expression: ir.Expression
+    if isinstance(first, sym.FieldSymbol):
+        if first.owner is None and first.node is not None:
+            ctx.globals.setdefault(first.name, first)
+        expression = ir.FieldRef(span=span, type=lower_type(first.type), name=first.name)
+    elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
+        expression, rest = ctx.given[key[: lengths[0]]], list(key[lengths[0] :])
+    else:
         ctx.unsupported(
-            "OSC503",
-            node.span,
-            f"method `{callee.name}` cannot be called yet",
-            help="only methods of the scenario itself, with an expression as body, are supported",
+            "OSC502", span, "this constraint is about something that has no value of its own"
         )
         return None
-    base = _lower_receiver(ctx, node, binding.receiver)
-    if base is None:
+    for field in rest:
+        if isinstance(field, sym.FieldSymbol):
+            expression = member_of(ctx, expression, field, span)
+    return expression
+
+
+def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
+    """Return the value of a parameter of an invocation or modifier, in what that says."""
+    key = None if ctx.place is None else ctx.place.locate(node)
+    return None if key is None else ctx.given.get(key)
+
+
+def _base_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | None:
+    """Return the object whose member a plain name means, if that is not the scenario."""
+    place, receiver = ctx.place, ctx.receiver
+    if receiver and field.owner and field.owner in supertypes(receiver.owner):
+        return receiver.value
+    if place is None or field.owner is None:
         return None
-    return ir.MethodCall(
-        span=node.span,
-        type=type_,
-        base=base,
-        owner=callee.owner.name,
-        method=callee.name,
-        arguments=lower_arguments(ctx, binding, node.arguments),
-    )
-
-
-def is_own_method(method: sym.MethodSymbol) -> bool:
-    """Whether a method belongs to a scenario and is an expression."""
-    return (
-        isinstance(method.owner, sym.ScenarioSymbol)
-        and method.node is not None
-        and isinstance(method.node.body, ast.ExpressionBody)
-    )
-
-
-def _lower_receiver(
-    ctx: LoweringContext, node: ast.Call, receiver: ast.Expression | None
-) -> ir.Expression | None:
-    if receiver is None or isinstance(receiver, ast.ItExpression):
-        return ir.ScenarioSelf(span=node.span, type=ir.ValueType(ir.Kind.STRUCT, "scenario"))
-    return lower_expression(ctx, receiver)
+    if place.owner is not None and field.owner in supertypes(place.owner):
+        return lower_key(ctx, place.prefix, field.span) if place.prefix else None
+    if place.it and place.it_type and field.owner in supertypes(place.it_type):
+        return lower_key(ctx, place.it, field.span)
+    return None
 
 
 def lower_arguments(
@@ -210,6 +266,10 @@ def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | Non
         right = lower_expression(ctx, current.right)
         if left is None or right is None:
             return None
+        known = _known_logic(current.operator, left, right)
+        if known is not None:
+            left = known
+            continue
         left = ir.Binary(
             span=current.span,
             type=lower_type(ctx.model.type_of(current)),
@@ -218,6 +278,19 @@ def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | Non
             right=right,
         )
     return left
+
+
+def _known_logic(
+    operator: ast.BinaryOperator, left: ir.Expression, right: ir.Expression
+) -> ir.Expression | None:
+    """Return what `and` or `or` comes to if one side is known when compiling, such as `.is(T)`."""
+    if operator not in (ast.BinaryOperator.AND, ast.BinaryOperator.OR):
+        return None
+    decisive = operator is ast.BinaryOperator.OR
+    for side, other in ((left, right), (right, left)):
+        if isinstance(side, ir.Literal) and isinstance(side.value, bool):
+            return side if side.value is decisive else other
+    return None
 
 
 def _lower_conditional(

@@ -6,29 +6,17 @@ need not be unique: a trace tells nodes apart by their source line.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 from osc2tx import ir
-from osc2tx.diagnostics import Span
+from osc2tx.ir.text import condensed, shorten
 
-MAX_LENGTH = 90
 MAX_WORDS = 3
-
-
-def statement_name(span: Span) -> str:
-    """Return the text of a statement on one line."""
-    return shorten(condensed(span))
-
-
-def condensed(span: Span) -> str:
-    """Return the text of a span with its white space reduced to single blanks."""
-    return re.sub(r"\s+", " ", span.text)
 
 
 def invocation_name(actor: str, action: str, details: Iterable[str]) -> str:
     """Return `hero.drive: speed(v_hero)`, the details being arguments and modifiers."""
-    text = ", ".join(re.sub(r"\s+", " ", detail) for detail in details)
+    text = ", ".join(condensed(detail) for detail in details)
     return shorten(f"{actor}.{action}: {text}" if text else f"{actor}.{action}")
 
 
@@ -45,11 +33,6 @@ def composition_name(word: str, members: tuple[ir.Behavior, ...], *, is_phase: b
         return f"{owner}{word}"
     joint = {"one_of": " or ", "parallel": " with "}.get(word, ", ")
     return f"{owner}{joint.join(verb for verb in verbs if verb)}"
-
-
-def shorten(text: str) -> str:
-    """Cut a name that would be too long for a tree or a timeline."""
-    return text if len(text) <= MAX_LENGTH else f"{text[: MAX_LENGTH - 1]}…"
 
 
 def _actors(node: ir.Behavior) -> Iterable[str]:
@@ -73,7 +56,9 @@ def _verb(node: ir.Behavior) -> str | None:
             return scenario.rpartition(".")[2]
         case ir.Wait():
             return "wait"
-        case ir.Emit():
+        case ir.Emit() | ir.Finish():
             return "emit"
+        case ir.Call():
+            return "call"
         case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.On():
             return None

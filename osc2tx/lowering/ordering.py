@@ -6,7 +6,7 @@ before it is used. Source order is kept wherever it does.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from osc2tx import ir
 from osc2tx.diagnostics import Label
@@ -14,13 +14,23 @@ from osc2tx.lowering.context import LoweringContext
 
 
 def in_order_of_use(
-    ctx: LoweringContext, declarations: tuple[ir.Declaration, ...]
+    ctx: LoweringContext,
+    declarations: tuple[ir.Declaration, ...],
+    methods: tuple[ir.Method, ...] = (),
 ) -> tuple[ir.Declaration, ...]:
-    """Return the declarations, each after those that its value needs; cycles are reported."""
+    """Return the declarations, each after those that its value needs; cycles are reported.
+
+    Args:
+        ctx: The checked program.
+        declarations: Of one scenario.
+        methods: What the values may call; a call needs what the body reads.
+    """
     by_name = {declaration.name: declaration for declaration in declarations}
+    bodies = {method.name: method.expression for method in methods}
+    needs = {d.name: tuple(_needs(_values(d), bodies)) for d in declarations}
     ordered: dict[str, ir.Declaration] = {}
     for declaration in declarations:
-        _place(ctx, declaration, by_name, ordered)
+        _place(ctx, declaration, by_name, needs, ordered)
     return tuple(ordered.values())
 
 
@@ -28,13 +38,14 @@ def _place(
     ctx: LoweringContext,
     start: ir.Declaration,
     by_name: dict[str, ir.Declaration],
+    needs: Mapping[str, tuple[str, ...]],
     ordered: dict[str, ir.Declaration],
 ) -> None:
     """Add a declaration below those it needs; a chain of any length, so without recursion."""
     path = [start]
     while path:
         current = path[-1]
-        missing = [n for n in _needs(current) if n in by_name and n not in ordered]
+        missing = [n for n in needs[current.name] if n in by_name and n not in ordered]
         if current.name in ordered or not missing:
             ordered.setdefault(path.pop().name, current)
             continue
@@ -56,16 +67,26 @@ def _report_cycle(ctx: LoweringContext, cycle: list[ir.Declaration]) -> None:
     )
 
 
-def _needs(declaration: ir.Declaration) -> Iterable[str]:
-    """Return the fields that the value of a declaration reads when it is computed."""
-    for expression in _values(declaration):
-        for part in ir.walk(expression):
-            if isinstance(part, ir.FieldRef) and part.type.kind is not ir.Kind.ACTOR:
+def _needs(
+    values: Iterable[ir.Expression], bodies: Mapping[str, ir.Expression | None]
+) -> Iterable[str]:
+    """Yield the fields that values read when they are computed, methods looked into once."""
+    pending, called = list(values), set[str]()
+    while pending:
+        for part in ir.walk(pending.pop(0)):
+            if isinstance(part, ir.FieldRef):
                 yield part.name
+            is_own = isinstance(part, ir.MethodCall) and isinstance(part.base, ir.ScenarioSelf)
+            if isinstance(part, ir.MethodCall) and is_own and part.method not in called:
+                called.add(part.method)
+                body = bodies.get(part.method)
+                pending += [] if body is None else [body]
 
 
 def _values(declaration: ir.Declaration) -> tuple[ir.Expression, ...]:
     match declaration:
+        case ir.Struct(value=value) if value is not None:
+            return (value,)
         case ir.Actor(values=values) | ir.Struct(values=values):
             return tuple(value.value for value in values)
         case ir.Parameter(value=value, domain=domain):

@@ -5,40 +5,74 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.lowering.behaviors import BehaviorLowering, lower_modifier
+from osc2tx.lowering.behaviors import BehaviorLowering
+from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
-from osc2tx.lowering.declarations import DeclarationLowering, lineage
+from osc2tx.lowering.coverage import lower_coverage
+from osc2tx.lowering.declarations import DeclarationLowering
+from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.modifiers import is_override
+from osc2tx.lowering.objects import lineage
 from osc2tx.lowering.ordering import in_order_of_use
-from osc2tx.lowering.placement import PlacementLowering
+from osc2tx.lowering.overrides import lower_overrides
+from osc2tx.lowering.own_modifiers import ModifierLowering
+from osc2tx.lowering.own_types import lower_types
+from osc2tx.lowering.paths import is_path_member
+from osc2tx.lowering.placement import (
+    MAP_MEMBERS,
+    PLACING,
+    PLACING_MEMBERS,
+    PlacementLowering,
+    merged,
+)
+from osc2tx.lowering.without_effect import report_without_effect
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
 
-def lower(model: SemanticModel, options: CompileOptions, sink: DiagnosticSink) -> ir.Module:
+def lower(
+    model: SemanticModel,
+    analysis: ConstraintAnalysis,
+    options: CompileOptions,
+    sink: DiagnosticSink,
+) -> ir.Module:
     """Lower the scenarios of the root file, and imported ones that they invoke.
 
     What is refused is reported and left out.
     """
     lowered: dict[int, ir.Scenario | None] = {}
+    invoked: set[int] = set()
+    used: list[sym.ActorSymbol | sym.StructSymbol] = []
+    actions: list[sym.ActionSymbol] = []
     pending = list(model.scenarios)
     while pending:
         scenario = pending.pop(0)
         if id(scenario) in lowered:
             continue
-        ctx = LoweringContext(model, sink)
+        ctx = LoweringContext(model, analysis, sink, types=used, actions=actions)
         is_imported = scenario not in model.scenarios
         lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)
         pending.extend(ctx.invoked)
+        invoked.update(map(id, ctx.invoked))
+    report_without_effect(LoweringContext(model, analysis, sink), used, actions)
+    scenarios = present(
+        [
+            scenario and replace(scenario, is_invoked=key in invoked)
+            for key, scenario in lowered.items()
+        ]
+    )
     return ir.Module(
         source=model.root.span.source.name,
         standard=options.standard,
         dialect=options.dialect,
         one_of=options.one_of,
-        scenarios=present(list(lowered.values())),
+        scenarios=scenarios,
         comments=_head_comments(model.root),
+        types=lower_types(LoweringContext(model, analysis, sink), used, scenarios),
     )
 
 
@@ -57,27 +91,36 @@ def _lower_scenario(
 ) -> ir.Scenario | None:
     node = scenario.node
     statements = _statements(scenario)
-    lowering = DeclarationLowering(ctx, scenario, statements)
+    constraints = ConstraintLowering.of_scenario(ctx, scenario)
+    lowering = DeclarationLowering(ctx, scenario, statements, constraints)
     declarations = lowering.lower()
     methods = lowering.lower_methods()
-    tree = _lower_body(ctx, scenario, statements)
+    tree = _lower_body(ctx, scenario, statements, constraints)
     if tree is None:
         return None
     placements, body = PlacementLowering(ctx).split(tree)
     if body is None:
         body = _nothing_left(scenario)
+    left_over = constraints.left_over()
+    coverage = lower_coverage(ctx, scenario)
+    type_methods = lowering.lower_type_methods()
+    global_parameters = lowering.lower_globals()
     return ir.Scenario(
         name=scenario.qualified_name,
         span=node.name.span,
         comments=statement_comments(node),
         declarations=in_order_of_use(
-            ctx, (*_own_actor(scenario), *lowering.lower_globals(), *declarations, *ctx.drawn)
+            ctx,
+            (*_own_actor(ctx, scenario), *global_parameters, *declarations, *ctx.drawn),
+            (*methods, *type_methods),
         ),
-        methods=methods,
-        placements=(*_member_placements(ctx, statements), *placements),
+        methods=(*methods, *type_methods),
+        placements=merged((*_member_placements(ctx, statements, constraints), *placements)),
         body=body,
         end_comments=_end_comments(ctx, scenario),
-        overrides=_overrides(ctx, statements),
+        overrides=lower_overrides(ctx, statements),
+        coverage=coverage,
+        constraints=(*lowering.global_constraints, *left_over),
         is_imported=is_imported,
     )
 
@@ -88,12 +131,13 @@ def _end_comments(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[s
     return (*scenario.node.end_comments, *(ctx.model.root.comments if is_last else ()))
 
 
-def _own_actor(scenario: sym.ScenarioSymbol) -> tuple[ir.Actor, ...]:
+def _own_actor(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[ir.Actor, ...]:
     """Return the implicit field `actor` of a scenario of an actor; its invoker fills it in."""
     if scenario.actor is None:
         return ()
     span = scenario.node.name.span
     names = lineage(scenario.actor)
+    ctx.types.append(scenario.actor)
     return (ir.Actor(name="actor", span=span, type=names[0], lineage=names, values=()),)
 
 
@@ -108,7 +152,10 @@ def _statements(scenario: sym.ScenarioSymbol) -> tuple[ast.Statement, ...]:
 
 
 def _lower_body(
-    ctx: LoweringContext, scenario: sym.ScenarioSymbol, statements: tuple[ast.Statement, ...]
+    ctx: LoweringContext,
+    scenario: sym.ScenarioSymbol,
+    statements: tuple[ast.Statement, ...],
+    constraints: ConstraintLowering,
 ) -> ir.Behavior | None:
     """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
     directives = [s for s in statements if isinstance(s, ast.DoDirective)]
@@ -117,7 +164,7 @@ def _lower_body(
             "OSC510", scenario.node.name.span, f"scenario `{scenario.name}` has no `do`"
         )
         return None
-    lowering = BehaviorLowering(ctx)
+    lowering = BehaviorLowering(ctx, constraints)
     body = _lower_directives(lowering, scenario, directives)
     reactions = present(
         [lowering.lower_on(s) for s in statements if isinstance(s, ast.OnDirective)]
@@ -161,32 +208,39 @@ def _named_as_do(body: ir.Behavior) -> ir.Behavior:
 
 
 def _member_placements(
-    ctx: LoweringContext, statements: tuple[ast.Statement, ...]
+    ctx: LoweringContext,
+    statements: tuple[ast.Statement, ...],
+    constraints: ConstraintLowering,
 ) -> tuple[ir.Placement, ...]:
     """Lower modifiers that stand as members: only those that place an actor."""
     placements = []
     for statement in statements:
         if not isinstance(statement, ast.ModifierApplication):
             continue
-        if is_override(ctx, statement):
+        if is_override(ctx, statement) or is_path_member(ctx, statement):
             continue
-        modifier = lower_modifier(ctx, statement)
         target = statement.actor and ctx.model.symbol_of(statement.actor)
-        if modifier.name != "location" or not isinstance(target, sym.FieldSymbol):
-            ctx.unsupported(
-                "OSC508",
-                statement.span,
-                f"modifier `{modifier.name}` of a whole scenario is not supported yet",
+        what = statement.actor.span.text if statement.actor else "actor"
+        actor = lower_expression(ctx, statement.actor) if statement.actor else None
+        for modifier in ModifierLowering(ctx, constraints, what, actor, None).lower(statement):
+            is_start = modifier.at == "start" and modifier.name in PLACING
+            is_placing = is_start or modifier.name in PLACING_MEMBERS
+            if not is_placing or not isinstance(target, sym.FieldSymbol):
+                ctx.unsupported(
+                    "OSC508",
+                    statement.span,
+                    f"modifier `{modifier.name}` of a whole scenario is not supported yet",
+                )
+                continue
+            placements.append(
+                ir.Placement(
+                    actor=target.name,
+                    modifiers=(replace(modifier, comments=()),),
+                    span=statement.span,
+                    comments=modifier.comments,
+                    of_map=modifier.name in MAP_MEMBERS,
+                )
             )
-            continue
-        placements.append(
-            ir.Placement(
-                actor=target.name,
-                modifiers=(replace(modifier, comments=()),),
-                span=statement.span,
-                comments=modifier.comments,
-            )
-        )
     return tuple(placements)
 
 
@@ -198,32 +252,3 @@ def _nothing_left(scenario: sym.ScenarioSymbol) -> ir.Behavior:
     elapsed = ir.Elapsed(span=zero.span, duration=zero)
     trigger = ir.Trigger(span=zero.span, event=None, condition=elapsed)
     return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)
-
-
-def is_override(ctx: LoweringContext, node: ast.ModifierApplication) -> bool:
-    """Whether a modifier is the language's own `override`."""
-    callee = ctx.model.binding_of(node).callee
-    return callee.origin == "builtin" and callee.name == "override"
-
-
-def _overrides(
-    ctx: LoweringContext, statements: tuple[ast.Statement, ...]
-) -> tuple[ir.Override, ...]:
-    """Lower `override(overridden, by, mode)`; both must be labels of the scenario."""
-    overrides = []
-    for statement in statements:
-        if not isinstance(statement, ast.ModifierApplication) or not is_override(ctx, statement):
-            continue
-        given = {p.name: value for p, value in ctx.model.binding_of(statement).arguments}
-        labels = [
-            ctx.model.symbol_of(given[name]) for name in ("overridden", "by") if name in given
-        ]
-        names = [label.name for label in labels if isinstance(label, sym.LabelSymbol)]
-        if len(names) < 2:
-            ctx.unsupported("OSC508", statement.span, "`override` needs two labels")
-            continue
-        mode = given["mode"].span.text if "mode" in given else "on_start"
-        overrides.append(
-            ir.Override(span=statement.span, overridden=names[0], by=names[1], mode=mode)
-        )
-    return tuple(overrides)

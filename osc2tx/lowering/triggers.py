@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -70,7 +71,11 @@ def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condi
             rising = isinstance(node, ast.RiseCondition)
             return ir.Edge(span=node.span, rising=rising, expression=main)
         case ast.ElapsedCondition():
-            main = ctx.draw(main) if isinstance(main, ir.RangeValue) else main
+            main = (
+                ctx.draw("wait time", main, main.lower.type)
+                if isinstance(main, ir.RangeValue)
+                else main
+            )
             return ir.Elapsed(span=node.span, duration=main)
         case ast.EveryCondition(offset=offset):
             shift = None if offset is None else lower_expression(ctx, offset)
@@ -92,3 +97,14 @@ def _main_expression(node: ast.EventCondition) -> ast.Expression:
 def declares_event(symbol: sym.Symbol | None) -> bool:
     """Whether an event belongs to the scenario: declared, or made by its use in a dialect."""
     return isinstance(symbol, sym.EventSymbol) and (symbol.node is not None or symbol.is_implicit)
+
+
+def lower_until(ctx: LoweringContext, members: Sequence[ast.WithMember]) -> tuple[ir.Trigger, ...]:
+    """Lower the `until`s of a `with` block; the first of them ends the member."""
+    return present(
+        [
+            lower_trigger(ctx, member.event, statement_comments(member))
+            for member in members
+            if isinstance(member, ast.UntilDirective)
+        ]
+    )

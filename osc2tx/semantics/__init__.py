@@ -12,12 +12,13 @@ Order of events, with the modules that do the work; `builder` runs them:
    its own, so that they stay its own.
 2. Definition pass (`collect`, `members`): a symbol for everything that is declared.
 3. Resolution pass, first half (`resolve`): exports (`exports`), actors and bases
-   (`resolve_types`, `inheritance`), extensions (`extensions`), enum values (`enums`), signatures.
+   (`resolve_types`, `inheritance`), physical types and units (`physical`), extensions
+   (`extensions`), enum values (`enums`), signatures.
 4. Resolution pass, second half (`check`): bodies. Statements: `behaviors`, `modifiers`, `events`,
-   `constraints`, `conditions`, `coverage`. Expressions: the package `expressions`. Arguments:
-   `binding`, `exclusive`. Names: `lookup`, `builtins`, `unimported`. Types: `assign`,
-   `conversions`. All share a `Resolution` (`resolution`) and get the place they look from as an
-   `Environment`.
+   `constraints`, `conditions`, `coverage` (with `coverage_items` and `slices`). Expressions: the
+   package `expressions`. Arguments: `binding`, `exclusive`. Names: `lookup`, `builtins`,
+   `unimported`. Types: `assign`, `conversions`. All share a `Resolution` (`resolution`) and get the
+   place they look from as an `Environment`.
 
 `units` converts authored values to SI, for the next stage.
 

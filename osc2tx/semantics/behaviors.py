@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.assign import check_duration, check_value
-from osc2tx.semantics.binding import bind_behavior, bind_call, type_arguments
+from osc2tx.semantics.binding import bind_behavior, bind_call, misplaced_of, type_arguments
 from osc2tx.semantics.builtins import COMPOSITION, COMPOSITION_FIELDS, DIRECTIVE
 from osc2tx.semantics.constraints import check_keep, check_remove_default
 from osc2tx.semantics.conversions import type_of_owner
 from osc2tx.semantics.events import check_event, resolve_event_name
 from osc2tx.semantics.expressions.methods import resolve_call, type_itself
 from osc2tx.semantics.modifiers import check_modifier
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose, find_behavior, report_unknown_behavior
 from osc2tx.semantics.scope import CallableBehavior
 from osc2tx.semantics.symbols import (
@@ -23,7 +24,7 @@ from osc2tx.semantics.symbols import (
     LabelSymbol,
     TypeSymbol,
 )
-from osc2tx.semantics.types import ERROR, ActorType, BehaviorType, Type
+from osc2tx.semantics.types import ERROR, OBJECT, ActorType, BehaviorType, Type
 from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
@@ -88,11 +89,17 @@ def _check_composition(r: Resolution, node: ast.Composition, env: Environment) -
     names = list(COMPOSITION_FIELDS) if parallel else ["duration"]
     positional = "overlap" if parallel else "duration"
     seen: set[str] = set()
+    misplaced = misplaced_of(node.arguments)
     for index, argument in enumerate(node.arguments):
+        if argument in misplaced:
+            type_arguments(r, [argument], env)
+            continue
         if argument.name is None and index > 0:
             r.report(
                 "OSC405", argument.span, f"`{node.operator.value}` takes one positional argument"
             )
+            type_arguments(r, [argument], env)
+            continue
         name = argument.name.text if argument.name else positional
         _check_composition_argument(r, node, argument, name, names, env)
         if name in seen:
@@ -152,7 +159,7 @@ def _check_invocation(r: Resolution, node: ast.Invocation, env: Environment) -> 
 def _actor_of(r: Resolution, node: ast.Invocation, env: Environment) -> ActorSymbol | None:
     if node.actor is None:
         return env.actor
-    type_ = r.type_of(node.actor, env)
+    type_ = r.type_of(node.actor, env, OBJECT)
     return type_.symbol if isinstance(type_, ActorType) else None
 
 
@@ -163,7 +170,7 @@ def resolve_invocation(
     if node.behavior in r.invoked:
         return r.invoked[node.behavior]
     if node.actor is not None:
-        type_ = type_itself(r, node.actor, node.behavior, env) or r.type_of(node.actor, env)
+        type_ = type_itself(r, node.actor, node.behavior, env) or r.type_of(node.actor, env, OBJECT)
         found = _find_of_actor(r, node, type_, env)
     else:
         found = _find_without_actor(r, node.behavior, env)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import dropwhile
 
 from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import parameter_alias, standard_parameter, write_instead
 from osc2tx.semantics.assign import check_value
 from osc2tx.semantics.builtins import DURATION
@@ -12,7 +14,8 @@ from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.exclusive import check_exclusive
 from osc2tx.semantics.lookup import parameters_of
 from osc2tx.semantics.model import Binding
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
+from osc2tx.semantics.resolve_types import choose
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     BehaviorSymbol,
@@ -70,6 +73,7 @@ def bind_call(
     given = {parameter for parameter, _ in pairs}
     known = {p.name for p in callee.parameters}
     misnamed = any(a.name is not None and a.name.text not in known for a in node.arguments)
+    misnamed |= bool(misplaced_of(node.arguments))
     for required in callee.parameters:
         if required not in given and not _has_default(required) and not misnamed:
             r.report(
@@ -104,8 +108,13 @@ def _match(
     taken: set[Parameter] = set()
     implied: list[tuple[Parameter, ast.Expression]] = []
     unknown: list[ast.Name] = []
+    misplaced = misplaced_of(arguments)
+    positional = _positional(parameters, callee)
     for index, argument in enumerate(arguments):
         parameter: Parameter | None
+        if argument in misplaced:
+            type_arguments(r, [argument], env)
+            continue
         if argument.name is not None:
             parameter = _find_named(r, argument.name, parameters, callee, env)
             if parameter is None:
@@ -113,7 +122,7 @@ def _match(
             if parameter is None:
                 unknown.append(argument.name)
         else:
-            parameter = parameters[index] if index < len(parameters) else None
+            parameter = positional[index] if index < len(positional) else None
             if parameter is None:
                 _report_too_many(r, argument, parameters, callee)
             else:
@@ -134,6 +143,19 @@ def _match(
             taken.add(parameter)
             pairs.append((parameter, value))
     return tuple(pairs)
+
+
+def _positional(parameters: Sequence[Parameter], callee: Symbol) -> Sequence[Parameter]:
+    """Return the parameters that have a place; `duration` has one in the library's actions."""
+    if callee.origin != "user":
+        return parameters
+    return [parameter for parameter in parameters if parameter is not DURATION]
+
+
+def misplaced_of(arguments: Sequence[ast.Argument]) -> set[ast.Argument]:
+    """Return the positional arguments that follow named ones; the parser has reported them."""
+    following = dropwhile(lambda argument: argument.name is None, arguments)
+    return {argument for argument in following if argument.name is None}
 
 
 def _find_alias(
@@ -175,17 +197,25 @@ def _find_named(
     callee: Symbol,
     env: Environment,
 ) -> Parameter | None:
-    named = [p for p in parameters if p.name == name.text]
-    if len(named) > 1 or name.namespace is not None:
-        named = r.scope.select(named, name, env.context) or (
-            named if name.namespace is None else []
-        )
-    if not named:
+    parameter = find_parameter(r, name, parameters, env)
+    if parameter is None:
         return None
-    parameter = named[0]
     r.references[name] = parameter
     _note_prelude(r, parameter, callee, name.span)
     return parameter
+
+
+def find_parameter(
+    r: Resolution, name: ast.Name, parameters: Sequence[Parameter], env: Environment
+) -> Parameter | None:
+    """Return the parameter of a name; its name has a namespace as any other (§7.7.4)."""
+    named = [p for p in parameters if p.name == name.text]
+    if name.namespace is None and any(p.origin == "builtin" for p in named):
+        return named[0]
+    visible = r.scope.select(named, name, env.context)
+    if visible or name.namespace is not None:
+        return next(iter(visible), None)
+    return choose(r, named, name, env.context)
 
 
 def _note_prelude(r: Resolution, parameter: Parameter, callee: Symbol, span: Span) -> None:

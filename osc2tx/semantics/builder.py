@@ -90,9 +90,7 @@ def _is_extension(statement: ast.FileStatement) -> bool:
 def _check_uses(r: Resolution, files: list[ast.File]) -> None:
     for file in files:
         for statement in file.statements:
-            if not isinstance(statement, ast.NamespaceStatement):
-                continue
-            for name in statement.uses:
+            for name in _namespaces_in(statement):
                 if not r.scope.has_namespace(name):
                     library = name in LIBRARY_NAMESPACES
                     r.report(
@@ -101,6 +99,17 @@ def _check_uses(r: Resolution, files: list[ast.File]) -> None:
                         f"no namespace `{name}`",
                         help="import the library: `import osc.standard.all`" if library else None,
                     )
+
+
+def _namespaces_in(statement: ast.FileStatement) -> tuple[str, ...]:
+    """Return the namespaces that a statement takes for granted."""
+    match statement:
+        case ast.NamespaceStatement(uses=uses):
+            return uses
+        case ast.ExportStatement(items=items):
+            return tuple(i.namespace for i in items if i.name is None and i.namespace is not None)
+        case _:
+            return ()
 
 
 def _model(

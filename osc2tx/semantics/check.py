@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics import Span
 from osc2tx.semantics.assign import check_value
 from osc2tx.semantics.behaviors import check_do_member, check_on, resolve_label
 from osc2tx.semantics.builtins import BEHAVIOR
@@ -101,7 +102,8 @@ def _check_applied_modifier(
 ) -> None:
     match owner:
         case ModifierSymbol():
-            check_modifier(r, node, env, owner.target, owner.actor)
+            is_open = owner.target is None
+            check_modifier(r, node, env, owner.target, owner.actor, is_open=is_open)
         case ScenarioSymbol() | ActionSymbol():
             check_modifier(r, node, env, owner, env.actor)
         case ActorSymbol():
@@ -174,11 +176,22 @@ def _check_method(
                 r.type_of(expression, inner)
             else:
                 check_value(r, expression, symbol.result, inner, "the result")
-        case ast.ExternalBody(arguments=arguments):
+        case ast.ExternalBody(path=path, arguments=arguments):
+            if path[0] == "osc":
+                _report_reserved(r, node.body.span, ".".join(path))
             for argument in arguments:
                 r.type_of(argument.value, inner)
         case ast.UndefinedBody():
             pass
+
+
+def _report_reserved(r: Resolution, span: Span, path: str) -> None:
+    r.report(
+        "OSC216",
+        span,
+        f"`{path}` begins with `osc`, which is reserved for the standard",
+        help="name what your tool offers, such as `python(…)`",
+    )
 
 
 def _check_single_do(r: Resolution, owner: TypeSymbol) -> None:

@@ -236,14 +236,19 @@ class Collector:
                 self.scope.globals.setdefault(symbol.name, []).append(symbol)
 
     def collect_body(
-        self, owner: TypeSymbol, statements: Sequence[ast.Statement], context: Context
+        self,
+        owner: TypeSymbol,
+        statements: Sequence[ast.Statement],
+        context: Context,
+        *,
+        extends: bool = False,
     ) -> None:
-        """Add the members of a type, or of an extension of it."""
+        """Add the members of a type, or of an extension of it, which may override methods."""
         for statement in statements:
             self.scope.contexts[statement] = context
             owner.statements.append(statement)
             for member in members_of(statement, owner, context, self.origin):
-                self._add_member(owner, member)
+                self._add_member(owner, member, extends)
 
     def _check_parameters(self, member: Member) -> None:
         """Report parameters of a method or event that have the same name."""
@@ -255,7 +260,7 @@ class Collector:
             if earlier is not parameter:
                 report_duplicate(self.sink, parameter, earlier)
 
-    def _add_member(self, owner: TypeSymbol, member: Member) -> None:
+    def _add_member(self, owner: TypeSymbol, member: Member, extends: bool) -> None:
         self._check_parameters(member)
         key = member.name
         earlier = owner.members.get(key)
@@ -263,20 +268,12 @@ class Collector:
             key = f"{member.namespace}::{member.name}"
             earlier = owner.members.get(key)
         replaces = earlier is not None and self.origin == "prelude" and earlier.origin == "library"
-        if earlier is not None and not replaces and not _is_override(member, earlier):
+        if extends and isinstance(member, MethodSymbol) and isinstance(earlier, MethodSymbol):
+            self.scope.overridden[member] = earlier
+        elif earlier is not None and not replaces:
             report_duplicate(self.sink, member, earlier)
             return
         owner.members[key] = member
-
-
-def _is_override(member: Member, earlier: Member) -> bool:
-    """Whether an extension redefines a method with `only` (§7.3.7)."""
-    return (
-        isinstance(member, MethodSymbol)
-        and isinstance(earlier, MethodSymbol)
-        and member.node is not None
-        and member.node.is_only
-    )
 
 
 def dimension_of(exponents: Sequence[ast.SiExponent]) -> Dimension:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.assign import check_value
 from osc2tx.semantics.lookup import find_member, member_names
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import Context
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -56,4 +57,7 @@ def _check_literal(
     field: FieldSymbol,
     env: Environment,
 ) -> None:
+    if field.type == BOOL and isinstance(value, ast.NameExpression):
+        r.report("OSC308", value.span, "the condition must be `true` or `false`")
+        return
     check_value(r, value, field.type, env, f"`{field.name}`")

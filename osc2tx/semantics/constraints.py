@@ -7,13 +7,15 @@ from collections.abc import Iterator
 from osc2tx.semantics.assign import check_condition
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.symbols import EnumMemberSymbol, FieldSymbol, ParameterSymbol
+from osc2tx.semantics.types import BOOL
 from osc2tx.syntax import ast
 
 
 def check_keep(r: Resolution, node: ast.KeepConstraint, env: Environment) -> None:
     """Check `keep(expression)`: boolean, and at least one parameter is affected."""
     check_condition(r, node.expression, env)
-    _check_affects_parameter(r, node.expression)
+    if r.types[node.expression] == BOOL:
+        _check_affects_parameter(r, node.expression)
 
 
 def check_remove_default(r: Resolution, node: ast.RemoveDefault, env: Environment) -> None:
@@ -32,7 +34,7 @@ def check_remove_default(r: Resolution, node: ast.RemoveDefault, env: Environmen
 def _check_affects_parameter(r: Resolution, expression: ast.Expression) -> None:
     """Report a constraint that could only be met by changing variables (§7.3.6)."""
     variable: FieldSymbol | None = None
-    for path in _paths(expression):
+    for path in paths_of(expression):
         if isinstance(r.references.get(path), EnumMemberSymbol):
             continue
         fields = list(_symbols_along(r, path))
@@ -51,6 +53,13 @@ def _check_affects_parameter(r: Resolution, expression: ast.Expression) -> None:
         )
 
 
+def root_of(path: ast.Expression) -> ast.Expression:
+    """Return what a path starts with."""
+    while isinstance(path, ast.MemberAccess | ast.Index | ast.Cast):
+        path = path.base
+    return path
+
+
 def _symbols_along(r: Resolution, path: ast.Expression) -> Iterator[object]:
     current: ast.Expression = path
     while isinstance(current, ast.MemberAccess | ast.Index | ast.Cast):
@@ -63,7 +72,7 @@ def _symbols_along(r: Resolution, path: ast.Expression) -> Iterator[object]:
         yield ParameterSymbol
 
 
-def _paths(expression: ast.Expression) -> Iterator[ast.Expression]:
+def paths_of(expression: ast.Expression) -> Iterator[ast.Expression]:
     """Yield the paths to fields in an expression; calls count as paths of unknown effect."""
     stack: list[ast.Expression] = [expression]
     while stack:

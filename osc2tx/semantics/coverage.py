@@ -2,110 +2,55 @@
 
 from __future__ import annotations
 
-from osc2tx.semantics.assign import check_condition
+from collections.abc import Mapping
+
+from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.semantics.assign import check_condition, check_value
+from osc2tx.semantics.constraints import paths_of, root_of
 from osc2tx.semantics.conversions import dimension_of
+from osc2tx.semantics.coverage_items import (
+    ARGUMENTS,
+    Item,
+    all_items_of,
+    items_of,
+    text_of,
+)
 from osc2tx.semantics.events import resolve_event_path
-from osc2tx.semantics.resolution import Environment, Resolution, did_you_mean
-from osc2tx.semantics.types import ERROR, PhysicalType, Type
+from osc2tx.semantics.resolution import Environment, Resolution
+from osc2tx.semantics.slices import check_slices
+from osc2tx.semantics.symbols import EnumMemberSymbol, ParameterSymbol
+from osc2tx.semantics.types import (
+    ERROR,
+    STRING,
+    UINT,
+    EnumType,
+    ErrorType,
+    PhysicalType,
+    PrimitiveType,
+    Type,
+)
 from osc2tx.syntax import ast
 
-ARGUMENTS = (
-    "name", "expression", "unit", "range", "every", "buckets", "event", "text", "items",
-    "ignore", "illegal", "disable", "target", "override",
-)  # fmt: skip
+FIXED = ("name", "expression", "event", "unit")
+Arguments = Mapping[str, ast.Expression]
 
 
 def check_coverage(r: Resolution, node: ast.CoverageDeclaration, env: Environment) -> None:
     """Check `cover(…)` or `record(…)`."""
     arguments = _by_name(r, node)
-    item: Type = ERROR
     if "override" in arguments:
-        item = _overridden_type(r, arguments["override"], env)
-    elif "items" not in arguments:
-        item = _item_type(r, arguments, env)
-    if "override" not in arguments:
+        name, item = _check_override(r, arguments, env)
+    elif "items" in arguments:
+        name, item = text_of(arguments.get("name")), ERROR
+        _check_cross(r, node, arguments, env)
+    else:
+        name, item = text_of(arguments.get("name")), _item_type(r, arguments, env)
         _check_unit(r, node, arguments, item)
-    _check_rules(r, node, arguments, env)
-    if "event" in arguments:
-        _check_event(r, arguments["event"], env)
-    for name in ("range", "every", "buckets", "text", "disable", "target"):
-        if name in arguments:
-            r.type_of(arguments[name], env, item)
-    inner = env.with_it(item)
-    for name in ("ignore", "illegal"):
-        if name in arguments:
-            check_condition(r, arguments[name], inner)
-
-
-def _check_rules(
-    r: Resolution,
-    node: ast.CoverageDeclaration,
-    arguments: dict[str, ast.Expression],
-    env: Environment,
-) -> None:
-    for other in ("range", "every"):
-        if "buckets" in arguments and other in arguments:
-            r.report("OSC412", arguments[other].span, f"`buckets` and `{other}` exclude each other")
-    if node.kind == "record" and "target" in arguments:
-        r.report("OSC412", arguments["target"].span, "`target` belongs to `cover`")
-    disable = arguments.get("disable")
-    if disable is not None and not isinstance(disable, ast.BoolLiteral):
-        r.report("OSC412", disable.span, "`disable` takes `true` or `false`")
-    overridden = arguments.get("override")
-    if overridden is not None:
-        _check_override(r, arguments, overridden, env)
-
-
-FIXED = ("name", "expression", "event", "unit")
-
-
-def _check_override(
-    r: Resolution,
-    arguments: dict[str, ast.Expression],
-    overridden: ast.Expression,
-    env: Environment,
-) -> None:
-    """Check that an existing item of the same type is refined, and only what may change."""
-    for fixed in FIXED:
-        if fixed in arguments:
-            r.report("OSC412", arguments[fixed].span, f"an override cannot change `{fixed}`")
-    items = [_item_name(s) for s in env.owner.statements] if env.owner else []
-    name = _text(overridden)
-    if name is None or name not in items:
-        r.report(
-            "OSC412",
-            overridden.span,
-            f"no coverage item `{name or overridden.span.text}` in this type",
-            help=did_you_mean(name or "", [item for item in items if item]),
-        )
-
-
-def _overridden_type(r: Resolution, overridden: ast.Expression, env: Environment) -> Type:
-    for statement in env.owner.statements if env.owner else ():
-        if isinstance(statement, ast.CoverageDeclaration):
-            arguments = {a.name.text if a.name else "name": a.value for a in statement.arguments}
-            if "override" not in arguments and _item_name(statement) == _text(overridden):
-                return _item_type(r, arguments, env)
-    return ERROR
-
-
-def _item_name(statement: ast.Statement) -> str | None:
-    if not isinstance(statement, ast.CoverageDeclaration):
-        return None
-    for argument in statement.arguments:
-        if argument.name is None or argument.name.text == "name":
-            return _text(argument.value)
-    return None
-
-
-def _text(expression: ast.Expression) -> str | None:
-    match expression:
-        case ast.NameExpression():
-            return expression.name.text
-        case ast.StringLiteral():
-            return expression.value
-        case _:
-            return None
+    _check_simple(r, node, arguments, env)
+    check_slices(r, arguments, item, env)
+    for key in ("ignore", "illegal"):
+        if key in arguments:
+            _check_filter(r, arguments[key], name, item, env)
 
 
 def _by_name(r: Resolution, node: ast.CoverageDeclaration) -> dict[str, ast.Expression]:
@@ -125,23 +70,33 @@ def _by_name(r: Resolution, node: ast.CoverageDeclaration) -> dict[str, ast.Expr
             r.report("OSC403", argument.span, f"`{name}` is given twice")
         else:
             found[name] = argument.value
+    if "name" not in found and "override" not in found:
+        r.report("OSC404", node.span, f"`{node.kind}` misses its argument `name`")
     return found
 
 
-def _item_type(r: Resolution, arguments: dict[str, ast.Expression], env: Environment) -> Type:
-    expression = arguments.get("expression")
-    if expression is None:
-        expression = arguments.get("name")
-        if isinstance(expression, ast.StringLiteral):
-            return ERROR
-    return ERROR if expression is None else r.type_of(expression, env)
+def _item_type(r: Resolution, arguments: Arguments, env: Environment) -> Type:
+    """Type what is sampled: one value, of the name's field unless an expression is given."""
+    name = arguments.get("name")
+    expression = arguments.get("expression", name)
+    if name is not None and text_of(name) is None and not isinstance(name, ast.ItExpression):
+        r.report(
+            "OSC412",
+            name.span,
+            "the name of an item is an identifier",
+            help=f"write `<name>, expression: {name.span.text}`" if name is expression else None,
+        )
+    if expression is None or (expression is name and isinstance(name, ast.StringLiteral)):
+        return ERROR
+    type_ = r.type_of(expression, env)
+    if isinstance(type_, PrimitiveType | PhysicalType | EnumType | ErrorType):
+        return type_
+    r.report("OSC412", expression.span, f"an item samples one value, not `{type_}`")
+    return ERROR
 
 
 def _check_unit(
-    r: Resolution,
-    node: ast.CoverageDeclaration,
-    arguments: dict[str, ast.Expression],
-    item: Type,
+    r: Resolution, node: ast.CoverageDeclaration, arguments: Arguments, item: Type
 ) -> None:
     unit = arguments.get("unit")
     if unit is None:
@@ -163,8 +118,105 @@ def _check_unit(
         r.report("OSC302", unit.span, f"`{symbol.name}` is not a unit of `{item}`")
 
 
+def _check_simple(
+    r: Resolution, node: ast.CoverageDeclaration, arguments: Arguments, env: Environment
+) -> None:
+    """Check the arguments that do not depend on what is sampled."""
+    if "event" in arguments:
+        _check_event(r, arguments["event"], env)
+    if "text" in arguments:
+        check_value(r, arguments["text"], STRING, env, "`text`")
+    if "target" in arguments:
+        check_value(r, arguments["target"], UINT, env, "`target`")
+        if node.kind == "record":
+            r.report("OSC412", arguments["target"].span, "`target` belongs to `cover`")
+    disable = arguments.get("disable")
+    if disable is not None and not isinstance(disable, ast.BoolLiteral):
+        r.report("OSC412", disable.span, "`disable` takes `true` or `false`")
+
+
 def _check_event(r: Resolution, event: ast.Expression, env: Environment) -> None:
     if isinstance(event, ast.NameExpression):
         resolve_event_path(r, event, env)
     else:
-        r.report("OSC412", event.span, "the event must be a name of the enclosing type")
+        r.report(
+            "OSC412",
+            event.span,
+            "the event must be a name of the enclosing type",
+            help=f"declare one: `event <name> is @{event.span.text}`",
+        )
+
+
+def _check_cross(
+    r: Resolution, node: ast.CoverageDeclaration, arguments: Arguments, env: Environment
+) -> None:
+    """Check a cross of items: they exist, and one event samples them all (§7.5.4)."""
+    items = arguments["items"]
+    if not isinstance(items, ast.ListLiteral):
+        r.report("OSC412", items.span, "`items` takes a list of names of items")
+        return
+    known = {item.name: item for item in all_items_of(env.owner) if item.node is not node}
+    event = text_of(arguments.get("event"))
+    for element in items.elements:
+        item = known.get(text_of(element) or "")
+        if item is None:
+            _report_no_item(r, element, known)
+            continue
+        event = event or item.event
+        if item.event != event:
+            r.report(
+                "OSC412",
+                element.span,
+                f"`{item.name}` is sampled by `{item.event}`, not by `{event}`",
+            )
+
+
+def _report_no_item(r: Resolution, name: ast.Expression, known: Mapping[str, Item]) -> None:
+    text = text_of(name)
+    r.report(
+        "OSC412",
+        name.span,
+        f"no coverage item `{text or name.span.text}` in this type",
+        help=did_you_mean(text or "", known),
+    )
+
+
+def _check_override(
+    r: Resolution, arguments: Arguments, env: Environment
+) -> tuple[str | None, Type]:
+    """Check that an item of the same type is refined, and only what may change (§7.5.6)."""
+    for fixed in FIXED:
+        if fixed in arguments:
+            r.report("OSC412", arguments[fixed].span, f"an override cannot change `{fixed}`")
+    overridden = arguments["override"]
+    known = {item.name: item for item in items_of(env.owner)}
+    item = known.get(text_of(overridden) or "")
+    if item is None:
+        _report_no_item(r, overridden, known)
+        return None, ERROR
+    expression = item.expression
+    if expression is None or isinstance(expression, ast.StringLiteral):
+        return item.name, ERROR
+    return item.name, r.type_of(expression, env)
+
+
+def _check_filter(
+    r: Resolution, expression: ast.Expression, name: str | None, item: Type, env: Environment
+) -> None:
+    """Check `ignore` and `illegal`: a condition over the item and constants alone."""
+    value = ParameterSymbol(
+        name=name or "", namespace=env.context.namespace, span=expression.span, type=item
+    )
+    check_condition(r, expression, env.with_it(item).with_locals([value]))
+    for path in paths_of(expression):
+        root = root_of(path)
+        symbol = r.references.get(root)
+        if isinstance(root, ast.NameExpression) and not (
+            symbol is None or symbol is value or isinstance(symbol, EnumMemberSymbol)
+        ):
+            r.report(
+                "OSC412",
+                root.span,
+                f"only the item and constants may be used here, not `{symbol.name}`",
+            )
+            return

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from osc2tx.semantics.resolution import Resolution, did_you_mean
+from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve_types import resolve_type_name
 from osc2tx.semantics.scope import Context
 from osc2tx.semantics.symbols import EnumMemberSymbol, EnumSymbol
@@ -15,8 +16,9 @@ def resolve_enum_values(r: Resolution) -> None:
     for symbol in (*r.scope.declared, *r.scope.extended):
         if isinstance(symbol, EnumSymbol):
             _count(r, symbol, pending)
+    done: set[EnumMemberSymbol] = set()
     for member in pending:
-        _follow(r, member, pending)
+        _follow(r, member, pending, done)
 
 
 def _count(
@@ -69,13 +71,16 @@ def _follow(
     r: Resolution,
     member: EnumMemberSymbol,
     pending: dict[EnumMemberSymbol, EnumMemberSymbol],
+    done: set[EnumMemberSymbol],
 ) -> None:
-    seen = {member}
-    target = pending[member]
-    while target in pending:
-        if target in seen:
-            r.report("OSC312", member.span, f"the value of `{member.name}` depends on itself")
-            return
-        seen.add(target)
-        target = pending[target]
-    member.value = target.value
+    """Take over the value at the end of a chain of references, for all of the chain."""
+    chain: dict[EnumMemberSymbol, None] = {}
+    current = member
+    while current in pending and current not in done and current not in chain:
+        chain[current] = None
+        current = pending[current]
+    if current in chain:
+        r.report("OSC312", current.span, f"the value of `{current.name}` depends on itself")
+    for link in chain:
+        link.value = current.value
+    done.update(chain)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import assert_never
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.assign import check_condition, check_duration, check_value
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.expressions.access import resolve_member
 from osc2tx.semantics.lookup import lookup_value, member_names
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.symbols import EventSymbol, ParameterSymbol, Symbol
-from osc2tx.semantics.types import EVENT
+from osc2tx.semantics.types import EVENT, OBJECT
 from osc2tx.syntax import ast
 
 
@@ -58,7 +59,7 @@ def resolve_event_path(r: Resolution, path: ast.Expression, env: Environment) ->
         case ast.NameExpression():
             symbol: Symbol | None = resolve_event_name(r, path.name, env)
         case ast.MemberAccess():
-            symbol = resolve_member(r, path, r.type_of(path.base, env), env)
+            symbol = resolve_member(r, path, r.type_of(path.base, env, OBJECT), env)
         case _:
             r.type_of(path, env)
             r.report("OSC316", path.span, "this does not name an event")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.builtins import COMPOSITION
 from osc2tx.semantics.members import members_of
-from osc2tx.semantics.resolution import Resolution, did_you_mean
+from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.scope import Context, Scope
 from osc2tx.semantics.symbols import EnumSymbol, EventSymbol, MethodSymbol, Symbol, TypeSymbol
 from osc2tx.syntax import ast

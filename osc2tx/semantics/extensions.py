@@ -34,13 +34,13 @@ def apply_extension(
         case ast.PrimitiveExtension():
             r.needs_standard(node.span, f"`extend {node.primitive}`")
             primitive = _primitive(r, node)
-            collector.collect_body(primitive, node.members, context)
+            collector.collect_body(primitive, node.members, context, extends=True)
         case ast.TypeExtension():
             target = _extended_type(r, node, context)
             if target is not None:
                 _check_members(r, target, node)
                 _note_extended(r, target)
-                collector.collect_body(target, node.members, context)
+                collector.collect_body(target, node.members, context, extends=True)
 
 
 def _primitive(r: Resolution, node: ast.PrimitiveExtension) -> PrimitiveSymbol:

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TypedDict
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.dialects import DIALECTS
-from osc2tx.semantics.resolution import Resolution, did_you_mean
+from osc2tx.semantics.resolution import Resolution
 from osc2tx.stdlib import library_file
 from osc2tx.syntax import ast
 

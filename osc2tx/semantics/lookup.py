@@ -18,6 +18,7 @@ from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
     BehaviorSymbol,
+    EventSymbol,
     FieldSymbol,
     Member,
     ScenarioSymbol,
@@ -115,7 +116,12 @@ def visible_names(r: Resolution, env: Environment) -> set[str]:
 
 def member_names(owner: TypeSymbol) -> set[str]:
     """Return the names of all members of a type, built-in ones included."""
-    names = {name for ancestor in supertypes(owner) for name in ancestor.members}
+    names = {
+        name
+        for ancestor in supertypes(owner)
+        for name, member in ancestor.members.items()
+        if not (isinstance(member, EventSymbol) and member.is_implicit)
+    }
     if isinstance(owner, ScenarioSymbol | ActionSymbol):
         names |= {"duration", *LIFE_CYCLE}
     return names

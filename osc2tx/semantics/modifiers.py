@@ -10,7 +10,7 @@ from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
 from osc2tx.semantics.scope import CallableBehavior, is_subtype
 from osc2tx.semantics.symbols import ActionSymbol, ActorSymbol, ModifierSymbol
-from osc2tx.semantics.types import ERROR, ActorType, BehaviorType, ErrorType
+from osc2tx.semantics.types import ERROR, OBJECT, ActorType, BehaviorType, ErrorType
 from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
@@ -21,6 +21,8 @@ def check_modifier(
     env: Environment,
     invoked: CallableBehavior | None,
     actor: ActorSymbol | None,
+    *,
+    is_open: bool = False,
 ) -> None:
     """Check a modifier application in a `with` block or a body.
 
@@ -30,11 +32,12 @@ def check_modifier(
         env: Where it stands.
         invoked: The behavior that is modified; `None` where that is unknown or a composition.
         actor: The actor that may be left out.
+        is_open: What is modified is known only where the modifier around it is applied.
     """
     if call_by_statement(r, node, env):
         return
     if node.actor is not None:
-        type_ = r.type_of(node.actor, env)
+        type_ = r.type_of(node.actor, env, OBJECT)
         if isinstance(type_, ActorType):
             actor = type_.symbol
         elif type_ != ERROR:
@@ -42,7 +45,7 @@ def check_modifier(
             actor = None
         else:
             actor = None
-    modifier = _find_modifier(r, node, env, invoked, actor)
+    modifier = _find_modifier(r, node, env, invoked, actor, is_open=is_open)
     if modifier is None:
         type_arguments(r, node.arguments, env)
         return
@@ -62,7 +65,12 @@ def check_modifier(
 
 def _check_override(r: Resolution, node: ast.ModifierApplication) -> None:
     """Check that `override` is told two invocations (§7.3.12.1.1)."""
-    for parameter, value in r.bindings[node].arguments:
+    arguments = r.bindings[node].arguments
+    given = {parameter.name for parameter, _ in arguments}
+    for name in ("overridden", "by"):
+        if name not in given and not _has_unknown_names(r, node):
+            r.report("OSC404", node.modifier.span, f"`override` misses its argument `{name}`")
+    for parameter, value in arguments:
         type_ = r.types.get(value, ERROR)
         if parameter.name in ("overridden", "by") and not isinstance(
             type_, BehaviorType | ErrorType
@@ -75,12 +83,19 @@ def _check_override(r: Resolution, node: ast.ModifierApplication) -> None:
             )
 
 
+def _has_unknown_names(r: Resolution, node: ast.ModifierApplication) -> bool:
+    """Whether an argument has a name that no parameter has; the missing one may be meant."""
+    return any(a.name is not None and a.name not in r.references for a in node.arguments)
+
+
 def _find_modifier(
     r: Resolution,
     node: ast.ModifierApplication,
     env: Environment,
     invoked: CallableBehavior | None,
     actor: ActorSymbol | None,
+    *,
+    is_open: bool,
 ) -> ModifierSymbol | None:
     name = node.modifier
     candidates = r.scope.modifiers_named(name.text)
@@ -91,7 +106,11 @@ def _find_modifier(
             _report_unknown(r, name)
         return None
     quiet = env.it == ERROR
-    fitting = candidates if quiet else [m for m in candidates if _fits(m, invoked, actor)]
+    fitting = (
+        candidates
+        if quiet
+        else [m for m in candidates if _fits(m, invoked, actor) or (is_open and _may_fit(m, actor))]
+    )
     if not fitting:
         _report_misfit(r, name, candidates[0], invoked, actor)
         return None
@@ -108,6 +127,16 @@ def _fits(
     if modifier.target is None:
         return of_actor and (modifier.node.behavior is None or invoked is None)
     return of_actor and invoked is not None and is_subtype(invoked, modifier.target)
+
+
+def _may_fit(modifier: ModifierSymbol, actor: ActorSymbol | None) -> bool:
+    """Whether a modifier fits some behavior of the actor, or of any."""
+    return (
+        actor is None
+        or modifier.actor is None
+        or is_subtype(actor, modifier.actor)
+        or is_subtype(modifier.actor, actor)
+    )
 
 
 def _distance(modifier: ModifierSymbol, actor: ActorSymbol | None) -> int:

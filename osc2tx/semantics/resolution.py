@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, replace
-from difflib import get_close_matches
 from typing import Protocol
 
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
@@ -135,12 +134,6 @@ class Resolution:
             self.report(
                 "OSC213", span, f"{what} needs OpenSCENARIO DSL 2.2", help="check with `--std 2.2`"
             )
-
-
-def did_you_mean(text: str, names: Iterable[str]) -> str | None:
-    """Return a help line with the closest name, if one is close."""
-    close = get_close_matches(text, sorted(set(names)), n=1)
-    return f"did you mean `{close[0]}`?" if close else None
 
 
 def declared_here(symbol: Symbol, what: str = "declared here") -> tuple[Label, ...]:

@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from osc2tx.semantics.builtins import LIFE_CYCLE
-from osc2tx.semantics.collect import Collector, dimension_of, report_duplicate
+from osc2tx.semantics.collect import Collector, report_duplicate
 from osc2tx.semantics.enums import resolve_enum_values
 from osc2tx.semantics.exports import resolve_exports
 from osc2tx.semantics.extensions import apply_extension
 from osc2tx.semantics.inheritance import check_inheritance
 from osc2tx.semantics.lookup import find_member
-from osc2tx.semantics.resolution import Resolution
+from osc2tx.semantics.physical import check_physical_types, resolve_unit
+from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.resolve_types import (
     resolve_actor_name,
     resolve_behavior_name,
@@ -33,14 +34,12 @@ from osc2tx.semantics.symbols import (
     MethodSymbol,
     ModifierSymbol,
     ParameterSymbol,
-    PhysicalTypeSymbol,
     ScenarioSymbol,
     StructSymbol,
     Symbol,
     TypeSymbol,
-    UnitSymbol,
 )
-from osc2tx.semantics.types import VOID, ActorType, PhysicalType, StructType
+from osc2tx.semantics.types import VOID, ActorType, StructType
 from osc2tx.syntax import ast
 
 __all__ = ["resolve_declarations"]
@@ -49,8 +48,9 @@ __all__ = ["resolve_declarations"]
 def resolve_declarations(r: Resolution, collector: Collector) -> None:
     """Complete the symbols of the layer that the collector filled."""
     resolve_exports(r)
-    for check in (_resolve_type_base, _resolve_actor, _resolve_behavior_base, _resolve_unit):
+    for check in (_resolve_type_base, _resolve_actor, _resolve_behavior_base, resolve_unit):
         _for_each_symbol(r, check)
+    check_physical_types(r)
     _check_behaviors_unique(r)
     _for_each_symbol(r, check_inheritance)
     for extension in r.scope.extensions:
@@ -118,27 +118,6 @@ def _report_kind(r: Resolution, name: ast.Name | ast.BehaviorName, kind: str) ->
     r.report(
         "OSC306", name.span, f"`{name}` is not {article} {kind}, so no {kind} inherits from it"
     )
-
-
-def _resolve_unit(r: Resolution, symbol: Symbol, context: Context) -> None:
-    node = r.scope.nodes[symbol]
-    if not isinstance(symbol, UnitSymbol) or not isinstance(node, ast.UnitDeclaration):
-        return
-    physical = resolve_type_name(r, node.physical_type, context)
-    if physical is None:
-        return
-    if not isinstance(physical, PhysicalTypeSymbol):
-        r.report("OSC305", node.physical_type.span, f"`{physical.name}` is not a physical type")
-        return
-    symbol.type = PhysicalType(physical.name, physical.dimension)
-    dimension = dimension_of(node.exponents)
-    if dimension != physical.dimension:
-        r.report(
-            "OSC305",
-            node.name.span,
-            f"unit `{symbol.name}` has dimension `{dimension}`, "
-            f"its type `{physical.name}` has `{physical.dimension}`",
-        )
 
 
 def _check_behaviors_unique(r: Resolution) -> None:
@@ -225,7 +204,7 @@ def _resolve_parameters(
 def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> None:
     """Check a member against the inherited one of the same name (§7.3.7, §7.3.8)."""
     overrides = isinstance(member, MethodSymbol) and member.node is not None and member.node.is_only
-    earlier = inherited_member(owner, member)
+    earlier = _extended_method(r, member) or inherited_member(owner, member)
     if earlier is None and overrides:
         earlier = _overridden_elsewhere(r, owner, member)
     if earlier is None:
@@ -237,18 +216,28 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
             r.report(
                 "OSC319",
                 member.span,
-                f"`{member.name}` overrides an inherited method without `only`",
+                f"`{member.name}` overrides a method without `only`",
                 help="write `is only …`",
+                labels=declared_here(earlier, "overridden here"),
             )
         elif _signature(member) != _signature(earlier):
             r.report(
                 "OSC319",
                 member.span,
                 f"`{member.name}` has another signature than what it overrides",
+                labels=declared_here(earlier, "overridden here"),
             )
         return
     if member.origin != "prelude" and not isinstance(member, LabelSymbol):
         report_duplicate(r.sink, member, earlier)
+
+
+def _extended_method(r: Resolution, member: Member) -> MethodSymbol | None:
+    """Return the method of the same type that a method of an extension stands for."""
+    earlier = r.scope.overridden.get(member) if isinstance(member, MethodSymbol) else None
+    if earlier is not None:
+        _resolve_member(r, earlier)
+    return earlier
 
 
 def inherited_member(owner: TypeSymbol, member: Member) -> Member | None:

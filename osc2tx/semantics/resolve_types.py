@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar, assert_never
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import (
     behavior_alias,
     standard_behavior,
@@ -13,7 +14,7 @@ from osc2tx.semantics.aliases import (
 )
 from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS, TYPE_ALIASES
 from osc2tx.semantics.foreign import advise
-from osc2tx.semantics.resolution import Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype, supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -176,12 +177,16 @@ def _report_invisible(r: Resolution, found: S, name: ast.Name, context: Context)
     key = f"{context.namespace} {home}"
     is_library = found.origin == "library"
     if not is_library or r.relaxations.is_new("OSC215", name.span.source.name, key):
+        remedy = (
+            f"let `{home}` offer it: `export {found.name}`"
+            if home in context.uses
+            else f"`namespace {context.namespace} use {home}` above it"
+        )
         r.report(
             "OSC215",
             name.span,
             f"`{name}` is not visible here: it lives in namespace `{home}`",
-            help=f"write `{home}::{found.name}`, or `namespace {context.namespace} use {home}` "
-            "above it",
+            help=f"write `{home}::{found.name}`, or {remedy}",
         )
     return found
 

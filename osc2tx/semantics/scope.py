@@ -13,6 +13,7 @@ from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
     EnumSymbol,
     FieldSymbol,
+    MethodSymbol,
     ModifierSymbol,
     PhysicalTypeSymbol,
     PrimitiveSymbol,
@@ -67,6 +68,7 @@ class Scope:
         extensions: Extensions in source order.
         extended: Symbols of the layers below that this layer extends.
         physical_types: The declared type of each dimension.
+        overridden: What a method of an extension stands for from now on.
     """
 
     parent: Scope | None = None
@@ -86,6 +88,7 @@ class Scope:
     extensions: list[Extension] = field(default_factory=list)
     extended: list[TypeSymbol | EnumSymbol] = field(default_factory=list)
     physical_types: dict[Dimension, PhysicalType] = field(default_factory=dict)
+    overridden: dict[MethodSymbol, MethodSymbol] = field(default_factory=dict)
 
     def layers(self) -> Iterator[Scope]:
         """Yield this layer, then those below."""

@@ -188,3 +188,5 @@ Type: TypeAlias = (
     | ErrorType
 )
 EVENT, VOID, ERROR = EventType(), VoidType(), ErrorType()
+OBJECT = VOID
+"""What is expected of a value whose members are wanted: no member of an enum."""

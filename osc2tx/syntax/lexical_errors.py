@@ -44,7 +44,7 @@ class LexicalErrors:
         """Report characters that start no token; return where to go on."""
         match = patterns.UNKNOWN_RUN.match(self._text, start)
         end = max(match.end() if match else start + 1, start + 1)
-        found = self._text[start:end]
+        found = self._text[start:end] if match is None or match[1] is None else match[1]
         shown = f"`{found}`" if found.isprintable() else f"U+{ord(found[0]):04X}"
         help_ = _REPLACEMENTS.get(found)
         if found == "\\":
@@ -106,6 +106,12 @@ class LexicalErrors:
         message = f"blocks and brackets nest more than {limit} levels deep"
         help_ = "the whole declaration is left out; split it up"
         self._report("OSC105", at, min(at + 1, len(self._text)), message, help_)
+
+    def line_too_long(self, start: int, end: int, limit: int) -> None:
+        """Report a logical line of more tokens than anybody can need."""
+        message = f"this line has more than {limit:,} words and symbols"
+        help_ = "the whole declaration is left out; split it up"
+        self._report("OSC115", start, min(start + 1, end), message, help_)
 
     def unclosed_bracket(self, token: int) -> None:
         """Report a bracket that is still open where its statement must have ended."""

@@ -60,4 +60,5 @@ LINE_HEAD = re.compile(r"([ \t\f]*+)(?:(\#[^\r\n]*+)?(\r\n|\r|\n|\Z))?")
 LINE_REST = re.compile(r"[^\r\n]*+")
 # Where scanning goes on after nesting that was too deep: a line that is not indented.
 UNINDENTED_LINE = re.compile(r"[\r\n](?=[^\s#)\]])")
-UNKNOWN_RUN = re.compile(r"[&|]+|[;{}]|[^\w\s\"'#]")
+# Mistyped operators whole; of what has no meaning, as many as stand in a row.
+UNKNOWN_RUN = re.compile(r"[&|]++|[;{}]|([^\w\s\"'#])\1*+")

@@ -25,6 +25,7 @@ from osc2tx.syntax.tokens import (
 )
 
 MAX_NESTING = 200
+MAX_LINE_TOKENS = 200_000  # of one logical line: a tree for more would take gigabytes
 
 _PLAIN_TYPES = {
     patterns.NAME: ID,
@@ -38,8 +39,8 @@ _PLAIN_TYPES = {
 _NESTING = frozenset("()[]?,")
 
 
-class _NestingTooDeep(Exception):
-    """Unwinds to the file-level statement that nests too deeply."""
+class _TooMuch(Exception):
+    """Unwinds to the file-level statement that nests too deeply or has too long a line."""
 
 
 class TokenSource:
@@ -68,7 +69,7 @@ class TokenSource:
         while pos < len(self._text):
             try:
                 pos = self._scan_lines(pos)
-            except _NestingTooDeep:
+            except _TooMuch:
                 pos = self._drop_statement()
         self._end_line(len(self._text), len(self._text))
         self._set_indentation(0, len(self._text))
@@ -177,6 +178,7 @@ class TokenSource:
                 types.append(_PLAIN_TYPES[kind])
             elif kind == patterns.NEWLINE:
                 if not self._brackets or self._closes_brackets(end):
+                    self._check_length(line, start)
                     self._end_line(start, end)
                     return end
                 continue
@@ -185,6 +187,7 @@ class TokenSource:
                 continue
             starts.append(start)
             ends.append(end)
+        self._check_length(line, len(text))
         return len(text)
 
     def _scan_rare(self, kind: int, start: int, end: int) -> int:
@@ -258,10 +261,15 @@ class TokenSource:
         depth = len(self._indents) - 1 + len(self._brackets)
         if depth + sum(self._questions) > MAX_NESTING:
             self._errors.nesting_too_deep(at, MAX_NESTING)
-            raise _NestingTooDeep
+            raise _TooMuch
+
+    def _check_length(self, line: int, at: int) -> None:
+        if len(self.table.types) - line > MAX_LINE_TOKENS:
+            self._errors.line_too_long(self.table.starts[line], at, MAX_LINE_TOKENS)
+            raise _TooMuch
 
     def _drop_statement(self) -> int:
-        """Forget the file-level statement that nests too deeply; return where the next begins."""
+        """Forget the file-level statement that is too much; return where the next begins."""
         tokens, comments = self._statement_start
         table = self.table
         for column in (table.types, table.starts, table.ends):

@@ -8,6 +8,8 @@ of instants (`context`, `slots`); what happens goes into the `trace` and the `re
 
 from __future__ import annotations
 
+from math import inf
+
 import osc2tx_runtime.actions  # noqa: F401 (registers the actions of the library)
 from osc2tx_runtime.action import Action
 from osc2tx_runtime.actors import (
@@ -23,13 +25,16 @@ from osc2tx_runtime.actors import (
     Pose,
     StationaryObject,
     TrafficLightController,
+    Trailer,
     Vehicle,
 )
 from osc2tx_runtime.behaviour import (
     Behaviour,
     Call,
     Emit,
+    End,
     Event,
+    Fail,
     On,
     OneOf,
     Parallel,
@@ -42,12 +47,42 @@ from osc2tx_runtime.behaviour import (
     fall,
     rise,
 )
+from osc2tx_runtime.behaviour.coverage import Unit
+from osc2tx_runtime.casts import as_type
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.main import main
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action, methods
+from osc2tx_runtime.road_parts import (
+    CompoundLane,
+    CompoundRoute,
+    Junction,
+    Lane,
+    LaneSection,
+    Road,
+    RoadPath,
+)
 from osc2tx_runtime.runner import RunResult, run_scenario
-from osc2tx_runtime.scenario import Scenario, within
+from osc2tx_runtime.scenario import Range, Scenario, any_of, at_least, at_most, within
 from osc2tx_runtime.settings import RunSettings
+from osc2tx_runtime.shapes import CommonAccelerationShape, CommonLateralShape, CommonSpeedShape
+from osc2tx_runtime.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.traffic_lights import (
+    TrafficLight,
+    TrafficLightBulb,
+    TrafficLightGroup,
+)
+from osc2tx_runtime.values import (
+    Path,
+    RelativePathOdr,
+    RelativePathPose3d,
+    RelativePathSt,
+    RelativeTrajectoryOdr,
+    RelativeTrajectoryPose3d,
+    RelativeTrajectorySt,
+    RoutePoint,
+    Trajectory,
+    XyzPoint,
+)
 
 API_LEVEL = 1
 """Of the names and signatures below; a generated module asks for the level it was made for."""
@@ -71,7 +106,14 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "API_LEVEL",
     "require_api",
     # scenario: the base of generated classes
+    "Range",
     "Scenario",
+    "Unit",
+    "any_of",
+    "as_type",
+    "at_least",
+    "at_most",
+    "inf",
     "within",
     # actors: the cast and its values
     "Animal",
@@ -86,12 +128,44 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "Pose",
     "StationaryObject",
     "TrafficLightController",
+    "Trailer",
     "Vehicle",
+    # shapes
+    "CommonAccelerationShape",
+    "CommonLateralShape",
+    "CommonSpeedShape",
+    # values: paths and points
+    "Path",
+    "RelativePathOdr",
+    "RelativePathPose3d",
+    "RelativePathSt",
+    "RelativeTrajectoryOdr",
+    "RelativeTrajectoryPose3d",
+    "RelativeTrajectorySt",
+    "RoutePoint",
+    "Trajectory",
+    "XyzPoint",
+    # road_parts: what a map fills in
+    "CompoundLane",
+    "CompoundRoute",
+    "Junction",
+    "Lane",
+    "LaneSection",
+    "Road",
+    "RoadPath",
+    # traffic_lights, traffic_cycles
+    "TrafficLight",
+    "TrafficLightBulb",
+    "TrafficLightCycle",
+    "TrafficLightGroup",
+    "TrafficLightPhase",
     # behaviour: compositions, directives, conditions
     "Behaviour",
     "Call",
     "Emit",
+    "End",
     "Event",
+    "Fail",
     "On",
     "OneOf",
     "Parallel",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
 
+from osc2tx_runtime.argument_rules import Rule
 from osc2tx_runtime.behaviour.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.behaviour.limits import Duration, Limits
 from osc2tx_runtime.errors import UnsupportedError
@@ -34,6 +35,7 @@ class Action(Leaf):
 
     Attributes:
         method: How the class is registered: name, slots, ending.
+        rules: Which arguments go together (`with`: the modifiers); the compiler knows them as well.
         accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
         actor: Who acts.
         modifiers: As given.
@@ -43,6 +45,7 @@ class Action(Leaf):
     """
 
     method: ClassVar[Method]
+    rules: ClassVar[tuple[Rule, ...]] = ()
     accepts: ClassVar[tuple[type, ...]] = ()
 
     def __init__(
@@ -91,6 +94,10 @@ class Action(Leaf):
     def on_stop(self) -> None:
         """Clean up; called however the action is left, before its slots are released."""
 
+    def takes(self, modifier: Modifier) -> bool:
+        """Return whether the action carries out a modifier."""
+        return isinstance(modifier, self.accepts)
+
     # --- what subclasses call ---
 
     def command(self, slot: str, command: Command) -> None:
@@ -131,7 +138,7 @@ class Action(Leaf):
     def setup(self, **kwargs: Any) -> None:
         """Check the modifiers, then take the context."""
         super().setup(**kwargs)
-        wrong = [m for m in self.modifiers if not isinstance(m, self.accepts)]
+        wrong = [m for m in self.modifiers if not self.takes(m)]
         if wrong:
             names = ", ".join(dict.fromkeys(f"{type(modifier).__name__}" for modifier in wrong))
             raise UnsupportedError(

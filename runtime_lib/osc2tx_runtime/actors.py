@@ -7,19 +7,25 @@ the registry.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable, Mapping, Sequence
+from datetime import datetime, timedelta, timezone
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.measures import Measures, RoutePosition
+from osc2tx_runtime.motions import Hitch
 from osc2tx_runtime.registry import methods
 from osc2tx_runtime.road_network import RoadNetwork
-from osc2tx_runtime.values import CelestialLightSource, OdrPoint, Orientation, Point, Pose
+from osc2tx_runtime.values import OdrPoint, Orientation, Point, Pose
+from osc2tx_runtime.weather import CelestialLightSource, Weather
 from osc2tx_runtime.world.catalogue import MODELS, VEHICLE_CATEGORIES, Shape, limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec
 
 if TYPE_CHECKING:
+    from py_trees.behaviour import Behaviour
+
     from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.traffic_cycles import TrafficLightCycle
 
 __all__ = [
     "Actor",
@@ -41,6 +47,9 @@ __all__ = [
     "Trailer",
     "Vehicle",
 ]
+
+
+DrivingRule = Literal["left_hand_traffic", "right_hand_traffic"]
 
 
 class Actor:
@@ -71,7 +80,8 @@ class Actor:
             raise ScenarioError(f"{self.id or self.kinds[0]} is read before the scenario runs")
         return self._context
 
-    def __getattr__(self, name: str) -> Callable[..., Any]:
+    def __getattr__(self, name: str) -> Callable[..., Behaviour]:
+        """Return an action of this actor, as a constructor of its node."""
         if name.startswith("_"):
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
         return methods.bind(self, name)
@@ -110,16 +120,30 @@ class PhysicalObject(Actor, Measures):
     ) -> None:
         super().__init__(name=name)
         self.model = model
-        self.color = color
+        self._color = color
         self.geometry_reference = geometry_reference
         self.category: str | None = None
         self.rear_overhang: float | None = None
         self._size = (length, width, height)
 
     @property
+    def color(self) -> str:
+        """Its colour, for scenarios that ask for it.
+
+        Raises:
+            ScenarioError: The scenario says nothing about it.
+        """
+        return self._said("color", self._color)
+
+    def _said(self, member: str, value: str | None) -> str:
+        if value is None:
+            raise ScenarioError(f"nothing says the {member} of {self.id}", self.source)
+        return value
+
+    @property
     def shape(self) -> Shape:
         """Bounding box: as written, else of the model, else of the category or kind."""
-        known = shape_of(self.kinds[0], self.category, self.model)
+        known = shape_of(self.library_kind, self.category, self.model)
         length, width, height = self._size
         for size in (length, width, height, self.rear_overhang):
             if size is not None and size < 0.0:
@@ -134,6 +158,11 @@ class PhysicalObject(Actor, Measures):
         )
 
     @property
+    def library_kind(self) -> str:
+        """The most derived kind that is not of a user's own: size and limits go by it."""
+        return next((kind for kind in self.kinds if kind in LIBRARY_KINDS), self.kinds[-1])
+
+    @property
     def size_from(self) -> str:
         """What the size is from: `scenario`, `model`, `category` or `default`."""
         if None not in self._size:
@@ -146,13 +175,13 @@ class PhysicalObject(Actor, Measures):
         """What the world must know."""
         return ActorSpec(
             id=self.id,
-            kind=self.kinds[0],
+            kind=self.library_kind,
             shape=self.shape,
-            limits=limits_of(self.kinds[0], self.category, self.model),
+            limits=limits_of(self.library_kind, self.category, self.model),
             model=self.model,
             lane_bound=self.lane_bound,
             movable=self.movable,
-            color=self.color,
+            color=self._color,
         )
 
 
@@ -213,8 +242,21 @@ class Vehicle(TrafficParticipant):
             known = ", ".join(VEHICLE_CATEGORIES)
             raise ScenarioError(f"vehicle_category `{vehicle_category}` is none of {known}")
         self.category = vehicle_category
-        self.vehicle_category = vehicle_category
         self.rear_overhang = rear_overhang
+
+    @property
+    def vehicle_category(self) -> str:
+        """What sort of vehicle the scenario says it is.
+
+        Raises:
+            ScenarioError: It says nothing; that of a model is not asked for.
+        """
+        return self._said("vehicle_category", self.category)
+
+    @property
+    def trailer_receiver(self) -> Hitch:
+        """The half of the hitch on this vehicle."""
+        return Hitch(self.context.world.trailer_of(self.id) is not None)
 
 
 class Trailer(Vehicle):
@@ -222,6 +264,29 @@ class Trailer(Vehicle):
 
     kinds = ("trailer", *Vehicle.kinds)
     lane_bound = False
+
+    @property
+    def coupler(self) -> Hitch:
+        """The half of the hitch on this trailer."""
+        return Hitch(self._tow_id() is not None)
+
+    @property
+    def tow_vehicle(self) -> Vehicle:
+        """What tows it.
+
+        Raises:
+            ScenarioError: Nobody does.
+        """
+        tow = self._tow_id()
+        if tow is None:
+            raise ScenarioError(f"{self.id} is not towed")
+        vehicle = self.context.actors[tow]
+        assert isinstance(vehicle, Vehicle)
+        return vehicle
+
+    def _tow_id(self) -> str | None:
+        world = self.context.world
+        return next((each for each in world.actors() if world.trailer_of(each) == self.id), None)
 
 
 class Person(TrafficParticipant):
@@ -240,7 +305,7 @@ class Environment(Actor):
     """Weather and light.
 
     Attributes:
-        sun: To name it in `assign_celestial_position`.
+        sun: Its position, and to name it in `assign_celestial_position`.
         moon: Likewise.
     """
 
@@ -248,8 +313,37 @@ class Environment(Actor):
 
     def __init__(self, *, name: str | None = None) -> None:
         super().__init__(name=name)
-        self.sun = CelestialLightSource("sun")
-        self.moon = CelestialLightSource("moon")
+        self.sun = CelestialLightSource("sun", self._values)
+        self.moon = CelestialLightSource("moon", self._values)
+
+    def _values(self) -> Mapping[str, float]:
+        return self.context.world.environment()
+
+    @property
+    def weather(self) -> Weather:
+        """The weather at the present step."""
+        return Weather(self._values())
+
+    def local_to_unix_time(
+        self,
+        year: int,
+        month: int,
+        day: int,
+        hour: int,
+        minute: int,
+        second: int,
+        time_zone: float,
+    ) -> float:
+        """Unix time (s) of a local date and time (DSL 8.10.2.1.1); time zone in hours east of UTC.
+
+        Raises:
+            ScenarioError: There is no such date, time or zone.
+        """
+        try:
+            zone = timezone(timedelta(hours=time_zone))
+            return datetime(year, month, day, hour, minute, second, tzinfo=zone).timestamp()
+        except ValueError as error:
+            raise ScenarioError(f"local_to_unix_time: {error}") from None
 
 
 class Map(Actor, RoadNetwork):
@@ -259,16 +353,41 @@ class Map(Actor, RoadNetwork):
         name: Role name.
         map_file: File name with or without `.xodr`, found in the folders of `--map-path`, then
             among the maps of the runtime.
+        driving_rule: What the map must have: `left_hand_traffic` or `right_hand_traffic`.
+        traffic_light_control: Cycles from which `sync` of the traffic light actions knows what
+            lights in step show; they are not played by themselves.
     """
 
     kinds = ("map", *Actor.kinds)
 
-    def __init__(self, *, name: str | None = None, map_file: str | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        map_file: str | None = None,
+        driving_rule: DrivingRule | None = None,
+        traffic_light_control: Sequence[TrafficLightCycle] = (),
+    ) -> None:
         super().__init__(name=name)
         self.map_file = map_file
+        self.required_rule = driving_rule
+        self.traffic_light_control = list(traffic_light_control)
+
+    @property
+    def driving_rule(self) -> DrivingRule:
+        """The side on which its roads are driven."""
+        return "right_hand_traffic" if self.outer_side() == "right" else "left_hand_traffic"
 
 
 class TrafficLightController(Actor):
     """Switches traffic lights."""
 
     kinds = ("traffic_light_controller", *Actor.kinds)
+
+
+LIBRARY_KINDS = frozenset(
+    kind
+    for actor in (Animal, Person, StationaryObject, TrafficParticipant, Trailer)
+    for kind in actor.kinds
+)
+"""Kinds of physical objects in the domain model."""

@@ -104,10 +104,14 @@ class ExecutionContext:
         return max(0, math.ceil(seconds / self.dt - 1e-6))
 
     def cast(self) -> tuple[str, ...]:
-        """Return the ids of the placed actors, in the order of their declaration."""
+        """Return the ids of the placed actors, in the order of their declaration.
+
+        Those of invoked scenarios come last, by path.
+        """
         if self._cast is None:
             placed = set(self.world.actors())
-            self._cast = tuple(actor_id for actor_id in self.actors if actor_id in placed)
+            found = (actor_id for actor_id in self.actors if actor_id in placed)
+            self._cast = tuple(sorted(found, key=lambda name: name.rpartition(".")[0]))
         return self._cast
 
     def random_for(self, key: str) -> random.Random:

@@ -5,15 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.actors import PhysicalObject
-from osc2tx_runtime.errors import PlacementError, ScenarioError, SettingsError
+from osc2tx_runtime.actors import Map, PhysicalObject
+from osc2tx_runtime.control_file import read_control_file
+from osc2tx_runtime.errors import InputError, PlacementError, ScenarioError, SettingsError
+from osc2tx_runtime.map_solver import MapSolver, Relation
 from osc2tx_runtime.modifiers import (
+    Along,
     Lane,
     Lateral,
     Location,
+    MapModifier,
     Modifier,
+    OnPath,
     Orient,
     Position,
+    SetTrafficLightsControlFile,
     Speed,
     TowTrailer,
     Yaw,
@@ -21,6 +27,7 @@ from osc2tx_runtime.modifiers import (
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
 from osc2tx_runtime.places import Placer, Spot
 from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.road_parts import RoadPart
 from osc2tx_runtime.world.collision import Box, box_of, overlapping
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.towing import pose_behind
@@ -28,10 +35,12 @@ from osc2tx_runtime.world.towing import pose_behind
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
     from osc2tx_runtime.scenario import Placement
+    from osc2tx_runtime.traffic_lights import MapObject
 
 __all__ = ["PLACEMENT_MODIFIERS", "ScenarioInitializer"]
 
 PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
+    Along,
     Position,
     Location,
     Lane,
@@ -40,6 +49,7 @@ PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
     Yaw,
     Orient,
     TowTrailer,
+    OnPath,
 )
 """Modifiers that say where and how an actor starts."""
 
@@ -84,10 +94,12 @@ class ScenarioInitializer:
 
     Args:
         context: The run: its world, actors and settings.
+        map_objects: Roads, lanes and the like that the scenario declares.
     """
 
-    def __init__(self, context: ExecutionContext) -> None:
+    def __init__(self, context: ExecutionContext, map_objects: Sequence[MapObject] = ()) -> None:
         self._context = context
+        self._map_objects = map_objects
         self._world = context.world
         self._placer = Placer(context.world)
         self._boxes: dict[str, Box] = {}
@@ -99,7 +111,8 @@ class ScenarioInitializer:
             PlacementError: A place does not exist, is taken, or depends on itself.
             SettingsError: A destination is none.
         """
-        waiting = self._starts(placements)
+        self._fill_in_roads([p for p in placements if isinstance(p.actor, Map)])
+        waiting = self._starts([p for p in placements if not isinstance(p.actor, Map)])
         for start in waiting:
             self._world.add(start.actor.spec())
         spawned = self._context.settings.spawn
@@ -115,6 +128,42 @@ class ScenarioInitializer:
             self._place(start)
         self._set_routes()
         self._note_sizes()
+
+    def _fill_in_roads(self, placements: Sequence[Placement]) -> None:
+        """Chooses stretches of the map for the roads and lanes that are declared.
+
+        Raises:
+            PlacementError: The map is not as the scenario wants it.
+        """
+        for actor in self._context.actors.values():
+            if isinstance(actor, Map) and actor.required_rule not in (None, actor.driving_rule):
+                raise PlacementError(
+                    f"map {self._world.map.name} has {actor.driving_rule}, not"
+                    f" {actor.required_rule}",
+                    actor.source,
+                )
+        relations = [
+            Relation(modifier, placement.source)
+            for placement in placements
+            for modifier in placement.modifiers
+            if isinstance(modifier, MapModifier)
+        ]
+        for placement in placements:
+            for modifier in placement.modifiers:
+                if isinstance(modifier, SetTrafficLightsControlFile):
+                    self._read_cycles(placement, modifier.file)
+        parts = [each for each in self._map_objects if isinstance(each, RoadPart)]
+        if parts or relations:
+            MapSolver(self._world.map, parts, relations).solve()
+
+    def _read_cycles(self, placement: Placement, file: str) -> None:
+        assert isinstance(placement.actor, Map)
+        try:
+            cycles = read_control_file(file, self._context.settings.map_path)
+        except InputError as error:
+            error.source = placement.source
+            raise
+        placement.actor.traffic_light_control.extend(cycles)
 
     def _note_sizes(self) -> None:
         """Says in the trace which sizes are not those of the model that was asked for."""
@@ -160,6 +209,7 @@ class ScenarioInitializer:
                 start.modifiers,
                 spawn=self._spawn(actor.id),
                 is_free=lambda place: self._taken_by(actor, Spot(place, None, None)) is None,
+                draws=self._context.random_for(f"{actor.id} start"),
             )
             other = self._taken_by(actor, spot)
             if other is not None:

@@ -6,13 +6,17 @@ import math
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.motions import Motion, Translation
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.route_places import place_on_route
 from osc2tx_runtime.routes import along_lane, place_of_route, route_point_at
 from osc2tx_runtime.values import (
     OdrPoint,
     Orientation,
+    Path,
     Point,
     Pose,
     RoadRoute,
@@ -66,9 +70,14 @@ class Measures:
         return self.state.v
 
     @property
-    def acceleration(self) -> float:
-        """Acceleration along the heading (m/s^2)."""
-        return self.state.a
+    def velocity(self) -> Motion:
+        """Velocity in the own axes, as far as it is known."""
+        return Motion(Translation(self.state.v))
+
+    @property
+    def acceleration(self) -> Motion:
+        """Acceleration in the own axes, as far as it is known."""
+        return Motion(Translation(self.state.a))
 
     @property
     def position(self) -> RoutePosition:
@@ -195,6 +204,20 @@ class Measures:
         """As `road_distance`, to a point."""
         there = place_of_odr(self.context.world.map, point)
         return self._road_distance_to(self._at_place(there), direction, mode, route_type)
+
+    def distance_along_route(
+        self, route: Path | RoadPart, from_: Literal["from_start", "from_end"] = "from_start"
+    ) -> float:
+        """Metres from the start of a route to this object, or from it to the end of the route.
+
+        Raises:
+            ScenarioError: It is not on the route.
+        """
+        try:
+            along, length = place_on_route(self.context.world.map, route, self.state)
+        except ScenarioError as error:
+            raise ScenarioError(f"{self.id}: {error.message}") from error
+        return along if from_ == "from_start" else length - along
 
     # --- internals ----------------------------------------------------------------------------
 

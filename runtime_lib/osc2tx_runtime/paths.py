@@ -178,9 +178,9 @@ def _beside_odr(road_map: RoadMap, point: OdrPoint, reference: ActorState) -> Po
     if point.road_id not in ("", place.road):
         raise PathError(f"the reference is on road {place.road}, not on {point.road_id}")
     s = _on_road(road_map, place.road, place.s + point.s)
-    if point.lane_id is None:
+    lane = point.lane
+    if lane is None:
         return _pose(road_map.road_pose(place.road, s, point.t), None)
-    lane = int(point.lane_id)
     left = point.t * road_map.travel_direction(place.road, lane)
     return _pose(road_map.pose(LanePosition(place.road, lane, s, left)), None)
 

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.errors import PlacementError, UnsupportedError
 from osc2tx_runtime.modifiers import (
+    Along,
     Lane,
     Lateral,
     Location,
     Modifier,
+    OnPath,
     Position,
     Speed,
-    value_of,
 )
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.points import PointPlaces
 from osc2tx_runtime.poses import heading_of, one_of_kind, road_entry
+from osc2tx_runtime.road_graph import RoadGraph
+from osc2tx_runtime.road_parts import RoadPart
 from osc2tx_runtime.starts import StartPlaces
 from osc2tx_runtime.world.lateral import offset_from
 
@@ -55,6 +59,7 @@ class Placer:
         self._map = world.map
         self._starts = StartPlaces(world.map)
         self._points = PointPlaces(world.map)
+        self._draws: random.Random | None = None
 
     def spot(
         self,
@@ -64,6 +69,7 @@ class Placer:
         *,
         spawn: LanePosition | None = None,
         is_free: Callable[[LanePosition], bool] = lambda _place: True,
+        draws: random.Random | None = None,
     ) -> Spot:
         """Resolves modifiers to a place.
 
@@ -73,10 +79,12 @@ class Placer:
             now: Its present state, if it has one: what modifiers leave open stays.
             spawn: Place given by the settings.
             is_free: Tells whether a default start place can be used.
+            draws: Chooses from ranges; None: their middle.
 
         Raises:
             PlacementError: There is no such place.
         """
+        self._draws = draws
         speed = self._speed(modifiers)
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
@@ -119,14 +127,21 @@ class Placer:
                 self._points.check_lane(actor, at, lane)
             return at
         if position is not None and position.reference_point is not None:
-            return self._points.near_point(actor, position, lane)
+            return self._points.near_point(actor, position, self._of(position.size()), lane)
         beside = None if lane is None else lane.reference
         reference = None if position is None else position.reference
         if beside is not None or reference is not None:
             return self._beside(actor, lane, position, speed)
+        along = one_of_kind(modifiers, Along)
+        if along is not None:
+            return self._on_route(actor, along, lane, position)
         if now is not None and now.lane_position is not None:
             return self._from_here(actor, now.lane_position, lane, position)
-        return self._starts.default(actor, lane, position, is_free)
+        distance = None if position is None else self._of(position.size())
+        on_path = one_of_kind(modifiers, OnPath)
+        if on_path is not None:
+            return self._starts.on_path(actor, on_path.path, lane, distance, is_free)
+        return self._starts.default(actor, lane, distance, is_free)
 
     @staticmethod
     def _position(actor: PhysicalObject, modifiers: Sequence[Modifier]) -> Position | None:
@@ -146,11 +161,12 @@ class Placer:
         own = actor.shape.width
         if lateral.side_of is None:
             width = self._map.lane_width(at.road, at.lane, at.s)
-            return LanePosition(at.road, at.lane, at.s, lateral.offset(own, width))
+            return LanePosition(at.road, at.lane, at.s, self._of(lateral.offsets(own, width)))
         other = self._world.state(lateral.side_of.id)
         centre = LanePosition(at.road, at.lane, at.s)
         offset = offset_from(self._map, centre, other.x, other.y)
-        return LanePosition(at.road, at.lane, at.s, offset + lateral.offset(own, other.width))
+        aside = self._of(lateral.offsets(own, other.width))
+        return LanePosition(at.road, at.lane, at.s, offset + aside)
 
     def _beside(
         self, actor: PhysicalObject, lane: Lane | None, position: Position | None, speed: float
@@ -169,7 +185,7 @@ class Placer:
         if position is not None and reference is not None:
             start = self._at_distance(actor, start, position, speed)
         elif position is not None:
-            start = self._along_road(actor, start, value_of(position.distance or 0.0))
+            start = self._along_road(actor, start, self._of(position.size()))
         if lane is not None and in_lane_of is None:
             return self._points.numbered(actor, start, lane)
         return start
@@ -181,11 +197,9 @@ class Placer:
         reference = position.reference
         assert reference is not None
         origin = self._centre(reference, actor)
-        if position.time is not None:
-            behind = self._world.state(reference.id).v if position.ahead else speed
-            wanted = value_of(position.time) * behind
-        else:
-            wanted = value_of(position.distance or 0.0)
+        wanted = self._of(position.size())
+        if position.timed:
+            wanted *= self._world.state(reference.id).v if position.ahead else speed
         wanted = wanted if position.ahead else -wanted
         place = start
         for _ in range(20):
@@ -203,6 +217,27 @@ class Placer:
             f"{actor.id}: the lane does not reach {abs(wanted):.1f} m {side} {reference.id}"
         )
 
+    def _on_route(
+        self,
+        actor: PhysicalObject,
+        along: Along,
+        lane: Lane | None,
+        position: Position | None,
+    ) -> LanePosition:
+        """Where a route of the map begins, or so far from there."""
+        if not isinstance(along.route, RoadPart):
+            raise PlacementError(f"{actor.id}: a path to move along says nothing about the start")
+        place = RoadGraph(self._map).begin(along.route.found)
+        distance = along.start_offset + (0.0 if position is None else self._of(position.size()))
+        step = self._map.advance(place, distance)
+        if abs(step.travelled - distance) > 1e-6:
+            raise PlacementError(
+                f"{actor.id}: {along.route.found} ends after {step.travelled:.1f} m, before"
+                f" {distance:g} m"
+            )
+        place = step.position
+        return place if lane is None else self._points.numbered(actor, place, lane)
+
     def _from_here(
         self,
         actor: PhysicalObject,
@@ -212,7 +247,7 @@ class Placer:
     ) -> LanePosition:
         place = LanePosition(here.road, here.lane, here.s)
         if position is not None:
-            place = self._along_road(actor, place, value_of(position.distance or 0.0))
+            place = self._along_road(actor, place, self._of(position.size()))
         return place if lane is None else self._points.numbered(actor, place, lane)
 
     # --- small steps --------------------------------------------------------------------------
@@ -242,8 +277,16 @@ class Placer:
         speed = one_of_kind(modifiers, Speed)
         if speed is None:
             return None
-        if speed.rate_profile != "none" or speed.rate_peak is not None:
+        if speed.shaped:
             raise PlacementError("a speed at the start takes no rate_profile or rate_peak")
+        value = self._of(speed.difference())
         if speed.reference is None:
-            return speed.difference()
-        return speed.factor * self._world.state(speed.reference.id).v + speed.difference()
+            return value
+        return speed.factor * self._world.state(speed.reference.id).v + value
+
+    def _of(self, bounds: tuple[float, float]) -> float:
+        """A value between bounds."""
+        low, high = bounds
+        if low == high:
+            return low
+        return 0.5 * (low + high) if self._draws is None else self._draws.uniform(low, high)

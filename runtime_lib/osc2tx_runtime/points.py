@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.errors import PlacementError
-from osc2tx_runtime.modifiers import Lane, Position, value_of
+from osc2tx_runtime.modifiers import Lane, Position
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.poses import pose_of, road_heading
 from osc2tx_runtime.world.lanes import lane_with_number, number_of_lane
@@ -86,12 +86,12 @@ class PointPlaces:
         return opendrive.Pose(pose.x, pose.y, lane.z if z is None else z, h)
 
     def near_point(
-        self, actor: PhysicalObject, position: Position, lane: Lane | None
+        self, actor: PhysicalObject, position: Position, distance: float, lane: Lane | None
     ) -> LanePosition:
-        """So far ahead of or behind a point on the road."""
+        """So far (m) ahead of or behind a point on the road."""
         assert position.reference_point is not None
         place = self.projected(actor, position.reference_point, lane)
-        wanted = value_of(position.distance or 0.0) * (1.0 if position.ahead else -1.0)
+        wanted = distance if position.ahead else -distance
         step = self._map.advance(place, wanted)
         if abs(step.travelled - wanted) > 1e-6:
             raise PlacementError(

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from osc2tx_runtime import opendrive
-from osc2tx_runtime.errors import PlacementError, UnsupportedError
-from osc2tx_runtime.modifiers import Modifier, Orient, Position, Yaw, value_of
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.modifiers import Modifier, Orient, Position, Yaw
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.values import OdrPoint
+from osc2tx_runtime.world.curve import turn_between
 from osc2tx_runtime.world.motion import ANY_LANE
 
 if TYPE_CHECKING:
@@ -18,7 +19,15 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["heading_of", "one_of_kind", "place_of_odr", "pose_of", "road_entry", "road_heading"]
+__all__ = [
+    "heading_of",
+    "headings_of",
+    "one_of_kind",
+    "place_of_odr",
+    "pose_of",
+    "road_entry",
+    "road_heading",
+]
 
 # What is added to an angle between axes to have the heading: the width axis points left.
 _AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
@@ -42,29 +51,44 @@ def heading_of(
 ) -> float | None:
     """Heading (rad) that yaw or orientation ask for; None if they are not given.
 
+    Of a range it is the nearest to the present heading.
+
     Args:
         world: The world.
         actor: Who is to turn.
         modifiers: Those of an action or a placement.
         at: Where the actor is.
     """
+    found = headings_of(world, actor, modifiers, at)
+    if found is None:
+        return None
+    low, high = found
+    beyond = turn_between(low, at.h)  # what it is turned to the left of the least
+    if low == high or 0.0 <= beyond <= high - low:
+        return low if low == high else at.h
+    return low if abs(beyond) <= abs(turn_between(high, at.h)) else high
+
+
+def headings_of(
+    world: World,
+    actor: PhysicalObject,
+    modifiers: Sequence[Modifier],
+    at: opendrive.Pose | ActorState,
+) -> tuple[float, float] | None:
+    """Least and greatest heading (rad) that yaw or orientation allow; arguments as above."""
     turned = one_of_kind(modifiers, Yaw) or one_of_kind(modifiers, Orient)
     if turned is None:
         return None
+    low, high = turned.angles()
     if isinstance(turned, Orient):
-        angle, base = value_of(turned.yaw or 0.0), 0.0
-        if turned.measure_by == "relative_to_road":
-            base = road_heading(world.map, at)
+        base = road_heading(world.map, at) if turned.measure_by == "relative_to_road" else 0.0
     else:
-        angle, base = value_of(turned.angle), road_heading(world.map, at)
-        if turned.measure_by == "relative_to_north":
-            base = 0.5 * math.pi
-        angle += _AXES.get(turned.measure_by, 0.0)
+        north = turned.measure_by == "relative_to_north"
+        base = 0.5 * math.pi if north else road_heading(world.map, at)
+        base += _AXES.get(turned.measure_by, 0.0)
     if turned.relative_to is not None and turned.measure_by != "absolute":
-        base = world.state(turned.relative_to.id).h
-    if actor.lane_bound and not isinstance(at, opendrive.Pose) and at.lane_position is not None:
-        raise UnsupportedError(f"{actor.id} follows its lane, so it takes no {turned.name}")
-    return base + angle
+        base = world.state(turned.relative_to.id).h + _AXES.get(turned.measure_by or "", 0.0)
+    return base + low, base + high
 
 
 def road_heading(road_map: RoadMap, at: opendrive.Pose | ActorState) -> float:
@@ -113,9 +137,9 @@ def pose_of(actor: PhysicalObject, position: Position) -> tuple[opendrive.Pose, 
 def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:
     """Place of a point in road coordinates."""
     try:
-        if point.lane_id is None:
+        lane = point.lane
+        if lane is None:
             return road_map.road_pose(point.road_id, point.s, point.t)
-        lane = int(point.lane_id)
         place = LanePosition(point.road_id, lane, point.s)
         road_map.pose(place)
         left = point.t * road_map.travel_direction(point.road_id, lane)

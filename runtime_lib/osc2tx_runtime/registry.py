@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import difflib
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.argument_rules import check_arguments
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 
 if TYPE_CHECKING:
     from osc2tx_runtime.action import Action
@@ -30,6 +31,8 @@ ENTRY_POINTS = "osc2tx.methods"
 
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
+
+_OPTIONS = ("duration", "label")  # what every action takes
 
 Ends = Literal["goal", "open", "instant"]
 ActionT = TypeVar("ActionT", bound="type[Action]")
@@ -145,26 +148,36 @@ class MethodRegistry:
     def bind(self, actor: Actor, name: str) -> Callable[..., Action]:
         """Return the constructor of the action `name` for one actor.
 
-        Raises:
-            AttributeError: If no kind of the actor has this method; names near ones.
+        What it cannot make refuses the run at its line, before the first step: an action that
+        nobody registered, and arguments that it does not take.
         """
         kinds = type(actor).kinds
-        method = self.find(kinds, name)
-        if method is None:
+        if self.find(kinds, name) is None:
             self.extend()
-            method = self.find(kinds, name)
-        if method is None:
-            near = self.near(kinds, name)
-            hint = f"; did you mean {' or '.join(near)}?" if near else ""
-            raise AttributeError(f"{kinds[0]} has no method `{name}`{hint}")
-        found = method
+        found = self.find(kinds, name)
 
         def create(*args: Any, **kwargs: Any) -> Action:
-            node = found.factory(actor, *args, **kwargs)
+            from osc2tx_runtime.refused import RefusedAction  # it needs this module
+
+            try:
+                if found is None:
+                    raise self._missing(kinds, name)
+                _check_arguments(found, actor, args, kwargs)
+                node = found.factory(actor, *args, **kwargs)
+            except ScenarioError as error:
+                return RefusedAction(actor, name, error, kwargs.get("label"))
             node.become(found)
             return node
 
         return create
+
+    def _missing(self, kinds: tuple[str, ...], name: str) -> UnsupportedError:
+        near = self.near(kinds, name)
+        hint = f"; did you mean {' or '.join(near)}?" if near else ""
+        return UnsupportedError(
+            f"{kinds[0]} has no action `{name}`, and no installed package brings one by the entry"
+            f" point group {ENTRY_POINTS}{hint}"
+        )
 
     def signature(self, kind: str, name: str) -> str:
         """Return how a method is called, as text."""
@@ -173,6 +186,29 @@ class MethodRegistry:
     def all(self) -> tuple[Method, ...]:
         """Return every method, sorted by kind and name."""
         return tuple(self._methods[key] for key in sorted(self._methods))
+
+
+def _check_arguments(
+    method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+) -> None:
+    """Compare a call with the signature and the rules of the class.
+
+    Raises:
+        ScenarioError: They do not fit.
+    """
+    signature = inspect.signature(method.factory)
+    unknown = [name for name in kwargs if name not in (*signature.parameters, *_OPTIONS)]
+    try:
+        if unknown:  # `**options` would hand them on
+            raise TypeError(f"unknown argument '{unknown[0]}'")
+        signature.bind(actor, *args, **kwargs)
+    except TypeError as error:
+        raise ScenarioError(
+            f"{actor.id} {method.name}: {error}; it is {method.signature()}"
+        ) from error
+    given = {name: value for name, value in kwargs.items() if value is not None}
+    given.update({"with": args} if args else {})
+    check_arguments(f"{actor.id} {method.name}", method.factory.rules, given)
 
 
 methods = MethodRegistry()

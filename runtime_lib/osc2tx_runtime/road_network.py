@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.along import way_through
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
-from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.paths import absolute
 from osc2tx_runtime.poses import place_of_odr
 from osc2tx_runtime.routes import place_of_route, route_point_at
 from osc2tx_runtime.values import (
+    NetworkPath,
+    NetworkTrajectory,
     OdrPoint,
     Path,
     PathInterpolation,
@@ -111,7 +111,7 @@ class RoadNetwork:
             raise ScenarioError(f"map {self._map.name} has roads of both driving rules")
         return rules.pop()
 
-    # --- paths --------------------------------------------------------------------------------
+    # --- paths: brought into the world where they are used ----------------------------------
 
     def create_path(
         self, points: Sequence[Pose], interpolation: PathInterpolation = "straight_line"
@@ -126,10 +126,7 @@ class RoadNetwork:
         on_road_network: bool = False,
     ) -> Path:
         """A path through points in road coordinates, along the lanes if it is to stay on them."""
-        places = [place_of_odr(self._map, point) for point in points]
-        if on_road_network:
-            return Path(self._on_lanes(places), "smooth")
-        return Path(self._poses(places), interpolation)
+        return NetworkPath((), interpolation, tuple(points), on_road_network)
 
     def create_path_route_points(
         self,
@@ -138,10 +135,29 @@ class RoadNetwork:
         on_road_network: bool = False,
     ) -> Path:
         """A path through points in route coordinates, likewise."""
-        places = [place_of_route(self._map, point) for point in points]
-        if on_road_network:
-            return Path(self._on_lanes(places), "smooth")
-        return Path(self._poses(places), interpolation)
+        return NetworkPath((), interpolation, tuple(points), on_road_network)
+
+    def create_route(
+        self,
+        routes: Sequence[RoutePoint | OdrPoint | XyzPoint],
+        connect_points_by: Literal["waypoint"] = "waypoint",
+        legal_route: bool = True,
+    ) -> Path:
+        """The way along lanes from point to point, in order.
+
+        Args:
+            routes: Points of the road network, two at least.
+            connect_points_by: Points become points of the way.
+            legal_route: Lanes are followed in direction of travel in any case.
+
+        Raises:
+            UnsupportedError: There is something else than points, or they become something else.
+        """
+        if not all(isinstance(each, RoutePoint | OdrPoint | XyzPoint) for each in routes):
+            raise UnsupportedError("create_route connects points only yet")
+        if connect_points_by != "waypoint":
+            raise UnsupportedError(f"create_route cannot connect points by {connect_points_by} yet")
+        return NetworkPath((), "smooth", tuple(routes), on_road_network=True)
 
     def create_trajectory(
         self,
@@ -160,8 +176,8 @@ class RoadNetwork:
         on_road_network: bool = False,
     ) -> Trajectory:
         """A trajectory through points in road coordinates."""
-        places = [place_of_odr(self._map, point) for point in points]
-        return self._timed(places, time_stamps, interpolation, on_road_network)
+        stamps = tuple(time_stamps)
+        return NetworkTrajectory((), stamps, interpolation, tuple(points), on_road_network)
 
     def create_trajectory_route_points(
         self,
@@ -171,8 +187,8 @@ class RoadNetwork:
         on_road_network: bool = False,
     ) -> Trajectory:
         """A trajectory through points in route coordinates."""
-        places = [place_of_route(self._map, point) for point in points]
-        return self._timed(places, time_stamps, interpolation, on_road_network)
+        stamps = tuple(time_stamps)
+        return NetworkTrajectory((), stamps, interpolation, tuple(points), on_road_network)
 
     def resolve_relative_path(
         self, relative_path: RelativePath, reference: Measures, transform: RelativeTransform
@@ -190,42 +206,3 @@ class RoadNetwork:
         """The absolute trajectory, at the present place of the reference; times stay."""
         poses = absolute(self._map, relative_trajectory.points, reference.state, transform)
         return Trajectory(poses, relative_trajectory.time_stamps, relative_trajectory.interpolation)
-
-    # --- internals ----------------------------------------------------------------------------
-
-    def _poses(self, places: Sequence[LanePosition | MapPose]) -> tuple[Pose, ...]:
-        poses = [self._map.pose(p) if isinstance(p, LanePosition) else p for p in places]
-        return tuple(Pose(pose.x, pose.y, pose.z) for pose in poses)
-
-    def _on_lanes(self, places: Sequence[LanePosition | MapPose]) -> tuple[Pose, ...]:
-        return way_through(self._map, [self._lane_at(place) for place in places])
-
-    def _lane_at(self, place: LanePosition | MapPose) -> LanePosition:
-        if isinstance(place, LanePosition):
-            return place
-        on = self._map.locate(place.x, place.y, place.z, max_distance=1e-3)
-        if on is None:
-            raise ScenarioError(f"no driving lane is at ({place.x:.1f}, {place.y:.1f})")
-        return on
-
-    def _timed(
-        self,
-        places: Sequence[LanePosition | MapPose],
-        time_stamps: Sequence[float],
-        interpolation: PathInterpolation,
-        on_road_network: bool,
-    ) -> Trajectory:
-        """A trajectory; along lanes the time between two points is shared out by the way."""
-        times = list(time_stamps)
-        if not on_road_network or len(times) != len(places):
-            return Trajectory(self._poses(places), tuple(times), interpolation)
-        lanes = [self._lane_at(place) for place in places]
-        points: list[Pose] = []
-        stamps: list[float] = []
-        for i in range(len(lanes) - 1):
-            part = way_through(self._map, lanes[i : i + 2])
-            step = (times[i + 1] - times[i]) / (len(part) - 1)
-            skip = 1 if points else 0
-            points.extend(part[skip:])
-            stamps.extend(times[i] + j * step for j in range(skip, len(part)))
-        return Trajectory(tuple(points), tuple(stamps), "smooth")

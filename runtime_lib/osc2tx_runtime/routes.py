@@ -12,6 +12,8 @@ from osc2tx_runtime import opendrive
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.poses import road_entry
+from osc2tx_runtime.road_graph import RoadGraph
+from osc2tx_runtime.road_parts import RoadPart
 from osc2tx_runtime.values import RoadRoute, RoutePoint
 
 __all__ = ["along_lane", "place_of_route", "route_point_at"]
@@ -38,15 +40,21 @@ def place_of_route(road_map: RoadMap, point: RoutePoint) -> LanePosition | opend
     route = point.route
     if route is None:
         raise PlacementError("a point without a route is relative; it needs a reference")
+    if isinstance(route, RoadPart) and route.kind == "road":
+        route = RoadRoute(route.found.road)
     try:
-        if route.lane_id is None:
+        if isinstance(route, RoadPart):
+            begin = RoadGraph(road_map).begin(route.found)
+        elif route.lane_id is None:
             return road_map.road_pose(route.road_id, point.s, point.t)
-        step = road_map.advance(_begin(road_map, route.road_id, route.lane_id), point.s)
+        else:
+            begin = _begin(road_map, route.road_id, route.lane_id)
+        step = road_map.advance(begin, point.s)
     except MapError as error:
         raise PlacementError(error.message) from error
     if abs(step.travelled - point.s) > 1e-6:
         raise PlacementError(
-            f"lane {route.lane_id} of road {route.road_id} ends after {step.travelled:.1f} m,"
+            f"lane {begin.lane} of road {begin.road} ends after {step.travelled:.1f} m,"
             f" before s = {point.s:g} m"
         )
     on = step.position

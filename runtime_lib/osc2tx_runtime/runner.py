@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.behaviour.base import (
     FAILURE,
@@ -139,7 +139,9 @@ def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
 
     for actor in scenario.actors.values():
         actor.bind(context)
-    ScenarioInitializer(context).run(scenario.placements)
+    for each in scenario.map_objects:
+        each.bind(context)
+    ScenarioInitializer(context, scenario.map_objects).run(scenario.placements)
 
 
 def setup_tree(root: Behaviour, context: ExecutionContext) -> None:
@@ -167,11 +169,16 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
             "map": context.world.map.name,
             "dt": context.dt,
             "seed": context.settings.seed,
-            "parameters": scenario.parameters,
+            "parameters": dict(sorted(scenario.parameters.items(), key=_path)),
             "actors": actors,
             "one_of": scenario.one_of,
         }
     )
+
+
+def _path(parameter: tuple[str, Any]) -> str:
+    """Where a parameter belongs: own ones first, those of invocations by path."""
+    return parameter[0].rpartition(".")[0]
 
 
 def run_tree(

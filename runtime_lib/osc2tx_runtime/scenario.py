@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from osc2tx_runtime.actors import Actor, Map
 from osc2tx_runtime.behaviour.assembly import assemble, invoked_placements
@@ -19,18 +18,28 @@ from osc2tx_runtime.behaviour.invocation import (
 )
 from osc2tx_runtime.behaviour.limits import Duration
 from osc2tx_runtime.behaviour.override import Mode
-from osc2tx_runtime.behaviour.parameters import Range, choose, within
+from osc2tx_runtime.behaviour.parameters import Range, any_of, at_least, at_most, within
 from osc2tx_runtime.behaviour.variables import MISSING, Sampled
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import SetMapFile
+from osc2tx_runtime.scenario_values import ScenarioValues
 from osc2tx_runtime.settings import RunSettings, check_known, near
 from osc2tx_runtime.sidecar import read_source_map
+from osc2tx_runtime.traffic_lights import MapObject
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.modifiers import Modifier
+    from osc2tx_runtime.modifiers import MapModifier, Modifier
 
-__all__ = ["Placement", "Range", "Scenario", "within"]
+__all__ = [
+    "Placement",
+    "Range",
+    "Scenario",
+    "any_of",
+    "at_least",
+    "at_most",
+    "within",
+]
 
-ValueT = TypeVar("ValueT", bool, int, float, str)
 AnyT = TypeVar("AnyT")
 
 
@@ -42,14 +51,16 @@ class Placement:
         actor: Who.
         modifiers: position, lane, speed and so on, as written.
         source: Place in the scenario.
+        throughout: All of it holds later as well.
     """
 
     actor: Actor
     modifiers: tuple[Modifier, ...]
     source: str
+    throughout: bool = False
 
 
-class Scenario:
+class Scenario(ScenarioValues):
     """A scenario. Generated classes write `declare`, `placement` and `behavior`.
 
     Args:
@@ -65,6 +76,7 @@ class Scenario:
         settings: Of the run.
         actors: Declared actors by id, in order; the scenario that runs also has those of all that
             it invokes.
+        map_objects: Declared traffic lights and groups of them; likewise.
         events: Declared events by name, in order; likewise.
         parameters: Values of the parameters, in order; likewise.
         placements: What `placement` asked for; likewise, once there is a tree.
@@ -82,35 +94,31 @@ class Scenario:
         caller: Caller | None = None,
         **arguments: Any,
     ) -> None:
-        self.settings = settings or RunSettings()
+        super().__init__(
+            settings or RunSettings(),
+            arguments,
+            read_source_map(type(self), self.name, self.source),
+            caller=None if caller is None else caller.scenario,
+            path="" if caller is None else caller.path,
+            key="" if caller is None else caller.key,
+        )
         self._caller = caller
         self._root: Scenario = self if caller is None else caller.scenario._root
-        # Labels of the invocations from the scenario that runs down to this one.
-        self._path = "" if caller is None else caller.path
         self.actors: dict[str, Actor] = {}
+        self.map_objects: list[MapObject] = []
         self.events: dict[str, Event] = {}
-        self.parameters: dict[str, Any] = {}
         self.placements: list[Placement] = []
         self.label_events: dict[tuple[str, str], Event] = {}
-        self._arguments = arguments
-        self._generator = random.Random(self.settings.seed)
-        self._source_map = read_source_map(type(self), self.name, self.source)
         self._variables: dict[str, Sampled] = {}
         self._invoked: dict[str, Scenario] = {}
         self._keys: dict[str, None] = {}
         self._inner_events: dict[str, Event] = {}
         self._overrides: list[tuple[str, str, Mode]] = []
-        self._declare()
+        self._declare_values(self.declare)
         self._name_members()
         self._check_arguments()
         self.placement()
         self._own_placements = len(self.placements)
-
-    def _declare(self) -> None:
-        try:
-            self.declare()
-        except ArithmeticError as error:  # of a value that the scenario computes
-            raise ScenarioError(f"a value cannot be computed: {error}", self.source) from error
 
     # --- written by generated classes ---
 
@@ -126,51 +134,23 @@ class Scenario:
 
     # --- used by generated classes ---
 
-    @overload
-    def parameter(self, name: str, default: Range, domain: Range | None = None) -> float: ...
-    @overload
-    def parameter(self, name: str, default: ValueT, domain: Range | None = None) -> ValueT: ...
-    def parameter(self, name: str, default: Any, domain: Range | None = None) -> Any:
-        """Return the value of a parameter.
-
-        An argument of the class counts before `--set`, that before a draw from a range, that
-        before the default. Setting one parameter does not change what is drawn for another.
-        Parameters of invoked scenarios are set by path: `--set p1.gap=12`.
+    def place(self, actor: Actor, *modifiers: Modifier, throughout: bool = False) -> None:
+        """Say where and how an actor starts.
 
         Args:
-            name: Name of the parameter.
-            default: Value, or range of values, SI units.
-            domain: Range that settings must keep to; that of the default where it is a range.
+            actor: The actor.
+            *modifiers: What holds at the start.
+            throughout: The first action sees to all of it anyway: where the scenario is invoked
+                in the middle of a run, nobody is placed.
         """
-        path = f"{self._path}.{name}" if self._path else name
-        generator = self._generator  # draws in the order of declaration
-        if self._caller is not None:
-            generator = random.Random(f"{self.settings.seed}/{self._caller.key}/{name}")
-        given, chosen = self._arguments.get(name), self.settings.set
-        value = choose(path, default, domain, generator, given=given, settings=chosen)
-        self.parameters[name] = self._root.parameters[path] = value
-        return value
-
-    @overload
-    def global_parameter(self, name: str, default: Range, domain: Range | None = None) -> float: ...
-    @overload
-    def global_parameter(
-        self, name: str, default: ValueT, domain: Range | None = None
-    ) -> ValueT: ...
-    def global_parameter(self, name: str, default: Any, domain: Range | None = None) -> Any:
-        """Return the value of a global parameter: one for all scenarios of the run."""
-        known = self._root.parameters
-        if name not in known:
-            generator = random.Random(f"{self.settings.seed}/global/{name}")
-            known[name] = choose(name, default, domain, generator, settings=self.settings.set)
-        return known[name]
-
-    def place(self, actor: Actor, *modifiers: Modifier) -> None:
-        """Say where and how an actor starts."""
         lines = self._source_map.placements
         index = len(self.placements)
         source = self._source_map.place(lines[index] if index < len(lines) else None)
-        self.placements.append(Placement(actor, modifiers, source))
+        self.placements.append(Placement(actor, modifiers, source, throughout))
+
+    def require(self, road_map: Map, *modifiers: MapModifier) -> None:
+        """Say what the declared roads and lanes of the map are like."""
+        self.place(road_map, *modifiers)
 
     def sample(
         self,
@@ -219,7 +199,9 @@ class Scenario:
         check_recursion(self, scenario)
         given = arguments if actor is None else {"actor": actor, **arguments}
         short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
-        name = unique_name(label or short, self._invoked)
+        names, index = self._source_map.invocations, len(self._invoked)
+        # By place in the source; without a map by the order of the calls.
+        name = names[index] if index < len(names) else unique_name(label or short, self._invoked)
         path = f"{self._path}.{name}" if self._path else name
         # Without a label the arguments tell invocations apart, not the order of the members.
         key = label or f"{scenario.name}{argument_key(given)}"
@@ -277,9 +259,23 @@ class Scenario:
         return tree
 
     def map_file(self) -> str | None:
-        """Return the map file the scenario names; None if it leaves the map open."""
+        """Return the map file the scenario names; None if it leaves the map open.
+
+        Raises:
+            ScenarioError: If it names two.
+        """
         maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
-        return next((found.map_file for found in maps if found.map_file), None)
+        named = [(found.map_file, found.source) for found in maps if found.map_file]
+        named += [
+            (modifier.file, placement.source)
+            for placement in self.placements
+            for modifier in placement.modifiers
+            if isinstance(modifier, SetMapFile)
+        ]
+        for file, source in named[1:]:
+            if file != named[0][0]:
+                raise ScenarioError(f"two maps are named: {named[0][0]} and {file}", source)
+        return named[0][0] if named else None
 
     if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
 
@@ -313,6 +309,9 @@ class Scenario:
                 value.id = path
                 value.source = self._source_map.place(lines.get(attribute))
                 self.actors[attribute] = self._root.actors[path] = value
+            elif isinstance(value, MapObject):
+                value.source = self._source_map.place(lines.get(attribute))
+                self._root.map_objects.append(value)
             elif isinstance(value, Event):
                 value.name = path
                 self.events[attribute] = self._root.events[path] = value

@@ -34,6 +34,7 @@ class RunSettings:
         max_time: Simulated seconds after which the run ends with status `timeout`.
         trace: Where to write the trace (JSON Lines).
         report: Where to write the report (HTML).
+        allow_external: Functions of the user that the scenario may call, `module.function`.
     """
 
     map_path: tuple[Path, ...] = ()
@@ -46,6 +47,7 @@ class RunSettings:
     max_time: float = 300.0
     trace: Path | None = None
     report: Path | None = None
+    allow_external: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.dt) and self.dt > 0):
@@ -110,7 +112,7 @@ class Option:
         values = [self.parse(text) for text in texts]
         if not self.repeatable:
             return values[-1]
-        return tuple(values) if self.name == "map-path" else dict(values)
+        return tuple(values) if self.name in LISTS else dict(values)
 
 
 def parse_seconds(text: str, example: str) -> float:
@@ -176,6 +178,9 @@ def parse_seed(text: str) -> int:
         raise SettingsError(f"--seed {text}: write a whole number, as in --seed 7") from None
 
 
+LISTS = ("map-path", "allow-external")
+"""Repeatable options whose values are a list; those of the others are pairs."""
+
 OPTIONS: tuple[Option, ...] = (
     Option("map-path", "PATH", "folder with maps, or the map itself (.xodr)", Path, True),
     Option("signal", "NAME@SECONDS", "send the event NAME from outside", parse_signal, True),
@@ -197,6 +202,13 @@ OPTIONS: tuple[Option, ...] = (
     ),
     Option("trace", "FILE", "write the trace (JSON Lines)", Path),
     Option("report", "FILE", "write the report (HTML)", Path),
+    Option(
+        "allow-external",
+        "MODULE.FUNCTION",
+        "let the scenario call this Python function",
+        str.strip,
+        True,
+    ),
 )
 
 

@@ -26,15 +26,19 @@ class SourceMap:
         file: Scenario file as shown to people.
         line: Line of the scenario; None where unknown.
         fields: Lines of the fields, by name.
+        constraints: Line and text of the `keep` calls, in their order.
         placements: Lines of the `place` calls, in their order.
         nodes: Line and name of the nodes, in pre-order.
+        invocations: Names of the invoked scenarios, in the same order.
     """
 
     file: str
     line: int | None = None
     fields: Mapping[str, int] = field(default_factory=dict)
+    constraints: tuple[tuple[int, str], ...] = ()
     placements: tuple[int, ...] = ()
     nodes: tuple[tuple[int | None, str], ...] = ()
+    invocations: tuple[str, ...] = ()
 
     def place(self, line: int | None) -> str:
         """Return `file:line`, or the file alone."""
@@ -71,8 +75,10 @@ def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
         file=str(entry.get("file", file)),
         line=entry.get("line"),
         fields={str(name): int(line) for name, line in entry.get("fields", {}).items()},
+        constraints=tuple((int(line), str(text)) for line, text in entry.get("constraints", ())),
         placements=tuple(int(line) for line in entry.get("placements", ())),
         nodes=tuple((line, str(text)) for line, text in entry.get("nodes", ())),
+        invocations=tuple(str(name) for name in entry.get("invocations", ())),
     )
 
 

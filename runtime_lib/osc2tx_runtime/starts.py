@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import PlacementError
-from osc2tx_runtime.modifiers import Lane, Position, value_of
+from osc2tx_runtime.modifiers import Lane, Position
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.poses import road_entry
 from osc2tx_runtime.world.lanes import lane_with_number, number_of_lane
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
+    from osc2tx_runtime.road_parts import RoadPath
 
 __all__ = ["StartPlaces"]
 
@@ -61,11 +62,10 @@ class StartPlaces:
         self,
         actor: PhysicalObject,
         lane: Lane | None,
-        position: Position | None,
+        distance: float | None,
         is_free: Callable[[LanePosition], bool],
     ) -> LanePosition:
-        """The first free default place that agrees with the modifiers."""
-        distance = None if position is None else value_of(position.distance or 0.0)
+        """The first free default place on the lane, so far (m) along its road."""
         for candidate in self._candidates(distance):
             place: LanePosition | None = candidate
             if lane is not None:
@@ -79,6 +79,40 @@ class StartPlaces:
         raise PlacementError(
             f"{actor.id}: map {self._map.name} has no free place on a road{wish}{far}"
         )
+
+    def on_path(
+        self,
+        actor: PhysicalObject,
+        path: RoadPath,
+        lane: Lane | None,
+        distance: float | None,
+        is_free: Callable[[LanePosition], bool],
+    ) -> LanePosition:
+        """The first free default place on a piece of road; see `default`.
+
+        Without a distance it is from a third of it on, so that there is room for those who start
+        behind; if all of that is taken, before.
+        """
+        stretch = path.found
+        section = self._map.roads[stretch.road].sections[stretch.section or 0]
+        third = (section.end - section.begin) / 3.0
+
+        def is_on(place: LanePosition, least: float) -> bool:
+            forwards = self._map.travel_direction(place.road, place.lane) > 0
+            if (place.road, forwards) != (stretch.road, stretch.forwards):
+                return False
+            covered = place.s - section.begin if forwards else section.end - place.s
+            return least <= covered <= section.end - section.begin and is_free(place)
+
+        if distance is None:
+            try:
+                return self.default(actor, lane, None, lambda place: is_on(place, third))
+            except PlacementError:
+                pass  # the rest of it is tried below
+        try:
+            return self.default(actor, lane, distance, lambda place: is_on(place, 0.0))
+        except PlacementError as error:
+            raise PlacementError(f"{error.message} that is part of its path, {stretch}") from None
 
     def _candidates(self, distance: float | None) -> Iterator[LanePosition]:
         """Default start places; with a distance, places so far from the start of each road."""

@@ -67,6 +67,7 @@ class TraceWriter:
         self._actions: list[tuple[tuple[str, int, str], int, str]] = []
         self._others: dict[tuple[int, str, str], str] = {}
         self._environment: dict[str, Any] = {}
+        self._values: dict[str, Any] = {}  # of sampled variables
         self._written: dict[str, tuple[ActorState, str]] = {}
 
     # --- what happens at the present instant ---
@@ -98,9 +99,12 @@ class TraceWriter:
         """Note new values of the environment, SI units; those of one instant are one line."""
         self._environment.update(values)
 
-    def signal(self, signal_id: str, state: str) -> None:
-        """Note the new state of a traffic light."""
-        self.other(2, "signal", signal=signal_id, state=state)
+    def signal(
+        self, signal_id: str, state: str, bulbs: Iterable[str], ignored: str | None = None
+    ) -> None:
+        """Note what a traffic light says and shows, and what it was asked for but cannot say."""
+        more = {} if ignored is None else {"ignored": ignored}
+        self.other(2, "signal", signal=signal_id, state=state, bulbs=list(bulbs), **more)
 
     def collision(self, actor_ids: Iterable[str]) -> None:
         """Note a new contact of two actors."""
@@ -118,8 +122,18 @@ class TraceWriter:
             self._listed(5, "override", {"name": name, "what": what, "by": by, "source": source})
 
     def variable(self, name: str, value: Any) -> None:
-        """Note the new value of a sampled variable; the last one of an instant counts."""
-        self.other(6, "variable", name=name, value=value)
+        """Note the first value of a sampled variable, and every new one from then on.
+
+        The last one of an instant counts.
+        """
+        if name not in self._values or self._values[name] != value:
+            self._values[name] = value
+            self.other(6, "variable", name=name, value=value)
+
+    def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
+        """Note the value of a coverage item, kind `cover` or `record`."""
+        if self.enabled:
+            self._listed(7, kind, values)
 
     def _listed(self, rank: int, kind: str, values: Mapping[str, Any]) -> None:
         """Keep a line of which there may be several, whatever they are about."""

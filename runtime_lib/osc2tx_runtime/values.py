@@ -5,10 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.errors import PlacementError
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.road_parts import RoadPart
 
 __all__ = [
-    "CelestialLightSource",
+    "NetworkPath",
+    "NetworkPoint",
+    "NetworkTrajectory",
     "OdrPoint",
     "Orientation",
     "Path",
@@ -77,31 +84,34 @@ class Pose:
 
 
 @dataclass(frozen=True, slots=True)
-class CelestialLightSource:
-    """The sun or the moon.
-
-    Attributes:
-        name: `sun` or `moon`.
-    """
-
-    name: Literal["sun", "moon"]
-
-
-@dataclass(frozen=True, slots=True)
 class OdrPoint:
     """A point in road coordinates.
 
     Attributes:
         road_id: Road.
-        lane_id: Lane; None: `t` counts from the reference line of the road.
+        lane_id: Lane; None or empty: `t` counts from the reference line of the road.
         s: Road coordinate (m).
         t: Metres to the left in the direction of s, from the lane's centre or the reference line.
     """
 
     road_id: str
-    lane_id: str | int | None
-    s: float
+    lane_id: str | int | None = None
+    s: float = 0.0
     t: float = 0.0
+
+    @property
+    def lane(self) -> int | None:
+        """Number of the lane; None if the point only names its road.
+
+        Raises:
+            PlacementError: It is no number.
+        """
+        if self.lane_id is None or self.lane_id == "":
+            return None
+        try:
+            return int(self.lane_id)
+        except ValueError:
+            raise PlacementError(f"`{self.lane_id}` is no lane of OpenDRIVE") from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,16 +140,17 @@ class RoutePoint:
 
     Attributes:
         route: A lane (`s` runs along its centre line in direction of travel) or a road (`s`, `t` of
-            its reference line); None in relative paths.
+            its reference line), also one that a scenario declares; None in relative paths.
         s: Metres along it.
         t: Metres to the left of it.
     """
 
-    route: RoadRoute | None = None
+    route: RoadRoute | RoadPart | None = None
     s: float = 0.0
     t: float = 0.0
 
 
+NetworkPoint = RoutePoint | OdrPoint | XyzPoint
 PathPoint = Pose | RoutePoint | OdrPoint
 PathInterpolation = Literal["straight_line", "smooth"]
 RelativeTransform = Literal["world_relative", "object_relative", "road_relative", "lane_relative"]
@@ -156,6 +167,19 @@ class Path:
 
     points: Sequence[Pose]
     interpolation: PathInterpolation = "straight_line"
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkPath(Path):
+    """A path through points of the road network; poses come from the map when it is used.
+
+    Attributes:
+        places: The points.
+        on_road_network: Along lanes from point to point.
+    """
+
+    places: Sequence[NetworkPoint] = ()
+    on_road_network: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,6 +218,14 @@ class Trajectory:
     points: Sequence[Pose]
     time_stamps: Sequence[float]
     interpolation: PathInterpolation = "straight_line"
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkTrajectory(Trajectory):
+    """A trajectory through points of the road network; likewise."""
+
+    places: Sequence[NetworkPoint] = ()
+    on_road_network: bool = False
 
 
 @dataclass(frozen=True, slots=True)

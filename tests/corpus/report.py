@@ -2,6 +2,7 @@
 
     python tests/corpus/report.py              the table, and the codes that stand in the way
     python tests/corpus/report.py --verbose    with examples of every code
+    python tests/corpus/report.py --files      with what stands in the way of each file
     python tests/corpus/report.py --update     pin the numbers in expected.json; they may only rise
 
 The files lie in `$OSC2TX_TEST_DATA/corpus`; its MANIFEST.csv says of each whose language it is
@@ -23,6 +24,7 @@ import json
 import os
 import sys
 import time
+import tomllib
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -35,6 +37,7 @@ from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 
 EXPECTED = Path(__file__).with_name("expected.json")
+ACCEPTED = Path(__file__).with_name("accepted.toml")
 INVALID = "test-invalid"
 SLOW = 5.0  # seconds for one file
 EXAMPLES = 3
@@ -85,15 +88,26 @@ class Result:
 
 def compile_corpus(corpus: Path) -> list[Result]:
     """Compile every file of the manifest."""
-    with (corpus / "MANIFEST.csv").open(newline="", encoding="utf-8") as manifest:
-        return [_compile(corpus, row) for row in csv.DictReader(manifest)]
+    return [_compile(corpus, row) for row in manifest(corpus)]
 
 
-def _compile(corpus: Path, row: Mapping[str, str]) -> Result:
+def manifest(corpus: Path) -> list[dict[str, str]]:
+    """Return the rows of the manifest: file, dialect, kind and more of each."""
+    with (corpus / "MANIFEST.csv").open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def compilation_of(corpus: Path, row: Mapping[str, str]) -> Compilation:
+    """Return the compilation of a file of the manifest; no stage has run yet."""
     file, dialect = row["file"], row["dialect"]
     folders = (file.partition("/")[0], *ROOTS.get(dialect, ()))
     roots = [corpus / folder for folder in folders]
-    compilation = Compilation(corpus / file, file, OPTIONS[dialect], roots=roots)
+    return Compilation(corpus / file, file, OPTIONS[dialect], roots=roots)
+
+
+def _compile(corpus: Path, row: Mapping[str, str]) -> Result:
+    compilation = compilation_of(corpus, row)
+    file, dialect = row["file"], row["dialect"]
     start = time.perf_counter()
     bug = None
     try:
@@ -170,6 +184,21 @@ def bugs(results: Iterable[Result]) -> list[str]:
     return failed + [f"{r.file}: {r.seconds:.1f} s" for r in results if r.seconds > SLOW]
 
 
+def accepted(results: Iterable[Result]) -> list[str]:
+    """Return the files that should be refused and are not."""
+    return [r.file for r in results if r.kind == INVALID and not r.is_refused]
+
+
+def read_reasons() -> dict[str, str]:
+    """Return why some of them are right to be accepted, by the ends of their paths."""
+    return tomllib.loads(ACCEPTED.read_text(encoding="utf-8"))
+
+
+def reason_of(file: str, reasons: Mapping[str, str]) -> str | None:
+    """Return why a file is accepted against the expectation of its authors."""
+    return next((reasons[end] for end in reasons if file.endswith(end)), None)
+
+
 def render(results: Sequence[Result], *, verbose: bool) -> str:
     """Return the report as text."""
     columns = ("files", "parse", "check", "build", "no scenario", "refused")
@@ -185,10 +214,11 @@ def render(results: Sequence[Result], *, verbose: bool) -> str:
         for row in rows
     ]
     valid = [result for result in results if result.kind != INVALID]
-    accepted = [r.file for r in results if r.kind == INVALID and not r.is_refused]
+    reasons = read_reasons()
     lines += ["", "why files are refused, by files:", *_reasons(valid, verbose)]
     lines += ["", "accepted although their authors expect a refusal:"]
-    lines += [f"  {file}" for file in accepted]
+    for file in accepted(results):
+        lines += [f"  {file}", f"      {reason_of(file, reasons) or 'not explained'}"]
     lines += ["", "bugs of the compiler:", *(f"  {bug}" for bug in bugs(results) or ["none"])]
     return "\n".join(lines) + "\n"
 
@@ -210,6 +240,16 @@ def _reasons(results: Iterable[Result], verbose: bool) -> list[str]:
     return lines
 
 
+def _refused(results: Iterable[Result]) -> list[str]:
+    lines = []
+    for result in results:
+        if result.kind != INVALID and result.errors:
+            codes = " ".join(sorted({error.code for error in result.errors}))
+            first = min(result.errors, key=lambda e: e.primary.start if e.primary else 0)
+            lines += [f"  {result.file}: {codes}", f"      {first.primary}: {first.message}"]
+    return lines
+
+
 def read_expected() -> Numbers:
     """Return the pinned numbers."""
     numbers: Numbers = json.loads(EXPECTED.read_text(encoding="utf-8"))
@@ -220,11 +260,14 @@ def main() -> int:
     """Print the report; with `--update` pin the numbers."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--verbose", action="store_true", help="show examples of every code")
+    parser.add_argument("--files", action="store_true", help="show each file that is refused")
     parser.add_argument("--update", action="store_true", help="pin the numbers if none fell")
     parser.add_argument("--lower", action="store_true", help="with --update: even if some fell")
     options = parser.parse_args()
     results = compile_corpus(Path(os.environ["OSC2TX_TEST_DATA"]) / "corpus")
     print(render(results, verbose=options.verbose), end="")
+    if options.files:
+        print("", "refused:", *_refused(results), sep="\n")
     if not options.update:
         return 0
     numbers = count(results)

@@ -5,7 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.corpus.report import Result, bugs, compare, compile_corpus, count, read_expected
+from tests.corpus.report import (
+    Result,
+    accepted,
+    bugs,
+    compare,
+    compile_corpus,
+    count,
+    read_expected,
+    read_reasons,
+    reason_of,
+)
 
 
 @pytest.fixture(scope="module")
@@ -23,3 +33,10 @@ def test_numbers_only_rise(results: list[Result]) -> None:
 
 def test_no_file_breaks_the_compiler(results: list[Result]) -> None:
     assert bugs(results) == []
+
+
+def test_what_should_be_refused_is_accepted_for_a_reason(results: list[Result]) -> None:
+    reasons = read_reasons()
+    files = accepted(results)
+    assert [file for file in files if reason_of(file, reasons) is None] == []
+    assert {end for end in reasons if not any(f.endswith(end) for f in files)} == set()

@@ -8,8 +8,8 @@ import pytest
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.driver import Compilation
-from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from tests.golden.test_stages import options_for
 
 CASES = sorted((Path(__file__).parents[1] / "golden" / "py_trees").iterdir())
 # What a case says about itself in the file `expected/verdict.txt`, so that changes show.
@@ -20,7 +20,7 @@ Golden = Callable[[str, Path], None]
 def test_runs_to_a_verdict(
     case: Path, load: Callable[[GeneratedModule], type[Scenario]], golden: Golden
 ) -> None:
-    options = CompileOptions(dialect="carla" if case.name.startswith("carla") else "asam")
+    options = options_for(case)
     path = case / "input.osc"
     compilation = Compilation(path, path.name, options)
     assert compilation.ir is not None

@@ -10,8 +10,11 @@ from osc2tx.backends.py_trees import emit
 from tests.end_to_end.harness import SCENARIOS, asam
 
 SOURCE = (SCENARIOS / "cut_in_and_evade.osc").read_text(encoding="utf-8").splitlines()
-STATEMENT = "wait elapsed(1.25s)"
-WRITTEN = "Wait(elapsed(1.25 * s)),"
+STATEMENTS = {
+    "wait elapsed(1.25s)": "Wait(elapsed(1.25 * s)),",
+    "emit crash_avoided": "Emit(self.crash_avoided),",
+    "npc.drive(duration: 2s)": "self.npc.drive(duration=2 * s),",
+}
 LOCATION = re.compile(r"# case\.osc:\d+$|\(case\.osc:\d+\)\.$")
 
 
@@ -29,18 +32,19 @@ def module(lines: list[str], folder: Path) -> list[str]:
     return emit(asam("\n".join(lines) + "\n", folder)).python.splitlines()
 
 
+@pytest.mark.parametrize("statement", STATEMENTS)
 @pytest.mark.parametrize("index", insertion_points())
-def test_an_inserted_statement_is_one_new_line(index: int, tmp_path: Path) -> None:
+def test_an_inserted_statement_is_one_new_line(index: int, statement: str, tmp_path: Path) -> None:
     indent = SOURCE[index][: len(SOURCE[index]) - len(SOURCE[index].lstrip())]
-    edited = [*SOURCE[:index], indent + STATEMENT, *SOURCE[index:]]
+    edited = [*SOURCE[:index], indent + statement, *SOURCE[index:]]
     before, after = module(SOURCE, tmp_path), module(edited, tmp_path)
     changed = [
         line[1:].strip()
         for line in difflib.unified_diff(before, after, n=0, lineterm="")
         if line[:1] in "+-" and line[:3] not in ("+++", "---")
     ]
-    assert [line for line in changed if not LOCATION.search(line)] == [WRITTEN]
+    assert [line for line in changed if not LOCATION.search(line)] == [STATEMENTS[statement]]
 
 
-def test_there_are_enough_points() -> None:
-    assert len(insertion_points()) >= 14
+def test_there_are_enough_edits() -> None:
+    assert len(insertion_points()) * len(STATEMENTS) >= 30

@@ -28,8 +28,11 @@ def case_id(folder: Path) -> str:
 
 
 def options_for(case: Path) -> CompileOptions:
-    """Cases whose folder name starts with `carla` use that dialect."""
-    return CompileOptions(dialect="carla" if case.name.startswith("carla") else "asam")
+    """Cases whose folder name starts with `carla` use that dialect, `…_2_2` that standard."""
+    return CompileOptions(
+        standard="2.2" if case.name.endswith("_2_2") else "2.1",
+        dialect="carla" if case.name.startswith("carla") else "asam",
+    )
 
 
 def compile_case(path: Path, options: CompileOptions) -> Compilation:

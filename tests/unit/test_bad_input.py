@@ -207,6 +207,15 @@ def test_long_chains(tmp_path: Path, chain: str, length: int) -> None:
         assert ended.code == ERRORS and ended.codes, ended.err
 
 
+@pytest.mark.slow
+def test_a_line_longer_than_anybody_needs(tmp_path: Path) -> None:
+    """Its declaration is left out; what follows is still looked at."""
+    text = f"struct long:\n    x: int = {'1 + ' * 100_000}1\nstruct next:\n    y: int = true\n"
+    ended = build(tmp_path, text)
+    assert_refused(ended, "OSC115")
+    assert_refused(build(tmp_path, text.rstrip()), "OSC115")
+
+
 def test_long_path_of_members(tmp_path: Path) -> None:
     text = DRIVE.replace(
         "scenario", "struct node:\n    next: node\n    value: int = 1\n\nscenario", 1

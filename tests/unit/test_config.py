@@ -1,12 +1,15 @@
 """Settings files: which one counts, what they may say, what beats what."""
 
+import runpy
 from pathlib import Path
 
 import pytest
 
-from osc2tx.config import RUN_LISTS, RUN_VALUES, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.config import RUN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import CompileOptions
 from osc2tx_runtime.settings import OPTIONS
+
+REPOSITORY = Path(__file__).parents[2]
 
 
 def write(path: Path, text: str) -> Path:
@@ -71,9 +74,11 @@ def test_map_folders_are_relative_to_the_settings_file(tmp_path: Path) -> None:
 
 def test_run_keys_are_options_of_the_runtime() -> None:
     outputs = {"trace", "report"}
-    lists = {option.name for option in OPTIONS if option.repeatable}
-    assert set(RUN_LISTS) == lists
-    assert set(RUN_VALUES) == {option.name for option in OPTIONS} - lists - outputs
+    dangers = {"allow-external"}  # runs code: not for a file of a stranger's branch to allow
+    lists = {option.name for option in OPTIONS if option.repeatable} - dangers
+    assert {setting.key for setting in RUN_SETTINGS if setting.is_list} == lists
+    values = {option.name for option in OPTIONS} - lists - outputs - dangers
+    assert {setting.key for setting in RUN_SETTINGS if setting.is_number} == values
 
 
 @pytest.mark.parametrize(
@@ -81,7 +86,12 @@ def test_run_keys_are_options_of_the_runtime() -> None:
     [
         ('dialekt = "asam"', "unknown key `dialekt`; did you mean `dialect`?"),
         ('one-of = "race"', "unknown key `one-of`; did you mean `one_of`?"),
-        ("zzz = 1", "unknown key `zzz`; known keys: std, dialect, one_of, scenarios"),
+        (
+            "zzz = 1",
+            "unknown key `zzz`; known keys: std, dialect, one_of, target, xml_version, xml_profile,"
+            " allow_approx, sources, out, scenarios",
+        ),
+        ("allow_approx = 1", "`allow_approx` is 1: write true or false"),
         ("std = 2.1", '`std` is 2.1: write "2.1" or "2.2"'),
         ('dialect = "carl"', '`dialect` is "carl": write "asam" or "carla"'),
         ("scenarios = 3", "`scenarios` is not a table"),
@@ -93,6 +103,8 @@ def test_run_keys_are_options_of_the_runtime() -> None:
         ),
         ("[scenarios.a.run]\nsignal = [1]", "`signal` is [1]: write a list of strings"),
         ("[scenarios.a.run]\nseed = true", "`seed` is True: write one number"),
+        ("sources = 3", "`sources` is 3: write a list of strings"),
+        ('out = ["a"]', "`out` is ['a']: write one string"),
         ("std =", "is not valid TOML"),
     ],
 )
@@ -114,3 +126,55 @@ def test_text_that_is_no_utf8_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "osc2tx.toml").write_bytes(b"\xff\xfe")
     with pytest.raises(ConfigError, match="is not UTF-8 text"):
         ConfigFiles().for_source(tmp_path / "a.osc")
+
+
+def test_sources_and_output_folder_are_relative_to_the_settings_file(tmp_path: Path) -> None:
+    write(tmp_path / "osc2tx.toml", 'sources = ["scenarios", "more/a.osc"]\nout = "generated"\n')
+    (tmp_path / "deep/er").mkdir(parents=True)
+    config = ConfigFiles().for_folder(tmp_path / "deep/er")
+    assert config.sources == (tmp_path / "scenarios", tmp_path / "more/a.osc")
+    assert config.out == tmp_path / "generated"
+
+
+def test_what_is_in_force_and_from_where(tmp_path: Path) -> None:
+    path = write(
+        tmp_path / "pyproject.toml",
+        '[tool.osc2tx]\nstd = "2.2"\nout = "g"\ntarget = "py"\n'
+        '[tool.osc2tx.scenarios.a]\ndialect = "carla"\nallow_approx = true\n'
+        "[tool.osc2tx.scenarios.a.run]\nseed = 3\n",
+    )
+    source = tmp_path / "a.osc"
+    config = ConfigFiles().for_source(source)
+    rows = config.settings_in_force(source, GivenOptions(one_of="first"))
+    table = "tool.osc2tx.scenarios.a"
+    assert [(row.name, row.value, row.origin.place, row.origin.path) for row in rows] == [
+        ("std", "2.2", "tool.osc2tx", path),
+        ("dialect", "carla", table, path),
+        ("one_of", "first", "command line", None),
+        ("target", "py", "tool.osc2tx", path),
+        ("xml_version", "1.3", "default", None),
+        ("xml_profile", "generic", "default", None),
+        ("allow_approx", True, table, path),
+        ("out", str(tmp_path / "g"), "tool.osc2tx", path),
+        ("run.seed", ["3"], f"{table}.run", path),
+    ]
+    rows = ConfigFiles().for_source(tmp_path / "b.osc").settings_in_force(None, GivenOptions())
+    assert [row.origin.place for row in rows][:3] == ["tool.osc2tx", "default", "default"]
+
+
+def test_tables_of_files_that_do_not_exist(tmp_path: Path) -> None:
+    path = write(tmp_path / "osc2tx.toml", "[scenarios.a]\n[scenarios.deep]\n[scenarios.hero]\n")
+    write(tmp_path / "sub/deep.osc", "")
+    configs = ConfigFiles()
+    configs.for_folder(tmp_path)
+    assert configs.unmatched_tables() == []  # nobody asked for a source of it
+    configs.for_source(tmp_path / "a.osc")
+    assert configs.unmatched_tables() == [
+        f"{path}: [scenarios.hero] is for no file: there is no `hero.osc`"
+    ]
+
+
+def test_the_reference_is_up_to_date() -> None:
+    tool = runpy.run_path(str(REPOSITORY / "tools/make_config_doc.py"))
+    page = (REPOSITORY / "docs/config.md").read_text(encoding="utf-8")
+    assert page == tool["render"](), "run `make docs-config`"

@@ -1,14 +1,11 @@
-"""The line of stages, imports, and what a build writes."""
+"""The line of stages, and imports."""
 
 import os
 from pathlib import Path
 
 import pytest
 
-from osc2tx import ir
-from osc2tx.build import build
-from osc2tx.config import ConfigError, GivenOptions
-from osc2tx.diagnostics import InternalCompilerError, SourceFile
+from osc2tx.diagnostics import SourceFile
 from osc2tx.driver import Compilation
 from osc2tx.inputs import InputError, find_inputs
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
@@ -88,7 +85,7 @@ def test_a_library_makes_no_module(tmp_path: Path) -> None:
 def test_binary_input_is_a_diagnostic(tmp_path: Path, data: bytes) -> None:
     (tmp_path / "a.osc").write_bytes(data)
     compilation = compile_file(tmp_path / "a.osc")
-    assert not compilation.is_readable
+    assert compilation.source is None
     assert codes(compilation) == ["OSC101"]
 
 
@@ -188,138 +185,6 @@ def test_file_names_that_are_no_text_are_errors(tmp_path: Path) -> None:
         pytest.skip("this file system wants UTF-8 names")
     with pytest.raises(InputError, match="not UTF-8"):
         find_inputs([tmp_path])
-
-
-# --- build ---
-
-
-def listing(folder: Path) -> list[str]:
-    return sorted(p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file())
-
-
-def test_build_mirrors_the_layout(tmp_path: Path) -> None:
-    drive(tmp_path / "in/one.osc")
-    drive(tmp_path / "in/sub/two-lanes.osc")
-    write(tmp_path / "in/library.osc", "enum color: [red]\n")
-    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
-    assert not result.collisions
-    assert result.modules == 2
-    assert listing(tmp_path / "out") == [
-        "one.map.json",
-        "one.py",
-        "sub/two_lanes.map.json",
-        "sub/two_lanes.py",
-    ]
-    assert (
-        "Made by osc2tx from sub/two-lanes.osc" in (tmp_path / "out/sub/two_lanes.py").read_text()
-    )
-
-
-def test_outputs_that_are_current_are_not_touched(tmp_path: Path) -> None:
-    drive(tmp_path / "a.osc")
-    out = tmp_path / "out"
-    build([tmp_path / "a.osc"], out, GivenOptions())
-    os.utime(out / "a.py", (1, 1))
-    (out / "a.map.json").write_text("changed by hand")
-    result = build([tmp_path / "a.osc"], out, GivenOptions())
-    assert [(state, path.name) for state, path in result.changed] == [("stale", "a.map.json")]
-    assert (out / "a.py").stat().st_mtime == 1
-
-
-def test_check_only_writes_nothing(tmp_path: Path) -> None:
-    source = drive(tmp_path / "a.osc")
-    out = tmp_path / "out"
-    result = build([source], out, GivenOptions(), check_only=True)
-    assert [state for state, _ in result.changed] == ["missing", "missing"]
-    assert not out.exists()
-    build([source], out, GivenOptions())
-    assert build([source], out, GivenOptions(), check_only=True).changed == ()
-
-
-def test_one_broken_file_does_not_stop_the_others(tmp_path: Path) -> None:
-    drive(tmp_path / "in/good.osc")
-    write(tmp_path / "in/bad.osc", "scenario\n")
-    (tmp_path / "in/binary.osc").write_bytes(b"\0")
-    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
-    assert listing(tmp_path / "out") == ["good.map.json", "good.py"]
-    assert [c.sink.has_errors for c in result.compilations] == [True, True, False]
-
-
-def test_a_bug_that_one_file_shows_does_not_stop_the_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(module: ir.Module) -> None:
-        if module.source == "bad.osc":
-            raise InternalCompilerError("a tree without root")
-
-    monkeypatch.setattr(ir, "verify", fail)
-    drive(tmp_path / "in/bad.osc")
-    drive(tmp_path / "in/good.osc")
-    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
-    assert result.bugs == (f"{tmp_path / 'in/bad.osc'}: internal error: a tree without root",)
-    assert listing(tmp_path / "out") == ["good.map.json", "good.py"]
-
-
-def test_two_sources_of_one_output_write_neither(tmp_path: Path) -> None:
-    drive(tmp_path / "in/two-lanes.osc")
-    drive(tmp_path / "in/two_lanes.osc")
-    drive(tmp_path / "in/other.osc")
-    result = build([tmp_path / "in"], tmp_path / "out", GivenOptions())
-    (problem,) = result.collisions
-    assert "two-lanes.osc and " in problem
-    assert "make the same module; rename one of them" in problem
-    assert listing(tmp_path / "out") == ["other.map.json", "other.py"]
-
-
-def test_unwritable_output_is_a_problem(tmp_path: Path) -> None:
-    source = drive(tmp_path / "a.osc")
-    write(tmp_path / "out", "a file")
-    result = build([source], tmp_path / "out", GivenOptions())
-    assert len(result.failures) == 2
-    assert "cannot be written" in result.failures[0]
-
-
-def test_no_temporary_file_is_left_when_writing_fails(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", fail)
-    result = build([drive(tmp_path / "a.osc")], tmp_path / "out", GivenOptions())
-    assert len(result.failures) == 2
-    assert listing(tmp_path / "out") == []
-
-
-def test_settings_of_a_file_reach_the_module(tmp_path: Path) -> None:
-    drive(tmp_path / "in/a.osc")
-    write(tmp_path / "in/osc2tx.toml", '[scenarios.a]\nstd = "2.2"\none_of = "seeded"\n')
-    build([tmp_path / "in"], tmp_path / "out", GivenOptions(one_of="first"))
-    text = (tmp_path / "out/a.py").read_text()
-    assert "OpenSCENARIO DSL 2.2, dialect asam; `one_of` takes its first member." in text
-
-
-def test_the_folder_of_the_settings_may_be_imported_from(tmp_path: Path) -> None:
-    write(tmp_path / "osc2tx.toml", "")
-    write(tmp_path / "lib.osc", "enum paint: [red]\n")
-    source = drive(tmp_path / "sub/a.osc", head='import "../lib.osc"\n')
-    result = build([source], tmp_path / "out", GivenOptions())
-    assert result.compilations[0].diagnostics == ()
-
-
-def test_wrong_settings_stop_the_build(tmp_path: Path) -> None:
-    source = drive(tmp_path / "a.osc")
-    write(tmp_path / "osc2tx.toml", "x = 1\n")
-    with pytest.raises(ConfigError):
-        build([source], tmp_path / "out", GivenOptions())
-
-
-def test_same_bytes_wherever_the_source_is(tmp_path: Path) -> None:
-    for folder in ("one", "two/deeper"):
-        drive(tmp_path / folder / "in/a.osc")
-        build([tmp_path / folder / "in"], tmp_path / folder / "out", GivenOptions())
-    one, two = ((tmp_path / f / "out/a.py").read_bytes() for f in ("one", "two/deeper"))
-    assert one == two
 
 
 def test_resources() -> None:

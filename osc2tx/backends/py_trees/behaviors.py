@@ -6,6 +6,7 @@ stand inline, nested as they are in the source.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from typing import assert_never
 
@@ -23,6 +24,7 @@ from osc2tx.backends.py_trees.code import (
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.view import ArgumentView, CallView, MethodView, StatementView
+from osc2tx.ir.text import condensed, shorten
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
@@ -50,9 +52,12 @@ class BehaviorTreeBuilder:
         self._names = names
         self._source_map = source_map
         self._written: list[MethodView] = []
+        self._wanted: set[str] = set()
+        self._invoked: dict[int, str] = {}
 
     def write(self, scenario: ir.Scenario) -> tuple[MethodView, ...]:
         """Return `behavior` and the methods it calls, in source order."""
+        self._invoked = invocation_names(scenario.body)
         self._method(PyName("behavior"), scenario.body)
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
         return (first, *self._written[1:])
@@ -75,14 +80,19 @@ class BehaviorTreeBuilder:
             return self._node(node, depth=depth)
         if not node.is_phase and depth <= MAX_INLINE_DEPTH:
             return self._node(node, depth=depth)
-        name = self._names.add(f"method at {node.span.start}", method_name(node))
+        wanted = method_name(node)
+        suffix = "" if wanted in self._wanted else "_"  # else it is a field that has the name
+        self._wanted.add(wanted)
+        name = self._names.add(f"method at {node.span.start}", wanted, suffix)
         self._method(name, node)
         return ArgumentView(call=CallView(self_attribute(name)))
 
     def _node(self, node: ir.Behavior, *, depth: int) -> ArgumentView:
-        until = () if isinstance(node, ir.Wait | ir.Emit | ir.On) else node.until
+        until = (
+            () if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On) else node.until
+        )
         if until:
-            self._source_map.nodes.append((until[0].span.line, f"until, {node.name}"))
+            self._source_map.nodes.append((until[0].span.line, until_name(until)))
         self._source_map.nodes.append((node.span.line, node.name))
         call = self._call(node, depth=depth)
         if until:
@@ -106,6 +116,13 @@ class BehaviorTreeBuilder:
                 target = code(self._calls.expressions.field(event.name))
                 keywords = self._calls.keywords(node.arguments)
                 return self._calls.runtime_call("Emit", target, *keywords)
+            case ir.Finish(succeeds=succeeds):
+                label = self._label(node.label)
+                return self._calls.runtime_call("End" if succeeds else "Fail", *label)
+            case ir.Call(call=expression):
+                writer = self._calls.expressions
+                function = code(writer.late(writer.write(expression)))
+                return self._calls.runtime_call("Call", function, *self._label(node.label))
             case ir.On(trigger=trigger, reactions=reactions):
                 written = tuple(self._node(reaction, depth=depth + 1) for reaction in reactions)
                 occurrence = self._calls.occurrence(trigger)
@@ -144,6 +161,7 @@ class BehaviorTreeBuilder:
         return CallView(action, arguments)
 
     def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
+        self._source_map.invocations.append(self._invoked[node.span.start])
         arguments = [code(name_expression(self._classes[node.key]))]
         if node.actor is not None:
             arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
@@ -161,6 +179,24 @@ def _override(override: ir.Override) -> StatementView:
     mode = () if override.mode == "on_start" else (code(literal(override.mode), "mode"),)
     call = CallView(self_attribute(PyName("override")), (*labels, *mode))
     return StatementView(None, ArgumentView(call=call))
+
+
+def until_name(triggers: tuple[ir.Trigger, ...]) -> str:
+    """Return `until rise(npc.speed > limit)`: what ends a member, not what it is."""
+    return shorten(f"until {' or '.join(condensed(t.span.text) for t in triggers)}")
+
+
+def invocation_names(body: ir.Behavior) -> dict[int, str]:
+    """Name the invocations of scenarios, by place: label, else scenario, numbered down the text."""
+    nodes = [node for node in ir.walk_behaviors(body) if isinstance(node, ir.InvokeScenario)]
+    names = {node.span.start: node.label for node in nodes if node.label is not None}
+    for node in sorted(nodes, key=lambda node: node.span.start):
+        if node.label is None:
+            short = node.scenario.rpartition(".")[2]
+            taken = set(names.values())
+            numbered = (short if n == 1 else f"{short}_{n}" for n in itertools.count(1))
+            names[node.span.start] = next(name for name in numbered if name not in taken)
+    return names
 
 
 def method_name(node: ir.Composition) -> str:

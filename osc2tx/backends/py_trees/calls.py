@@ -59,7 +59,7 @@ class CallWriter:
             self._modifier_argument(argument, is_first=index == 0)
             for index, argument in enumerate(call.arguments)
         )
-        if call.at == "end":
+        if call.at != "all":
             arguments += (code(literal(call.at), "at"),)
         function = name_expression(self._use_modifier(identifier(call.name)))
         return ArgumentView(call=CallView(function, arguments), comments=comments(call.comments))
@@ -89,6 +89,10 @@ class CallWriter:
             lower = self.expressions.write(value.lower)
             upper = self.expressions.write(value.upper)
             return (code(PyExpr(f"({lower}, {upper})", Level.ATOM), keyword),)
+        if isinstance(value, ir.HalfRange):
+            bound = self.expressions.write(value.bound)
+            pair = f"{bound}, {self.use_name('inf')}" if value.is_lower else f"0.0, {bound}"
+            return (code(PyExpr(f"({pair})", Level.ATOM), keyword),)
         return (code(self.expressions.write(value), keyword),)
 
     def triggers(self, triggers: tuple[ir.Trigger, ...]) -> tuple[ArgumentView, ...]:

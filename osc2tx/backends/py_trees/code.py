@@ -9,7 +9,8 @@ from __future__ import annotations
 import keyword
 import math
 import unicodedata
-from dataclasses import dataclass
+
+from osc2tx.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,16 +10,19 @@ from osc2tx.backends.py_trees.code import PyDocLine, PyName
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
+from osc2tx.backends.py_trees.own_types import class_key, write_types
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, API_LEVEL, STRUCT_CLASSES
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
+from osc2tx.portable import is_portable
 
 # Names a module may import; a scenario class must not hide them.
 RUNTIME_CLASSES = frozenset(
     {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()}
-    | {"Behaviour", "Emit", "Event", "OneOf", "Parallel", "Scenario", "Serial", "Until", "Wait"}
+    | {"Behaviour", "Call", "Emit", "End", "Event", "Fail", "On", "OneOf", "Parallel", "Range"}
+    | {"Any", "Scenario", "Serial", "Unit", "Until", "Wait"}
 )
 
 ONE_OF_POLICIES = {
@@ -51,6 +54,9 @@ def emit(module: ir.Module) -> GeneratedModule:
     for scenario in module.scenarios:
         plain = scenario.name.rpartition(".")[2]
         classes.add(scenario.key, class_name(plain), "Scenario")
+    for own in module.types:
+        classes.add(class_key(own.name), class_name(own.name), "Type")
+    types = write_types(module.types, classes, uses)
     writers = [ScenarioWriter(s, module.one_of, classes, uses) for s in module.scenarios]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
@@ -61,6 +67,8 @@ def emit(module: ir.Module) -> GeneratedModule:
         scenarios=scenarios,
         mains=tuple(classes[scenario.key] for scenario in own_scenarios(module)),
         shown=classes[shown_scenario(module).key],
+        standard_imports=uses.standard_imports(),
+        types=types,
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
@@ -69,7 +77,8 @@ def emit(module: ir.Module) -> GeneratedModule:
 
 def module_stem(source: str) -> str:
     """Return the module name for a source file: importable, as close to its name as can be."""
-    return PyName(identifier(PurePosixPath(source).stem)).text
+    stem = identifier(PurePosixPath(source).stem)
+    return PyName(stem if is_portable(stem) else f"{stem}_").text
 
 
 def own_scenarios(module: ir.Module) -> list[ir.Scenario]:

@@ -16,11 +16,31 @@ from osc2tx.backends.py_trees.code import (
     self_attribute,
 )
 from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 
 COMPARISONS = {"==": "==", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 ARITHMETIC = {"+": Level.SUM, "-": Level.SUM, "*": Level.TERM, "/": Level.TERM, "%": Level.TERM}
 INVERSES = {"==": "!=", "!=": "=="}
 LOGICAL = {"and": Level.AND, "or": Level.OR}
+
+
+# Methods of strings and ranges: how they are written, the object and the arguments in their places.
+PLAIN_METHODS = {
+    ("string", "length"): ("len({object})", Level.ATOM),
+    ("string", "contains"): ("{first} in {object}", Level.COMPARISON),
+    ("string", "substring"): ("{object}[{first}:{second}]", Level.ATOM),
+    ("string", "split"): ("{object}.split({first})", Level.ATOM),
+    ("string", "join"): ("{object}.join({first})", Level.ATOM),
+    ("string", "replace"): ("{object}.replace({first}, {second})", Level.ATOM),
+    ("string", "trim"): ("{object}.strip()", Level.ATOM),
+    ("range", "lower"): ("{object}.low", Level.ATOM),
+    ("range", "upper"): ("{object}.high", Level.ATOM),
+}
+
+
+def element_name(depth: int) -> PyName:
+    """Name the element that an operator of a list looks at."""
+    return PyName("it" if depth == 0 else f"it_{depth + 1}")
 
 
 class ExpressionWriter:
@@ -30,6 +50,7 @@ class ExpressionWriter:
         fields: Python names of the scenario's fields.
         use_unit: Told of each unit that is written; returns the name it goes by.
         use_name: Told of each name that must be imported from the runtime library.
+        class_of: Gives the class of an actor type.
         methods: The scenario's methods; their parameters must not hide what their bodies use.
     """
 
@@ -38,20 +59,27 @@ class ExpressionWriter:
         fields: NameTable,
         use_unit: Callable[[ir.Unit], PyName],
         use_name: Callable[[str], PyName],
+        class_of: Callable[[str], PyName] | None = None,
         methods: tuple[ir.Method, ...] = (),
     ) -> None:
         """See the class."""
-        parts = (part for method in methods for part in ir.walk(method.expression))
+        bodies = (method.expression for method in methods)
+        parts = (part for body in bodies if body is not None for part in ir.walk(body))
         units = (part.unit.name for part in parts if isinstance(part, ir.Quantity))
         self._hidden = {"self", "within", *map(identifier, units)}
         self._fields = fields
         self._use_unit = use_unit
         self._use_name = use_name
+        self._class_of = class_of or (lambda type_: use_name(ACTOR_CLASSES[type_]))
 
     def value(self, expression: ir.Expression) -> PyExpr:
         """Write an argument: late, as a lambda, if it depends on the state of the world."""
         written = self.write(expression)
         return self.late(written) if ir.is_live(expression) else written
+
+    def unit(self, unit: ir.Unit) -> PyName:
+        """Use a unit; return its name."""
+        return self._use_unit(unit)
 
     def field(self, name: str) -> PyExpr:
         """Write a field of the scenario."""
@@ -94,11 +122,43 @@ class ExpressionWriter:
             case ir.Conditional():
                 return self._conditional(expression)
             case ir.ListValue(elements=elements):
-                inner = ", ".join(self.write(e).within(Level.CONDITIONAL) for e in elements)
+                inner = ", ".join(
+                    (
+                        f"*{self._atom(e)}"
+                        if e.type.kind is ir.Kind.LIST
+                        else self.write(e).within(Level.CONDITIONAL)
+                    )
+                    for e in elements
+                )
                 return PyExpr(f"[{inner}]", Level.ATOM)
             case ir.RangeValue(lower=lower, upper=upper):
                 bounds = f"{self.write(lower)}, {self.write(upper)}"
                 return PyExpr(f"{self._use_name('within')}({bounds})", Level.ATOM)
+            case ir.Element(depth=depth):
+                return name_expression(element_name(depth))
+            case ir.ListOperation():
+                return self._list_operation(expression)
+            case ir.Index(base=base, index=index):
+                return PyExpr(f"{self._atom(base)}[{self.write(index)}]", Level.ATOM)
+            case ir.Conversion(operand=operand):
+                function = "int" if expression.type.kind is ir.Kind.INTEGER else "float"
+                return PyExpr(f"{function}({self.write(operand)})", Level.ATOM)
+            case ir.Lookup(operand=operand, table=table):
+                entries = ", ".join(f"{literal(key)}: {literal(value)}" for key, value in table)
+                return PyExpr(f"{{{entries}}}[{self.write(operand)}]", Level.ATOM)
+            case ir.TypeTest(operand=operand, tested=tested):
+                class_ = self._class_of(tested)
+                return PyExpr(f"isinstance({self.write(operand)}, {class_})", Level.ATOM)
+            case ir.Downcast(operand=operand, type=type_):
+                class_ = self._class_of(type_.name)
+                as_type = self._use_name("as_type")
+                return PyExpr(f"{as_type}({self.write(operand)}, {class_})", Level.ATOM)
+            case ir.HalfRange(bound=bound, is_lower=is_lower):
+                half = self._use_name("at_least" if is_lower else "at_most")
+                return PyExpr(f"{half}({self.write(bound)})", Level.ATOM)
+            case ir.Choices(elements=elements):
+                inner = ", ".join(self.write(e).within(Level.CONDITIONAL) for e in elements)
+                return PyExpr(f"{self._use_name('any_of')}({inner})", Level.ATOM)
             case _:
                 assert_never(expression)
 
@@ -114,9 +174,44 @@ class ExpressionWriter:
 
     def _method_call(self, call: ir.MethodCall) -> PyExpr:
         own = isinstance(call.base, ir.ScenarioSelf)
+        if (call.owner, call.method) in PLAIN_METHODS:
+            return self._plain_method(call)
         arguments = ", ".join(self._argument(argument, own) for argument in call.arguments)
         method = self._fields[call.method] if own else PyName(identifier(call.method))
         return PyExpr(f"{self._atom(call.base)}.{method}({arguments})", Level.ATOM)
+
+    def _plain_method(self, call: ir.MethodCall) -> PyExpr:
+        """Write a method of a string or range (2.2)."""
+        form, level = PLAIN_METHODS[call.owner, call.method]
+        first, second, *_ = [
+            *(self.write(a.value).within(Level.SUM) for a in call.arguments),
+            "",
+            "",
+        ]
+        text = form.format(object=self._atom(call.base), first=first, second=second)
+        return PyExpr(text, level)
+
+    def _list_operation(self, node: ir.ListOperation) -> PyExpr:
+        """Write an operator of a list as a comprehension (§7.4.2.7)."""
+        name = element_name(node.depth)
+        values = self.write(node.base).within(Level.OR)
+        if node.argument is None:
+            return PyExpr(f"len({self.write(node.base)})", Level.ATOM)
+        argument = self.write(node.argument)
+        inner, test = argument.within(Level.CONDITIONAL), argument.within(Level.OR)
+        match node.operator:
+            case ir.ListOperator.FILTER:
+                text = f"[{name} for {name} in {values} if {test}]"
+            case ir.ListOperator.MAP:
+                text = f"[{inner} for {name} in {values}]"
+            case ir.ListOperator.HAS:
+                text = f"any({inner} for {name} in {values})"
+            case ir.ListOperator.COUNT:
+                text = f"sum({inner} for {name} in {values})"
+            case _:  # the first index
+                found = f"index for index, {name} in enumerate({values}) if {test}"
+                text = f"next(({found}), -1)"
+        return PyExpr(text, Level.ATOM)
 
     def _argument(self, argument: ir.Argument, own: bool) -> str:
         value = self.write(argument.value).within(Level.CONDITIONAL)
@@ -130,13 +225,9 @@ class ExpressionWriter:
             inner = unary.operand
             if not inner.unit.offset:  # `-1 * m` reads better than `-(1 * m)`
                 return self._quantity(replace(inner, value=-inner.value))
-        if unary.operator == "not" and isinstance(unary.operand, ir.Binary):
-            inverse = INVERSES.get(unary.operand.operator)
-            if inverse is not None:
-                return self._binary(replace(unary.operand, operator=inverse))
         operand = self.write(unary.operand)
         if unary.operator == "not":
-            return PyExpr(f"not {operand.within(Level.NOT)}", Level.NOT)
+            return self._negated(unary.operand, operand)
         return PyExpr(f"-{operand.within(Level.UNARY)}", Level.UNARY)
 
     def _binary(self, binary: ir.Binary) -> PyExpr:
@@ -153,6 +244,9 @@ class ExpressionWriter:
         operator = node.operator
         if operator == "in" and isinstance(node.right, ir.RangeValue):
             return self._in_range(left, node.right)
+        if operator == "in" and node.left.type.kind is ir.Kind.LIST:
+            every = f"all(it in {self.write(node.right).within(Level.SUM)} for it in {left})"
+            return PyExpr(every, Level.ATOM)
         right = self.write(node.right)
         if operator in COMPARISONS or operator == "in":
             # Python would read a chain `a < b < c` differently: both sides bind tighter.
@@ -166,7 +260,14 @@ class ExpressionWriter:
             level = LOGICAL[operator]
             return PyExpr(f"{left.within(level)} {operator} {right.within(level + 1)}", level)
         # a => b; a chain of them stays flat, for `or` is associative
-        return PyExpr(f"not {left.within(Level.NOT)} or {right.within(Level.OR)}", Level.OR)
+        negated = self._negated(node.left, left)
+        return PyExpr(f"{negated.within(Level.OR)} or {right.within(Level.OR)}", Level.OR)
+
+    def _negated(self, operand: ir.Expression, written: PyExpr) -> PyExpr:
+        inverse = INVERSES.get(operand.operator) if isinstance(operand, ir.Binary) else None
+        if inverse is not None and isinstance(operand, ir.Binary):
+            return self._binary(replace(operand, operator=inverse))
+        return PyExpr(f"not {written.within(Level.NOT)}", Level.NOT)
 
     def _in_range(self, left: PyExpr, bounds: ir.RangeValue) -> PyExpr:
         lower, upper = self.write(bounds.lower), self.write(bounds.upper)

@@ -12,19 +12,24 @@ from osc2tx.backends.py_trees.code import PyName
 SCENARIO_ATTRIBUTES = frozenset(
     {
         "actors",
+        "argument",
         "arguments",
         "behavior",
+        "cover",
         "create_tree",
         "declare",
         "ended",
         "event",
         "events",
+        "external",
         "failed",
         "global_parameter",
         "invoke",
         "invoked",
+        "keep",
         "label_events",
         "map_file",
+        "map_objects",
         "name",
         "one_of",
         "override",
@@ -33,6 +38,11 @@ SCENARIO_ATTRIBUTES = frozenset(
         "place",
         "placement",
         "placements",
+        "record",
+        "require",
+        "required",
+        "required_argument",
+        "required_global",
         "sample",
         "settings",
         "source",
@@ -72,7 +82,7 @@ class NameTable:
         self._names: dict[str, PyName] = {}
 
     def add(self, key: str, wanted: str, fallback_suffix: str = "_") -> PyName:
-        """Reserve a name for `key`, as close to `wanted` as is free."""
+        """Reserve a name for `key`, as close to `wanted` as is free: with suffix or number."""
         candidate = wanted
         if candidate in self._taken:
             candidate = f"{wanted}{fallback_suffix}"
@@ -87,3 +97,7 @@ class NameTable:
     def __getitem__(self, key: str) -> PyName:
         """Return the name reserved for `key`."""
         return self._names[key]
+
+    def __contains__(self, key: str) -> bool:
+        """Tell whether a name is reserved for `key`."""
+        return key in self._names

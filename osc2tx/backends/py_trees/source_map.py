@@ -23,15 +23,19 @@ class ScenarioMap:
         file: Source file.
         line: Line of the scenario's declaration.
         fields: Line of each declaration, by Python name.
+        constraints: Line and text of each constraint, in order.
         placements: Line of each placement, in order.
         nodes: Line and readable name of each node of the tree, in pre-order.
+        invocations: Names of the invoked scenarios, in the same order.
     """
 
     file: str
     line: int
     fields: dict[str, int] = field(default_factory=dict)
+    constraints: list[tuple[int, str]] = field(default_factory=list)
     placements: list[int] = field(default_factory=list)
     nodes: list[tuple[int, str]] = field(default_factory=list)
+    invocations: list[str] = field(default_factory=list)
 
 
 def scenario_map(scenario: ir.Scenario) -> ScenarioMap:
@@ -48,11 +52,17 @@ def render_source_map(maps: dict[str, ScenarioMap]) -> str:
 def _scenario(entry: ScenarioMap) -> str:
     fields = _lines(f"{_string(name)}: {line}" for name, line in entry.fields.items())
     nodes = _lines(f"[{line}, {_string(name)}]" for line, name in entry.nodes)
+    constraints = _lines(f"[{line}, {_string(text)}]" for line, text in entry.constraints)
+    kept = f'    "constraints": [{constraints}],\n' if constraints else ""
     placements = ", ".join(map(str, entry.placements))
+    names = ", ".join(map(_string, entry.invocations))
+    invocations = f'    "invocations": [{names}],\n' if names else ""
     return (
         f'{{"file": {_string(entry.file)}, "line": {entry.line},\n'
         f'    "fields": {{{fields}}},\n'
+        f"{kept}"
         f'    "placements": [{placements}],\n'
+        f"{invocations}"
         f'    "nodes": [{nodes}]}}'
     )
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 from osc2tx import ir
+from osc2tx.backends.py_trees.call_support import CallCheck
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
+    NESTED_OBJECTS,
     STRUCT_CLASSES,
     constructor_keyword,
     runtime_support,
@@ -22,36 +23,51 @@ MAX_PARTS = 1000
 # Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
 INVOKE_KEYWORDS = frozenset({"caller", "label", "settings"})
 
-# Modifiers that say nothing without at least one of these parameters.
-NEEDS_ONE_OF = {
-    "acceleration": frozenset({"acceleration"}),
-    "change_speed": frozenset({"speed"}),
-    "position": frozenset({"distance", "time", "at_point", "x"}),
-    "speed": frozenset({"speed", "faster_than", "slower_than", "same_as"}),
-    "yaw": frozenset({"angle"}),
-}
-
 
 def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
     """Report every part of a module that the runtime does not know."""
+    own = {each.name: each for each in module.types}
+    for each in module.types:
+        if each.is_actor:
+            check_fields(each, sink)
     for scenario in module.scenarios:
-        _SupportCheck(scenario, sink).run()
+        _SupportCheck(scenario, own, sink).run()
+
+
+def check_fields(own: ir.OwnType, sink: DiagnosticSink) -> None:
+    """Report fields of an own actor that would hide what the runtime keeps there."""
+    for field in own.fields:
+        if identifier(field.name) in runtime_support().reserved | {"fields", "self"}:
+            sink.report(
+                "OSC501",
+                field.span,
+                f"the runtime has something else by the name `{field.name}`; rename the field",
+            )
 
 
 class _SupportCheck:
-    def __init__(self, scenario: ir.Scenario, sink: DiagnosticSink) -> None:
+    def __init__(
+        self, scenario: ir.Scenario, own: dict[str, ir.OwnType], sink: DiagnosticSink
+    ) -> None:
         self.scenario = scenario
+        self.own_fields = {(t.name, f.name) for t in own.values() for f in t.fields}
+        self.own = own
         self.sink = sink
         self.runtime = runtime_support()
+        self.calls = CallCheck(self.runtime, sink, self.expressions)
 
     def run(self) -> None:
         for declaration in self.scenario.declarations:
             self.declaration(declaration)
         for method in self.scenario.methods:
             self.method(method)
+        for item in self.scenario.coverage:
+            parts = (item.expression, item.ignore, item.illegal)
+            self.expressions(part for part in parts if part is not None)
+        self.expressions(constraint.expression for constraint in self.scenario.constraints)
         for placement in self.scenario.placements:
             for modifier in placement.modifiers:
-                self.placing(modifier)
+                self.calls.placing(modifier)
         for node in ir.walk_behaviors(self.scenario.body):
             self.behavior(node)
 
@@ -60,8 +76,8 @@ class _SupportCheck:
             case ir.Actor(lineage=lineage):
                 kind = next((name for name in lineage if name in ACTOR_CLASSES), None)
                 self.object(declaration, kind)
-            case ir.Struct(type=type_):
-                self.object(declaration, type_ if type_ in STRUCT_CLASSES else None)
+            case ir.Struct(lineage=lineage):
+                self.object(declaration, next((n for n in lineage if n in STRUCT_CLASSES), None))
             case ir.Parameter(value=value, domain=domain):
                 self.expressions(part for part in (value, domain) if part is not None)
             case ir.Variable(value=value, sample=sample):
@@ -74,24 +90,43 @@ class _SupportCheck:
                 if trigger is not None:
                     self.trigger(trigger)
 
+    def is_known(self, type_: ir.ValueType) -> bool:
+        """Whether values of a type can be handed to a method."""
+        if type_.element is not None:
+            return self.is_known(type_.element)
+        known = (ANNOTATIONS, ACTOR_CLASSES, STRUCT_CLASSES, self.own)
+        return type_.kind.value in ANNOTATIONS or any(type_.name in names for names in known)
+
     def method(self, method: ir.Method) -> None:
         for type_ in (method.result, *(parameter.type for parameter in method.parameters)):
-            if type_.kind.value not in ANNOTATIONS and type_.name not in ACTOR_CLASSES:
+            if type_ is not None and not self.is_known(type_):
                 self.sink.report(
                     "OSC501", method.span, f"a method over `{type_}` is not supported yet"
                 )
-        self.expressions((method.expression,))
+        if method.expression is not None:
+            self.expressions((method.expression,))
 
     def object(self, declaration: ir.Actor | ir.Struct, kind: str | None) -> None:
-        if kind is None or kind not in self.runtime.objects:
+        bases = [name for name in declaration.lineage if name not in self.own]
+        is_own = isinstance(declaration, ir.Struct) and not bases
+        if not is_own and (kind is None or kind not in self.runtime.objects):
             self.sink.report(
                 "OSC501",
                 declaration.span,
                 f"the runtime has no objects of type `{declaration.type}`",
             )
             return
+        if isinstance(declaration, ir.Struct):
+            if declaration.value is not None:
+                self.expressions((declaration.value,))
+                return
+            if kind is not None:
+                self.needed(declaration, kind)
         for value in declaration.values:
-            if constructor_keyword(value.path) not in self.runtime.objects[kind]:
+            own = len(value.path) == 1 and any(
+                (name, value.path[0]) in self.own_fields for name in declaration.lineage
+            )
+            if not own and (kind is None or not self.can_fix(kind, value.path)):
                 self.sink.report(
                     "OSC502",
                     value.span,
@@ -99,21 +134,30 @@ class _SupportCheck:
                 )
             self.expressions((value.value,))
 
-    def placing(self, modifier: ir.ModifierCall) -> None:
-        if modifier.name not in self.runtime.placement:
+    def can_fix(self, kind: str, path: tuple[str, ...]) -> bool:
+        """Whether a constructor takes a member."""
+        inner = NESTED_OBJECTS.get((kind, path[0]))
+        if inner is not None and len(path) > 1:
+            return self.can_fix(inner, path[1:])
+        return constructor_keyword(path) in self.runtime.objects[kind]
+
+    def needed(self, declaration: ir.Struct, kind: str) -> None:
+        """Report members that a value cannot do without."""
+        given = {constructor_keyword(value.path) for value in declaration.values}
+        given |= {value.path[0] for value in declaration.values}
+        missing = ", ".join(f"`{name}`" for name in sorted(self.runtime.needed[kind] - given))
+        if missing:
             self.sink.report(
-                "OSC508", modifier.span, f"modifier `{modifier.name}` cannot place an actor"
+                "OSC501",
+                declaration.span,
+                f"`{declaration.name}` does not say its {missing}",
+                help="give it a whole value, or `keep(it.member == value)` for each member",
             )
-            return
-        self.arguments(
-            modifier.arguments, self.runtime.placement[modifier.name], f"modifier `{modifier.name}`"
-        )
-        self.content(modifier)
 
     def behavior(self, node: ir.Behavior) -> None:
         match node:
             case ir.Invoke():
-                self.invocation(node)
+                self.calls.invocation(node)
                 self.limits(node.duration, node.until)
             case ir.InvokeScenario():
                 self.free_names(node)
@@ -123,6 +167,8 @@ class _SupportCheck:
                 self.trigger(trigger)
             case ir.Emit(arguments=arguments):
                 self.expressions(argument.value for argument in arguments)
+            case ir.Call(call=call):
+                self.expressions((call,))
             case ir.On(trigger=trigger, reactions=reactions):
                 self.trigger(trigger)
                 for reaction in reactions:
@@ -147,8 +193,15 @@ class _SupportCheck:
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
         if duration is not None:
             self.time(duration)
+            self.at_least_zero(duration)
         for trigger in until:
             self.trigger(trigger)
+
+    def at_least_zero(self, duration: ir.Expression) -> None:
+        for value in ir.children(duration) if isinstance(duration, ir.RangeValue) else (duration,):
+            seconds = ir.constant(value)
+            if seconds is not None and seconds < 0.0:
+                self.sink.report("OSC513", value.span, "a duration cannot be negative")
 
     def time(self, value: ir.Expression) -> None:
         """Check a time that the tree is built with."""
@@ -157,89 +210,6 @@ class _SupportCheck:
                 "OSC503", value.span, "a time limit cannot depend on the state of the world yet"
             )
         self.expressions((value,))
-
-    def invocation(self, node: ir.Invoke) -> None:
-        key = f"{node.owner}.{node.action}"
-        support = self.runtime.actions.get(key)
-        if support is None:
-            near = get_close_matches(key, self.runtime.actions, 1)
-            help_ = f"the runtime has `{near[0]}`" if near else None
-            self.sink.report(
-                "OSC507", node.span, f"the runtime has no action `{key}` yet", help=help_
-            )
-            return
-        self.expressions((node.actor,))
-        self.arguments(node.arguments, support.arguments, f"action `{key}`")
-        self.required(node, key, support.required)
-        self.exclusive(node)
-        for index, modifier in enumerate(node.modifiers):
-            self.modifier(modifier, key, support.modifiers)
-            earlier = (m for m in node.modifiers[:index] if m.name == modifier.name)
-            if any(other.at == modifier.at for other in earlier):
-                self.sink.report(
-                    "OSC508", modifier.span, f"modifier `{modifier.name}` stands here twice"
-                )
-
-    def exclusive(self, node: ir.Invoke) -> None:
-        """Report modifiers that speak of the same thing."""
-        for group in self.runtime.exclusive:
-            found = [modifier for modifier in node.modifiers if modifier.name in group]
-            for other in found[1:]:
-                if other.name != found[0].name:
-                    self.sink.report(
-                        "OSC508",
-                        other.span,
-                        f"`{found[0].name}` and `{other.name}` speak of the same thing",
-                        help="give one of them",
-                    )
-
-    def required(self, node: ir.Invoke, action: str, needed: frozenset[str]) -> None:
-        given = {identifier(argument.parameter) for argument in node.arguments}
-        missing = sorted(needed - given)
-        if missing:
-            names = ", ".join(f"`{name}`" for name in missing)
-            self.sink.report(
-                "OSC509", node.span, f"action `{action}` cannot do without {names} yet"
-            )
-
-    def modifier(self, modifier: ir.ModifierCall, action: str, accepted: frozenset[str]) -> None:
-        if modifier.name not in accepted:
-            self.sink.report(
-                "OSC508",
-                modifier.span,
-                f"action `{action}` cannot honour modifier `{modifier.name}` yet",
-            )
-            return
-        known = self.runtime.modifiers[modifier.name]
-        if modifier.at == "end" and "at" not in known:
-            self.sink.report(
-                "OSC509",
-                modifier.span,
-                f"modifier `{modifier.name}` cannot be asked for `at: end` yet",
-            )
-        self.arguments(modifier.arguments, known, f"modifier `{modifier.name}`")
-        self.content(modifier)
-
-    def content(self, modifier: ir.ModifierCall) -> None:
-        needed = NEEDS_ONE_OF.get(modifier.name, frozenset())
-        given = {argument.parameter for argument in modifier.arguments}
-        if needed and not needed & given:
-            names = " or ".join(f"`{name}`" for name in sorted(needed))
-            self.sink.report(
-                "OSC509", modifier.span, f"modifier `{modifier.name}` cannot do without {names} yet"
-            )
-
-    def arguments(
-        self, arguments: tuple[ir.Argument, ...], known: frozenset[str], what: str
-    ) -> None:
-        for argument in arguments:
-            if identifier(argument.parameter) not in known:
-                self.sink.report(
-                    "OSC509",
-                    argument.span,
-                    f"argument `{argument.parameter}` of {what} is not supported yet",
-                )
-            self.expressions((argument.value,))
 
     def trigger(self, trigger: ir.Trigger) -> None:
         if trigger.event is not None and not isinstance(trigger.condition, ir.Level | None):
@@ -250,12 +220,19 @@ class _SupportCheck:
             )
         match trigger.condition:
             case ir.Elapsed() | ir.Every():
+                self.period(trigger.condition)
                 for value in ir.condition_expressions(trigger.condition):
                     self.time(value)
             case ir.Level() | ir.Edge():
                 self.expressions(ir.condition_expressions(trigger.condition))
             case None:
                 pass
+
+    def period(self, condition: ir.Elapsed | ir.Every) -> None:
+        if isinstance(condition, ir.Every):
+            seconds = ir.constant(condition.period)
+            if seconds is not None and seconds <= 0.0:
+                self.sink.report("OSC513", condition.period.span, "a period must be above zero")
 
     def expressions(self, expressions: Iterable[ir.Expression]) -> None:
         for expression in expressions:
@@ -273,10 +250,22 @@ class _SupportCheck:
     def expression(self, part: ir.Expression) -> None:
         match part:
             case ir.Attribute(base=base, owner=owner, name=name):
-                if not self.is_readable(part) and self.is_readable(base):
+                if owner in self.own and not self.is_readable(part):
+                    self.sink.report(
+                        "OSC503",
+                        part.span,
+                        f"`{name}` of `{owner}` has no value",
+                        help="give it a default, or `keep(it.member == value)`",
+                    )
+                elif not self.is_readable(part) and self.is_readable(base):
                     self.unreadable(part.span, f"member `{name}` of `{owner}`")
             case ir.MethodCall(base=ir.ScenarioSelf()):
                 pass  # checked where it is declared
+            case ir.MethodCall(owner="string" | "range"):
+                pass  # Python has them
+            case ir.TypeTest(tested=name) | ir.Downcast(type=ir.ValueType(name=name)):
+                if name not in ACTOR_CLASSES and name not in self.own:
+                    self.unreadable(part.span, f"a test for actor type `{name}`")
             case ir.MethodCall(owner=owner, method=method, arguments=arguments):
                 key = f"{owner}.{method}"
                 if key not in self.runtime.methods:
@@ -284,7 +273,7 @@ class _SupportCheck:
                 else:
                     known = self.runtime.methods[key]
                     for argument in arguments:
-                        if argument.parameter not in known:
+                        if identifier(argument.parameter) not in known:
                             self.unreadable(
                                 argument.span, f"argument `{argument.parameter}` of `{key}`"
                             )
@@ -293,6 +282,8 @@ class _SupportCheck:
 
     def is_readable(self, part: ir.Expression) -> bool:
         if not isinstance(part, ir.Attribute):
+            return True
+        if (part.owner, part.name) in self.own_fields:
             return True
         return part.owner in STRUCT_CLASSES or f"{part.owner}.{part.name}" in self.runtime.fields
 

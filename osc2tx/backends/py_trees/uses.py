@@ -17,6 +17,7 @@ class Uses:
         """Start with what every module needs."""
         self._names = {"Behaviour", "Scenario", "main", "require_api"}
         self._modifiers: set[str] = set()
+        self._standard: dict[str, set[str]] = {}
         self._standard_units: set[str] = set()
         self._own_units: dict[str, ir.Unit] = {}
 
@@ -24,6 +25,10 @@ class Uses:
         """Use a public name of the runtime library."""
         self._names.add(name)
         return PyName(name)
+
+    def standard(self, module: str, name: str) -> None:
+        """Use a name of Python's standard library."""
+        self._standard.setdefault(module, set()).add(name)
 
     def modifier(self, name: str) -> PyName:
         """Use a modifier function."""
@@ -38,6 +43,13 @@ class Uses:
         else:
             self._own_units[name.text] = unit
         return name
+
+    def standard_imports(self) -> tuple[ImportView, ...]:
+        """Return the import lines for Python's standard library."""
+        return tuple(
+            ImportView(module, tuple(PyName(name) for name in sorted(names, key=_isort_key)))
+            for module, names in sorted(self._standard.items())
+        )
 
     def imports(self) -> tuple[ImportView, ...]:
         """Return the import lines, sorted as isort sorts them."""

@@ -42,7 +42,7 @@ class FunctionParameterView:
     """A parameter of a function: name, type and default."""
 
     name: PyName
-    annotation: PyName
+    annotation: PyExpr
     default: PyExpr | None = None
 
 
@@ -52,7 +52,7 @@ class FunctionView:
 
     name: PyName
     parameters: tuple[FunctionParameterView, ...]
-    result: PyName
+    result: PyExpr
     value: PyExpr
     location: PyComment
     comments: tuple[PyComment, ...] = ()
@@ -86,6 +86,37 @@ class UnitView:
 
 
 @dataclass(frozen=True, slots=True)
+class FieldView:
+    """A field of a class."""
+
+    name: PyName
+    annotation: PyName
+    default: PyExpr | None = None
+    comments: tuple[PyComment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class TypeView:
+    """A class for an actor or struct of the scenario's own files.
+
+    Attributes:
+        class_name: Its name.
+        base: What it inherits from.
+        kind: Its name in the source.
+        is_actor: An actor takes its fields by its constructor, a struct is a dataclass.
+        docstring: Lines of its docstring.
+        fields: Its own fields.
+    """
+
+    class_name: PyName
+    base: PyName | None
+    kind: PyExpr
+    is_actor: bool
+    docstring: tuple[PyDocLine, ...]
+    fields: tuple[FieldView, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ScenarioView:
     """A scenario class."""
 
@@ -108,6 +139,8 @@ class ModuleView:
         imports: What it takes from the runtime.
         api_level: Level of the runtime it is made for.
         units: Units it defines.
+        standard_imports: What it takes from Python's standard library.
+        types: Classes for the types of its objects.
         scenarios: Its classes.
         mains: The classes that it can run as a script.
         shown: The class whose tree viewers get.
@@ -120,3 +153,5 @@ class ModuleView:
     scenarios: tuple[ScenarioView, ...]
     mains: tuple[PyName, ...]
     shown: PyName
+    standard_imports: tuple[ImportView, ...] = ()
+    types: tuple[TypeView, ...] = ()

@@ -18,7 +18,14 @@ def render_github(report: Report) -> str:
         f"::notice {_properties({'file': file})}::{_data(f'{count} more not shown')}"
         for file, count in report.hidden.items()
     ]
+    if report.failure is not None:
+        commands.append(f"::error {_properties({'title': 'osc2tx'})}::{_data(report.failure)}")
     return "".join(f"{command}\n" for command in commands)
+
+
+def render_remark(file: str, title: str, message: str) -> str:
+    """Return the command for an error that concerns a file as a whole."""
+    return f"::error {_properties({'file': file, 'title': title})}::{_data(message)}\n"
 
 
 def _command(diagnostic: Diagnostic, report: Report) -> str:

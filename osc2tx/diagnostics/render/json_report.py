@@ -25,7 +25,7 @@ def render_json(report: Report, *, version: str) -> str:
         report: What to render.
         version: The version of osc2tx.
     """
-    document = {
+    document: dict[str, Any] = {
         "version": SCHEMA_VERSION,
         "tool": {"name": "osc2tx", "version": version},
         "diagnostics": [_diagnostic(item, report.folder) for item in report.diagnostics],
@@ -46,6 +46,8 @@ def render_json(report: Report, *, version: str) -> str:
             "suppressed": report.suppressed,
         },
     }
+    if report.failure is not None:
+        document["failure"] = report.failure
     return json.dumps(document, indent=2) + "\n"
 
 

@@ -40,9 +40,13 @@ def render_sarif(report: Report, *, version: str, failed: bool = False) -> str:
         _result(diagnostic, codes.index(diagnostic.code), report.folder)
         for diagnostic in report.diagnostics
     ]
+    invocation: dict[str, Any] = {"executionSuccessful": not failed}
+    if report.failure is not None:
+        notification = {"level": "error", "message": {"text": _escape(report.failure)}}
+        invocation["toolExecutionNotifications"] = [notification]
     run = {
         "tool": {"driver": driver},
-        "invocations": [{"executionSuccessful": not failed}],
+        "invocations": [invocation],
         "columnKind": "utf16CodeUnits",
         "results": results,
     }

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import member_alias, standard_member, write_instead
+from osc2tx.semantics.binding import find_parameter
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.expressions.names import value_type
 from osc2tx.semantics.lookup import find_member, member_names
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import resolve_type
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import Member, Symbol, TypeSymbol
-from osc2tx.semantics.types import BOOL, ERROR, EVENT, ListType, Type
+from osc2tx.semantics.types import BOOL, ERROR, EVENT, OBJECT, ListType, Type
 from osc2tx.syntax import ast
 
 
 def infer_member(r: Resolution, node: ast.MemberAccess, env: Environment) -> Type:
     """Type `base.name`."""
-    base = r.type_of(node.base, env)
+    base = r.type_of(node.base, env, OBJECT)
     if base == EVENT:
-        return _infer_event_parameter(r, node)
+        return _infer_event_parameter(r, node, env)
     symbol = resolve_member(r, node, base, env)
     if symbol is None:
         return ERROR
@@ -81,16 +83,16 @@ def report_unknown_member(r: Resolution, owner: TypeSymbol, name: ast.Name) -> N
     )
 
 
-def _infer_event_parameter(r: Resolution, node: ast.MemberAccess) -> Type:
+def _infer_event_parameter(r: Resolution, node: ast.MemberAccess, env: Environment) -> Type:
     field = r.references.get(node.base)
     event = r.event_fields.get(field) if field is not None else None
     if event is None:
         r.report("OSC316", node.base.span, "an event has no value; bind it with `as`")
         return ERROR
-    for parameter in event.parameters:
-        if parameter.name == node.name.text:
-            r.references[node] = parameter
-            return parameter.type
+    parameter = find_parameter(r, node.name, event.parameters, env)
+    if parameter is not None:
+        r.references[node] = parameter
+        return parameter.type
     r.report(
         "OSC208",
         node.name.span,
@@ -111,7 +113,7 @@ def infer_cast(r: Resolution, node: ast.Cast, env: Environment) -> Type:
 
 def infer_type_test(r: Resolution, node: ast.TypeTest, env: Environment) -> Type:
     """Type `base.is(T)`."""
-    target = resolve_type(r, node.type, env.context)
+    r.types[node.type] = target = resolve_type(r, node.type, env.context)
     source = r.type_of(node.base, env)
     if ERROR not in (source, target) and not are_related(source, target):
         r.report("OSC315", node.span, f"a value of `{source}` is never `{target}`")

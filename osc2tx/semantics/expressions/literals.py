@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import unit_alias, write_instead
 from osc2tx.semantics.conversions import common_type, is_numeric
 from osc2tx.semantics.dialects import UNIT_ALIASES
 from osc2tx.semantics.repeats import report_disputed
-from osc2tx.semantics.resolution import Environment, Resolution, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
 from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
@@ -39,6 +40,8 @@ def infer_list(
     r: Resolution, node: ast.ListLiteral, env: Environment, expected: Type | None
 ) -> Type:
     """Type `[a, b]`; lists inside are flattened (§7.4.2.7)."""
+    if not node.elements:
+        return ERROR  # what is left of a syntax error
     element = expected.element if isinstance(expected, ListType) else None
     types = []
     for item in node.elements:

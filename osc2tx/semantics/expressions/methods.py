@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.assign import check_condition
 from osc2tx.semantics.binding import bind_call, type_arguments
 from osc2tx.semantics.builtins import (
@@ -16,19 +17,22 @@ from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
 from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.model import Binding
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import type_of_symbol
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
     ActorSymbol,
     FieldSymbol,
     MethodSymbol,
+    PrimitiveSymbol,
     StructSymbol,
     Symbol,
 )
 from osc2tx.semantics.types import (
     BOOL,
     ERROR,
+    INT,
+    UINT,
     VOID,
     ListType,
     PrimitiveType,
@@ -176,7 +180,7 @@ def _find_member(
         return None
     owner = symbol_of(base)
     if owner is None and isinstance(base, PrimitiveType):
-        owner = r.scope.primitive_named(base.name)
+        owner = _primitive_of(r, callee, base)
     if owner is None:
         r.report("OSC208", callee.name.span, f"`{base}` has no method `{callee.name}`")
         return None
@@ -186,6 +190,18 @@ def _find_member(
         return None
     note_prelude_member(r, member, owner, callee.name)
     return _as_method(r, callee, member)
+
+
+def _primitive_of(
+    r: Resolution, callee: ast.MemberAccess, base: PrimitiveType
+) -> PrimitiveSymbol | None:
+    """Return the methods of a primitive type; an integer literal is an `int` where that helps."""
+    own = r.scope.primitive_named(base.name)
+    if base != UINT or (own is not None and callee.name.text in own.members):
+        return own
+    signed = r.scope.primitive_named(INT.name)
+    is_literal = isinstance(callee.base, ast.IntegerLiteral)
+    return signed if is_literal and signed is not None else own
 
 
 def _resolve_operator(
@@ -210,7 +226,7 @@ def _resolve_operator(
             f"`{base}` has no method `{callee.name}`",
             help=did_you_mean(callee.name.text, operators),
         )
-        type_arguments(r, node.arguments, env)
+        type_arguments(r, node.arguments, env.with_it(ERROR))
         return ERROR
     r.references[callee] = method
     pairs = tuple(
@@ -228,6 +244,14 @@ def _resolve_operator(
 def _check_operator_arity(
     r: Resolution, node: ast.Call, callee: ast.MemberAccess, method: MethodSymbol
 ) -> None:
+    for argument in node.arguments:
+        if argument.name is not None:
+            r.report(
+                "OSC402",
+                argument.name.span,
+                f"`{method.name}` has no parameter `{argument.name}`",
+                help="leave the name out",
+            )
     if len(node.arguments) > len(method.parameters):
         count = len(method.parameters)
         extra = node.arguments[count]

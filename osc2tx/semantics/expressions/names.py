@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.conversions import converts, symbol_of, type_of_owner
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
 from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
-from osc2tx.semantics.resolution import Environment, Resolution, declared_here, did_you_mean
+from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import resolve_type_name
 from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
@@ -16,9 +17,10 @@ from osc2tx.semantics.symbols import (
     LabelSymbol,
     MethodSymbol,
     ParameterSymbol,
+    ScenarioSymbol,
     Symbol,
 )
-from osc2tx.semantics.types import ERROR, EVENT, EnumType, ListType, RangeType, Type
+from osc2tx.semantics.types import ERROR, EVENT, OBJECT, EnumType, ListType, RangeType, Type
 from osc2tx.syntax import ast
 
 
@@ -106,7 +108,7 @@ def _infer_unknown(
     r: Resolution, node: ast.NameExpression, env: Environment, expected: Type | None
 ) -> Type:
     name = node.name
-    members = r.scope.enum_members_named(name.text)
+    members = [] if expected == OBJECT else r.scope.enum_members_named(name.text)
     if isinstance(expected, EnumType):
         r.report(
             "OSC208",
@@ -124,13 +126,31 @@ def _infer_unknown(
     if members and symbol_of(expected or ERROR) is None:
         r.references[node] = members[0]
         return EnumType(members[0].enum)
+    if types := r.scope.select(r.scope.types_named(name.text), name, env.context):
+        r.report(
+            "OSC316",
+            node.span,
+            f"`{name}` is a type, not a value",
+            labels=declared_here(types[0]) if types[0].origin == "user" else (),
+        )
+        return ERROR
     r.report(
         "OSC201",
         node.span,
         f"`{name}` is not defined",
-        help=did_you_mean(name.text, visible_names(r, env)),
+        help=_field_elsewhere(r, name) or did_you_mean(name.text, visible_names(r, env)),
     )
     return ERROR
+
+
+def _field_elsewhere(r: Resolution, name: ast.Name) -> str | None:
+    """Return a line of help if another scenario of the program has a field of that name."""
+    for symbol in r.scope.declared:
+        if isinstance(symbol, ScenarioSymbol):
+            field = symbol.members.get(name.text)
+            if isinstance(field, FieldSymbol) and field.node is not None:
+                return f"`{name}` is a field of `{symbol.qualified_name}`; hand it over as argument"
+    return None
 
 
 def _infer_unexpected_member(

@@ -99,9 +99,7 @@ def _lacks_value(r: Resolution, operand: ast.Expression, env: Environment) -> bo
 
 
 def _infer_in(r: Resolution, node: ast.Binary, env: Environment) -> Type:
-    left = r.type_of(node.left, env)
-    element = left if isinstance(left, ListType) else ListType(left)
-    right = r.type_of(node.right, env, ERROR if left == ERROR else element)
+    left, right = _sides_of_in(r, node, env)
     if ERROR in (left, right):
         return BOOL
     match right:
@@ -110,11 +108,24 @@ def _infer_in(r: Resolution, node: ast.Binary, env: Environment) -> Type:
             _check_comparable(r, node, value, right.element)
         case ListType():
             value = left.element if isinstance(left, ListType) else left
-            if not are_related(value, right.element):
+            if is_numeric(value) and is_numeric(right.element):
+                _check_comparable(r, node, value, right.element)
+            elif not are_related(value, right.element):
                 r.report("OSC304", node.span, f"`{left}` cannot be in `{right}`")
         case _:
             r.report("OSC304", node.right.span, f"`in` takes a range or list, not `{right}`")
     return BOOL
+
+
+def _sides_of_in(r: Resolution, node: ast.Binary, env: Environment) -> tuple[Type, Type]:
+    """Type a value and what it may be in; bare enum members take their enum from the other."""
+    if _lacks_value(r, node.left, env):
+        right = r.type_of(node.right, env)
+        element = right.element if isinstance(right, ListType) else None
+        return r.type_of(node.left, env, ERROR if right == ERROR else element), right
+    left = r.type_of(node.left, env)
+    expected = left if isinstance(left, ListType) else ListType(left)
+    return left, r.type_of(node.right, env, ERROR if left == ERROR else expected)
 
 
 def _infer_equality(r: Resolution, node: ast.Binary, left: Type, right: Type) -> Type:

@@ -2,13 +2,16 @@
 
 Each module holds the classes of one subject: `movement` (drive, walk, move with their
 modifiers: `checks`, `speeds`, `sides`), `speed`, `rates` (acceleration), `lane`, `gap`, `paths`,
-`position`, `place`, `trailers`, `lights`, `environment`. An action reads the snapshot
-when it starts, hands one command per slot to the world, and ends when the world reports the goal.
+`position`, `place`, `trailers`, `lights`, `environment`,
+`traffic_lights` and `cycles` (with `switching`). An action reads the
+snapshot when it starts, hands one command per slot to the world, and ends when the world reports
+the goal.
 """
 
 from __future__ import annotations
 
 from . import (
+    cycles,
     environment,
     gap,
     lane,
@@ -19,10 +22,12 @@ from . import (
     position,
     rates,
     speed,
+    traffic_lights,
     trailers,
 )
 
 __all__ = [
+    "cycles",
     "environment",
     "gap",
     "lane",
@@ -33,5 +38,6 @@ __all__ = [
     "position",
     "rates",
     "speed",
+    "traffic_lights",
     "trailers",
 ]

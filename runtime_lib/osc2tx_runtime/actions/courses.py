@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from osc2tx_runtime.in_world import path_in_world, trajectory_in_world
+from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.paths import PathError, curve_of_path, curve_of_trajectory, stretch
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL
 from osc2tx_runtime.values import Path, Pose, Trajectory
@@ -24,14 +26,14 @@ _SLIP = 0.2  # rad between heading and way that a follower can still have
 
 
 def path_command(
-    here: ActorState, path: Path, offsets: tuple[float, float], *, exact: bool
+    road_map: RoadMap, here: ActorState, path: Path, offsets: tuple[float, float], *, exact: bool
 ) -> Command:
     """The lateral command for a path.
 
     Raises:
         PathError: The path is empty, too far away, or cannot be driven as it says.
     """
-    curve = curve_of_path(path)
+    curve = curve_of_path(path_in_world(road_map, path))
     begin, end = stretch(curve, *offsets)
     if exact:
         return ReplayCourse(curve, begin, end)
@@ -41,13 +43,19 @@ def path_command(
 
 
 def trajectory_commands(
-    here: ActorState, trajectory: Trajectory, offsets: tuple[float, float], *, exact: bool
+    road_map: RoadMap,
+    here: ActorState,
+    trajectory: Trajectory,
+    offsets: tuple[float, float],
+    *,
+    exact: bool,
 ) -> dict[str, Command]:
     """The commands for a trajectory. Before its first time the actor goes to its first point.
 
     Raises:
         PathError: The trajectory is empty, too far away, or cannot be driven as it says.
     """
+    trajectory = trajectory_in_world(road_map, trajectory)
     curve_of_trajectory(trajectory)  # checks it as it is written
     lead = 0.0
     if trajectory.time_stamps[0] > 1e-9:

@@ -10,8 +10,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.action import Action, ActionOptions
+from osc2tx_runtime.argument_rules import at_least_one
 from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Modifier
 from osc2tx_runtime.registry import action
 
@@ -19,7 +19,7 @@ from .support import note_lights
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Environment
-    from osc2tx_runtime.values import CelestialLightSource
+    from osc2tx_runtime.weather import CelestialLightSource
 
 __all__ = ["Air", "AssignCelestialPosition", "Clouds", "Fog", "Rain", "Snow", "Wind"]
 
@@ -36,8 +36,6 @@ class _Weather(Action):
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         self.values = {name: value for name, value in values.items() if value is not None}
-        if not self.values:
-            raise ScenarioError(f"{self.action_name}: give at least one of {', '.join(values)}")
 
     def on_start(self) -> None:
         """Sets them."""
@@ -59,6 +57,8 @@ class _Weather(Action):
 @action("environment", "air", ends="instant")
 class Air(_Weather):
     """Set temperature (K), pressure (Pa) and relative humidity (0 to 1)."""
+
+    rules = (at_least_one("temperature", "pressure", "relative_humidity"),)
 
     def __init__(
         self,
@@ -108,6 +108,8 @@ class Snow(_Weather):
 @action("environment", "wind", ends="instant")
 class Wind(_Weather):
     """Set speed (m/s) and direction (rad) of the wind."""
+
+    rules = (at_least_one("speed", "direction"),)
 
     def __init__(
         self,
@@ -161,6 +163,8 @@ class AssignCelestialPosition(_Weather):
         elevation: rad above the horizon.
         **options: Duration and label.
     """
+
+    rules = (at_least_one("azimuth", "elevation"),)
 
     def __init__(
         self,

@@ -7,16 +7,17 @@ front. A gap in time across the road is the gap over the lateral speed towards t
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.action import ActionOptions
-from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Beside, Command, KeepGap
 
-from .support import MotionAction
+from .groups import SIDE_FREE, SPEED_FREE
+from .shaped import ShapedAction
+from .support import MotionAction, Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Vehicle
@@ -37,7 +38,28 @@ HeadwayDirection = Literal["ahead", "behind"]
 _DIRECTIONS: tuple[GapDirection, ...] = ("ahead", "behind", "left", "right", "inside", "outside")
 
 
-class _ChangeGap(MotionAction):
+class _OneAxis(ShapedAction):
+    """Controls the speed or the lane; modifiers may speak of the other one."""
+
+    accepts: ClassVar[tuple[type, ...]] = (*SIDE_FREE, *SPEED_FREE)
+
+    def takes(self, modifier: Modifier) -> bool:
+        """Whether the action can carry out a modifier."""
+        free = SPEED_FREE if LATERAL in self.own else SIDE_FREE
+        return super().takes(modifier) and isinstance(modifier, free)
+
+    def setup(self, **kwargs: Any) -> None:
+        """Check what can be known by now."""
+        super().setup(**kwargs)
+        if self.may_jump:
+            raise UnsupportedError(
+                f"{self.action_name}: a distance to another actor is reached by moving, not by a"
+                " jump",
+                self.source or None,
+            )
+
+
+class _ChangeGap(_OneAxis):
     """Reaches a distance or time to another actor."""
 
     measure: Literal["gap", "headway"] = "gap"
@@ -60,7 +82,6 @@ class _ChangeGap(MotionAction):
             raise ScenarioError(f"{self.action_name}: a headway is ahead or behind")
         self.target = target
         self.vehicle = actor
-        self._refused: str | None = None
         self.direction = direction
         self.reference = reference
         if direction not in ("ahead", "behind"):
@@ -70,13 +91,12 @@ class _ChangeGap(MotionAction):
         """Commands the gap; a negative one is on the other side."""
         target = value_of(self.target)
         size = abs(target)
-        if LATERAL in self.slots:
+        if LATERAL in self.own:
             left = self._leads_left() == (target >= 0.0)
             gap = self.vehicle.space_gap(self.reference, "lateral")
             if self.timed and (gap == 0.0 or (gap > 0.0) != left):
                 side = "left" if left else "right"
-                self._refused = f"it is not to the {side} of {self.reference.id}"
-                return
+                raise Refused(f"it is not to the {side} of {self.reference.id}")
             self.command(LATERAL, _beside(self, self.reference, size, left, self.timed))
             return
         ahead = (self.direction == "ahead") == (target >= 0.0)
@@ -90,10 +110,6 @@ class _ChangeGap(MotionAction):
                 time=size if self.timed else None,
             ),
         )
-
-    def on_update(self) -> Status:
-        """Ends with the gap, fails if there can be none."""
-        return super().on_update() if self._refused is None else self.fail(self._refused)
 
     def _leads_left(self) -> bool:
         """True if the direction is to the left of the reference."""
@@ -141,7 +157,7 @@ class ChangeTimeHeadway(_ChangeGap):
     timed = True
 
 
-class _KeepGap(MotionAction):
+class _KeepGap(_OneAxis):
     """Holds the distance or time to another actor that there is at the start."""
 
     measure: Literal["gap", "headway"] = "gap"
@@ -165,14 +181,17 @@ class _KeepGap(MotionAction):
             self.slots = (LATERAL,)
         self.vehicle = actor
         self.reference = reference
-        self._undefined = False
 
     def on_start(self) -> None:
         """Samples the gap and commands it."""
-        size = self._sampled()
-        self._undefined = math.isinf(size)
-        if self._undefined:
-            return
+        try:
+            size = self._sampled()
+        except ScenarioError as error:
+            raise Refused(error.message) from error
+        if math.isinf(size):
+            along = self.direction == "longitudinal"
+            why = "the trailing one stands" if along else "none comes nearer"
+            raise Refused(f"there is no time between actors of which {why}")
         if self.direction == "lateral":
             command = _beside(self, self.reference, abs(size), size >= 0.0, self.timed)
             self.command(LATERAL, command)
@@ -188,26 +207,13 @@ class _KeepGap(MotionAction):
             ),
         )
 
-    def on_update(self) -> Status:
-        """Runs on, unless there is nothing to hold."""
-        if self._undefined:
-            why = (
-                "the trailing one stands"
-                if self.direction == "longitudinal"
-                else "none comes nearer"
-            )
-            return self.fail(f"there is no time between actors of which {why}")
-        return super().on_update()
-
     def _sampled(self) -> float:
         """The present size; positive if the actor is ahead."""
         me, other = self.vehicle, self.reference
         if self.measure == "gap":
             if me.space_gap(other, self.direction) == 0.0:
                 where = "beside" if self.direction == "longitudinal" else "in the lane of"
-                raise ScenarioError(
-                    f"{me.id} is {where} {other.id}, so there is no gap to keep", self.source
-                )
+                raise Refused(f"{me.id} is {where} {other.id}, so there is no gap to keep")
             read = me.time_gap if self.timed else me.space_gap
             return read(other, self.direction)
         return -(me.time_headway(other) if self.timed else me.space_headway(other))

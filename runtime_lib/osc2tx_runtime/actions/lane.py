@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Unpack
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.action import ActionOptions
+from osc2tx_runtime.behaviour.base import Status
+from osc2tx_runtime.behaviour.limits import Duration
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.modifiers.base import band_of
+from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.registry import LATERAL, action
-from osc2tx_runtime.world.commands import LaneChange, LaneOffset
-from osc2tx_runtime.world.lanes import lanes_to_left
+from osc2tx_runtime.world.commands import LaneChange
+from osc2tx_runtime.world.lanes import lanes_to_left, neighbouring
+from osc2tx_runtime.world.lateral import offset_from, shift_profile
 from osc2tx_runtime.world.profiles import DynamicProfile
 
-from .speed import check_profile
-from .support import MotionAction
+from .groups import SPEED_FREE
+from .rated import check_profile
+from .shaped import ShapedAction
+from .sides import check_shift, jump_aside, lanes_to
+from .support import Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject, Vehicle
+    from osc2tx_runtime.behaviour.parameters import Range
+    from osc2tx_runtime.road_parts import Lane
 
 __all__ = ["SIDES", "ChangeLane", "FollowLane", "LaneSide"]
 
@@ -24,15 +35,60 @@ LaneSide = Literal["left", "right", "inside", "outside", "same"]
 SIDES: tuple[LaneSide, ...] = ("left", "right", "inside", "outside", "same")
 
 
+class _OnLane(ShapedAction):
+    """Goes to a place across the road."""
+
+    accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
+    rate_profile: DynamicProfile
+    rate_peak: float | None
+
+    def shift(self, lanes: int, offset: float, duration: Duration | None) -> None:
+        """Commands the way to a lane (so many to the left) and an offset (m) in it.
+
+        Raises:
+            Refused: It cannot be.
+        """
+        if self.may_jump:
+            jump_aside(self, lanes, offset)
+            return
+        if self.rate_peak is not None and self.rate_peak <= 0.0:
+            raise Refused(f"rate_peak {self.rate_peak:g} m/s is not positive")
+        there = neighbouring(self.world.map, self.place_of(self.actor.id), lanes)
+        time = None
+        if there is not None and duration is not None and self.rate_profile != "asap":
+            time = self._time(there, offset, duration)
+            if self.option() == "must_be_physical" and time is not None:
+                check_shift(self, lanes, offset, time)
+        self.command(LATERAL, LaneChange(lanes, offset, self.rate_profile, self.rate_peak, time))
+
+    def _time(self, there: LanePosition, offset: float, duration: Duration) -> float | None:
+        """How long it is to take, where the duration leaves a choice."""
+        here, place = self.here, LanePosition(there.road, there.lane, there.s)
+        start = offset_from(self.world.map, place, here.x, here.y)
+        course = (self.rate_profile, self.rate_peak, None)
+        own = shift_profile(start, offset, here.lateral_speed, course, self.limits).duration
+        low, high = duration if isinstance(duration, tuple) else (duration, duration)
+        if low - self.context.dt <= own <= high + self.context.dt and low < high:
+            return None
+        if self.rate_peak is None:
+            return min(max(own, low), high)
+        if abs(own - min(max(own, low), high)) > self.context.dt:
+            raise Refused(
+                f"with rate_peak {self.rate_peak:g} m/s it takes {own:.2f} s, not"
+                f" {low if own < low else high:g} s"
+            )
+        return None
+
+
 @action("vehicle", "change_lane", slots=(LATERAL,))
-class ChangeLane(MotionAction):
+class ChangeLane(_OnLane):
     """End in another lane, aligned with it.
 
     Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m.
 
     Args:
         actor: Who.
-        *modifiers: None are taken.
+        *modifiers: What they say about the speed.
         num_of_lanes: How many lanes away from the reference.
         side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
             Without a side one is drawn from the seed among those that exist.
@@ -40,6 +96,7 @@ class ChangeLane(MotionAction):
         offset: Metres left of the centre of the target lane at the end.
         rate_profile: Course of the lateral speed.
         rate_peak: Its peak (m/s).
+        target: Instead of a number and a side: a lane of the map beside the present one.
         **options: Duration and label.
     """
 
@@ -53,6 +110,7 @@ class ChangeLane(MotionAction):
         offset: Value = 0.0,
         rate_profile: DynamicProfile = "none",
         rate_peak: float | None = None,
+        target: Lane | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
@@ -61,26 +119,32 @@ class ChangeLane(MotionAction):
             raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
         if num_of_lanes < 0:
             raise ScenarioError(f"{self.action_name}: num_of_lanes {num_of_lanes} is negative")
+        if target is not None and (side is not None or reference is not None):
+            raise ScenarioError(
+                f"{self.action_name}: target leaves no room for a side or reference"
+            )
         self.num_of_lanes = num_of_lanes
         self.side = side
         self.reference = reference
         self.offset = offset
-        self.rate_profile: DynamicProfile = rate_profile
+        self.rate_profile = rate_profile
         self.rate_peak = rate_peak
+        self.target = target
 
     def on_start(self) -> None:
         """Commands the change."""
-        command = LaneChange(
-            self._lanes(),
-            value_of(self.offset),
-            self.rate_profile,
-            self.rate_peak,
-            self.fixed_duration() if self.rate_profile != "asap" else None,
-        )
-        self.command(LATERAL, command)
+        self.shift(self._lanes(), value_of(self.offset), self.duration)
+
+    def on_update(self) -> Status:
+        """Ends in the lane, after a jump at the next step."""
+        if self.may_jump and not self.has_goal:
+            return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+        return super().on_update()
 
     def _lanes(self) -> int:
         """Lanes to the left of the present one; negative: to the right."""
+        if self.target is not None:
+            return lanes_to(self, self.target)
         own = self.place_of(self.actor.id)
         beside = 0
         if self.reference is not None:
@@ -106,15 +170,17 @@ class ChangeLane(MotionAction):
 
 
 @action("vehicle", "follow_lane", slots=(LATERAL,), ends="open")
-class FollowLane(MotionAction):
-    """Stay in the present lane.
+class FollowLane(_OnLane):
+    """Stay in a lane.
 
     Args:
         actor: Who.
-        *modifiers: None are taken.
+        *modifiers: What they say about the speed.
         offset: Metres left of its centre.
+        offset_range: Instead of it: what it may be at any time.
         rate_profile: Course of the lateral speed on the way there.
         rate_peak: Its peak (m/s).
+        target: A lane of the map beside the present one; None: the present one.
         **options: Duration and label.
     """
 
@@ -122,18 +188,26 @@ class FollowLane(MotionAction):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        offset: Value = 0.0,
+        offset: Value | None = None,
+        offset_range: Range[float] | Callable[[], Range[float]] | None = None,
         rate_profile: DynamicProfile = "none",
         rate_peak: float | None = None,
+        target: Lane | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         check_profile(self.action_name, rate_profile)
+        if offset is not None and offset_range is not None:
+            raise ScenarioError(f"{self.action_name}: give offset or offset_range, not both")
         self.offset = offset
-        self.rate_profile: DynamicProfile = rate_profile
+        self.offset_range = offset_range
+        self.rate_profile = rate_profile
         self.rate_peak = rate_peak
+        self.target = target
 
     def on_start(self) -> None:
         """Commands the offset."""
-        offset = value_of(self.offset)
-        self.command(LATERAL, LaneOffset(offset, self.rate_profile, self.rate_peak))
+        lanes = 0 if self.target is None else lanes_to(self, self.target)
+        low, high = band_of(self.offset, self.offset_range)
+        now = self.place_of(self.actor.id).offset if lanes == 0 else 0.0
+        self.shift(lanes, min(max(now, low), high), None)

@@ -26,8 +26,8 @@ class SetLights(Action):
     Args:
         actor: Who.
         *modifiers: None are taken.
-        mode: `off`, `auto` (low beams while the sun is lower than 15 degrees), `daytime`,
-            `position`, `low_beam` or `high_beam`.
+        mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less than
+            100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
         **options: Duration and label.
     """
 

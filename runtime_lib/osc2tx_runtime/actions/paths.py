@@ -10,10 +10,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
-from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.modifiers import Modifier
-from osc2tx_runtime.paths import PathError, absolute
+from osc2tx_runtime.argument_rules import at_least_one, at_most_one
+from osc2tx_runtime.modifiers import Modifier, PhysicalMovement
+from osc2tx_runtime.modifiers.base import now
+from osc2tx_runtime.paths import absolute
+from osc2tx_runtime.poses import one_of_kind
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.values import (
     Path,
@@ -26,51 +27,31 @@ from osc2tx_runtime.values import (
 from osc2tx_runtime.world.commands import Command
 
 from .courses import path_command, trajectory_commands
-from .support import MotionAction
+from .groups import SPEED_FREE
+from .shaped import ShapedAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import MovableObject, PhysicalObject
 
 __all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
 
-ValueT = TypeVar("ValueT")
 
-
-class CourseAction(MotionAction):
+class CourseAction(ShapedAction):
     """An action on a course that may turn out to be impossible when it starts."""
-
-    def __init__(
-        self, actor: MovableObject, modifiers: tuple[Modifier, ...], options: ActionOptions
-    ) -> None:
-        super().__init__(actor, *modifiers, **options)
-        self._refused: str | None = None
 
     def on_start(self) -> None:
         """Commands the course."""
-        try:
-            commands = self.commands()
-        except PathError as error:
-            self._refused = error.message
-            return
-        for slot, command in commands.items():
+        for slot, command in self.commands().items():
             self.command(slot, command)
-
-    def on_update(self) -> Status:
-        """Ends behind the last point, fails if there is no way."""
-        return super().on_update() if self._refused is None else self.fail(self._refused)
 
     def commands(self) -> dict[str, Command]:
         """What to command in which slot.
 
         Raises:
             PathError: There is no such way.
+            PlacementError: There is no such place.
         """
         raise NotImplementedError
-
-
-def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
-    """A value that may be read late."""
-    return value() if callable(value) else value
 
 
 CourseT = TypeVar("CourseT", bound=Path | Trajectory)
@@ -80,7 +61,14 @@ RelativeT = TypeVar("RelativeT", bound=RelativePath | RelativeTrajectory)
 class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
     """What paths and trajectories have in common: two ways to say where they are."""
 
-    exact: ClassVar[bool]
+    rules = (at_most_one("absolute", "relative"), at_least_one("absolute", "relative"))
+    replays: ClassVar[bool]
+
+    @property
+    def exact(self) -> bool:
+        """Whether limits count for nothing: as the action says, if no modifier says otherwise."""
+        physical = one_of_kind(self.modifiers, PhysicalMovement)
+        return self.replays if physical is None else physical.option == "prefer_non_physical"
 
     def __init__(
         self,
@@ -94,9 +82,7 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
         end_offset: float = 0.0,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, options)
-        if (absolute is None) == (relative is None):
-            raise ScenarioError(f"{self.action_name}: give either absolute or relative")
+        super().__init__(actor, *modifiers, **options)
         self.absolute: CourseT | Callable[[], CourseT] | None = absolute
         self.relative: RelativeT | Callable[[], RelativeT] | None = relative
         self.reference = reference or actor
@@ -118,9 +104,15 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
 
 
 class _OnPath(_OnCourse[Path, RelativePath]):
+    accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
+
     def commands(self) -> dict[str, Command]:
         """The path, from here."""
-        return {LATERAL: path_command(self.here, self.course(), self.offsets, exact=self.exact)}
+        return {
+            LATERAL: path_command(
+                self.world.map, self.here, self.course(), self.offsets, exact=self.exact
+            )
+        }
 
     def resolved(self, relative: RelativePath, points: tuple[Pose, ...]) -> Path:
         """The path through the points."""
@@ -128,9 +120,13 @@ class _OnPath(_OnCourse[Path, RelativePath]):
 
 
 class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
+    accepts: ClassVar[tuple[type, ...]] = (PhysicalMovement,)
+
     def commands(self) -> dict[str, Command]:
         """The trajectory, from now."""
-        return trajectory_commands(self.here, self.course(), self.offsets, exact=self.exact)
+        return trajectory_commands(
+            self.world.map, self.here, self.course(), self.offsets, exact=self.exact
+        )
 
     def resolved(self, relative: RelativeTrajectory, points: tuple[Pose, ...]) -> Trajectory:
         """The trajectory through the points."""
@@ -143,7 +139,7 @@ class FollowPath(_OnPath):
 
     Args:
         actor: Who.
-        *modifiers: None are taken.
+        *modifiers: What they say about the speed.
         absolute: The path.
         relative: Or a path relative to a reference, where that is at the start.
         reference: Default: the actor itself.
@@ -153,14 +149,14 @@ class FollowPath(_OnPath):
         **options: Duration and label.
     """
 
-    exact = False
+    replays = False
 
 
 @action("movable_object", "replay_path", slots=(LATERAL,))
 class ReplayPath(_OnPath):
     """Be on a path exactly, whatever the limits; arguments as of `follow_path`."""
 
-    exact = True
+    replays = True
 
 
 @action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL))
@@ -169,7 +165,7 @@ class FollowTrajectory(_OnTrajectory):
 
     Args:
         actor: Who.
-        *modifiers: None are taken.
+        *modifiers: Only `physical_movement`.
         absolute: The trajectory; its times count from the start of the action.
         relative: Or one relative to a reference, where that is at the start.
         reference: Default: the actor itself.
@@ -179,11 +175,11 @@ class FollowTrajectory(_OnTrajectory):
         **options: Duration and label.
     """
 
-    exact = False
+    replays = False
 
 
 @action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL))
 class ReplayTrajectory(_OnTrajectory):
     """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`."""
 
-    exact = True
+    replays = True

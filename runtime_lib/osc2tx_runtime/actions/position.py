@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, ClassVar, Unpack, cast
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.along import way_between
-from osc2tx_runtime.errors import PlacementError, ScenarioError
+from osc2tx_runtime.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.modifiers import Modifier
+from osc2tx_runtime.modifiers.base import now
 from osc2tx_runtime.opendrive import DRIVING, LanePosition
 from osc2tx_runtime.paths import PathError
 from osc2tx_runtime.poses import place_of_odr
@@ -28,6 +29,7 @@ from osc2tx_runtime.values import (
 from osc2tx_runtime.world.commands import Command
 
 from .courses import path_command
+from .groups import SPEED_FREE
 from .paths import CourseAction
 
 if TYPE_CHECKING:
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ChangePosition"]
 
+TARGETS = ("target_position", "target_xyz", "target_st", "target_odr")
 Target = Point | XyzPoint | RoutePoint | OdrPoint
 
 
@@ -44,7 +47,7 @@ class ChangePosition(CourseAction):
 
     Args:
         actor: Who.
-        *modifiers: None are taken.
+        *modifiers: What they say about the speed.
         target_position: Any kind of point.
         target_xyz: Point in the world.
         target_st: Point in route coordinates.
@@ -53,6 +56,9 @@ class ChangePosition(CourseAction):
         on_road_network: Along lanes; default: for vehicles on a lane.
         **options: Duration and label.
     """
+
+    rules = (at_most_one(*TARGETS), at_least_one(*TARGETS))
+    accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
 
     def __init__(
         self,
@@ -66,23 +72,21 @@ class ChangePosition(CourseAction):
         on_road_network: bool | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, options)
-        given = [t for t in (target_position, target_xyz, target_st, target_odr) if t is not None]
-        if len(given) != 1:
-            raise ScenarioError(f"{self.action_name}: give exactly one target")
-        self.target: Target | Callable[[], Target] = given[0]
+        super().__init__(actor, *modifiers, **options)
+        target = target_position or target_xyz or target_st or target_odr
+        assert target is not None  # see the rules
+        self.target: Target | Callable[[], Target] = target
         self.interpolation: PathInterpolation = interpolation
         self.on_road_network = actor.lane_bound if on_road_network is None else on_road_network
 
     def commands(self) -> dict[str, Command]:
         """The way to the target."""
-        try:
-            target = self.target() if callable(self.target) else self.target
-            place = self._place(target)
-        except PlacementError as error:
-            raise PathError(error.message) from error
+        target = cast(Target, now(self.target))
+        place = self._place(target)
         path = self._along_lanes(place) if self.on_road_network else self._across(place)
-        return {LATERAL: path_command(self.here, path, (0.0, 0.0), exact=False)}
+        return {
+            LATERAL: path_command(self.world.map, self.here, path, (0.0, 0.0), exact=self.may_jump)
+        }
 
     def _place(self, target: Target) -> LanePosition | opendrive.Pose:
         match target:

@@ -3,98 +3,82 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import SpeedChange, Standstill
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
-from osc2tx_runtime.world.profiles import PROFILES, DynamicProfile
 
-from .support import MotionAction, OneStepAction
+from .groups import SIDE_FREE
+from .rated import RatedChange
+from .shaped import ShapedAction
+from .support import OneStepAction, Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import MovableObject
 
-__all__ = ["AssignSpeed", "ChangeSpeed", "KeepSpeed", "RemainStationary", "check_profile"]
-
-
-def check_profile(name: str, profile: str) -> None:
-    """Refuses a profile that does not exist."""
-    if profile not in PROFILES:
-        raise ScenarioError(f"{name}: rate_profile `{profile}` is none of {', '.join(PROFILES)}")
+__all__ = ["AssignSpeed", "ChangeSpeed", "KeepSpeed", "RemainStationary"]
 
 
 @action("movable_object", "change_speed", slots=(LONGITUDINAL,))
-class ChangeSpeed(MotionAction):
+class ChangeSpeed(RatedChange):
     """Reach a speed.
 
     Args:
         actor: Who.
-        *modifiers: None are taken.
+        *modifiers: What they say about the lane.
         target: Speed (m/s).
         rate_profile: Course of the acceleration.
         rate_peak: Its peak (m/s^2); default: the duration, else the limits of the actor.
         **options: Duration and label.
     """
 
-    def __init__(
-        self,
-        actor: MovableObject,
-        *modifiers: Modifier,
-        target: Value,
-        rate_profile: DynamicProfile = "none",
-        rate_peak: float | None = None,
-        **options: Unpack[ActionOptions],
-    ) -> None:
-        super().__init__(actor, *modifiers, **options)
-        check_profile(self.action_name, rate_profile)
-        self.target = target
-        self.rate_profile: DynamicProfile = rate_profile
-        self.rate_peak = rate_peak
-        self._refused: str | None = None
-
     def on_start(self) -> None:
         """Commands the change, or nothing if the speed is there already."""
         change = self._change(value_of(self.target))
-        self._refused = excessive_rate(change, self.here.v) or self._contradiction(change)
-        if self._refused is None and change.target != self.here.v:
+        strict = self.option() == "must_be_physical"
+        reason = excessive_rate(change, self.here.v, self.limits if strict else self.tyres)
+        reason = None if self.may_jump else reason or self._contradiction(change)
+        if reason is not None:
+            raise Refused(reason)
+        if change.target != self.here.v:
             self.command(LONGITUDINAL, change)
 
     def on_update(self) -> Status:
         """Ends at the target speed."""
-        if self._refused is not None:
-            return self.fail(self._refused)
-        if self.elapsed_steps == 0 and value_of(self.target) == self.here.v:
+        there = self.elapsed_steps == 0 and value_of(self.target) == self.here.v
+        if there and not self.has_goal:
             return Status.SUCCESS
         return super().on_update()
 
     def _change(self, target: float) -> SpeedChange:
+        if self.may_jump:
+            return SpeedChange(target, "constant", None, 0.0)
         change = SpeedChange(target, self.rate_profile, self.rate_peak)
         if self.duration is None or self.rate_profile == "asap" or self.rate_peak is not None:
             return change
         if not isinstance(self.duration, tuple):
             return dataclasses.replace(change, duration=float(self.duration))
         low, high = self.duration
-        own = speed_profile(change, self.here.v, self.actor.spec().limits).duration
+        own = speed_profile(change, self.here.v, self.limits).duration
         return dataclasses.replace(change, duration=min(max(own, low), high))
 
     def _contradiction(self, change: SpeedChange) -> str | None:
-        duration = self.fixed_duration()
-        if duration is None or change.rate_peak is None or self.rate_profile == "asap":
+        if change.rate_peak is None or self.rate_profile == "asap":
             return None
-        own = speed_profile(change, self.here.v, self.actor.spec().limits).duration
-        if abs(own - duration) <= self.context.dt:
-            return None
-        return f"with rate_peak {change.rate_peak:g} m/s^2 it takes {own:.2f} s, not {duration:g} s"
+        own = speed_profile(change, self.here.v, self.limits).duration
+        return self.takes_too_long(f"{change.rate_peak:g} m/s^2", own)
 
 
 @action("movable_object", "keep_speed", slots=(LONGITUDINAL,), ends="open")
-class KeepSpeed(MotionAction):
+class KeepSpeed(ShapedAction):
     """Hold the present speed: what a released slot does by itself."""
+
+    commands_speed = False
+    accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
 
 
 @action("movable_object", "assign_speed", slots=(LONGITUDINAL,))
@@ -118,7 +102,7 @@ class AssignSpeed(OneStepAction):
 
 
 @action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
-class RemainStationary(MotionAction):
+class RemainStationary(ShapedAction):
     """Stand; an actor that moves brakes as hard as it can first."""
 
     def on_start(self) -> None:

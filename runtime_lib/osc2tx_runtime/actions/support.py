@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.action import Action
-from osc2tx_runtime.actors import PhysicalObject
 from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import PlacementError, ScenarioError
+from osc2tx_runtime.modifiers import PhysicalMovement
+from osc2tx_runtime.opendrive import MapError
+from osc2tx_runtime.paths import PathError
+from osc2tx_runtime.poses import one_of_kind
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
@@ -23,8 +26,17 @@ class Refused(ScenarioError):
     """Something that cannot be done: the action fails with this reason."""
 
 
+IMPOSSIBLE = (Refused, PathError, PlacementError, MapError)
+"""What makes an action fail, not the run."""
+
+
 class MotionAction(Action):
-    """An action that commands the motion of its actor."""
+    """An action that commands the motion of its actor.
+
+    What it finds `IMPOSSIBLE` is why the action fails; at the start nothing is commanded then.
+    """
+
+    _refused: str | None = None
 
     @property
     def world(self) -> World:
@@ -40,12 +52,33 @@ class MotionAction(Action):
         """Place of an actor on the lanes.
 
         Raises:
-            ScenarioError: If it is off the road.
+            Refused: If it is off the road.
         """
         place = self.world.state(actor_id).lane_position
         if place is None:
-            raise ScenarioError(f"{actor_id} is not on a road, so it has no lane", self.source)
+            raise Refused(f"{actor_id} is not on a road, so it has no lane", self.source)
         return place
+
+    def initialise(self) -> None:
+        """Claim the slots and start."""
+        self._refused = None
+        try:
+            super().initialise()
+            self.on_started()
+        except IMPOSSIBLE as error:
+            self._refused = error.message
+
+    def on_started(self) -> None:
+        """Whatever else is to be commanded at the start."""
+
+    def update(self) -> Status:
+        """Update; fails with what was found impossible."""
+        if self._refused is not None:
+            return self.fail(self._refused)
+        try:
+            return super().update()
+        except IMPOSSIBLE as error:
+            return self.fail(error.message)
 
     def on_update(self) -> Status:
         """Ends with the goal in all slots, fails as soon as one cannot be reached."""
@@ -69,9 +102,13 @@ class MotionAction(Action):
 
     @property
     def limits(self) -> Limits:
-        """What the actor can do."""
-        assert isinstance(self.actor, PhysicalObject)
-        return self.actor.spec().limits
+        """What the actor can do on the road as it is."""
+        return self.world.limits(self.actor.id)
+
+    @property
+    def tyres(self) -> Limits:
+        """What is possible on the road at all."""
+        return self.world.limits(self.actor.id, of_vehicle=False)
 
     def drawn_side(self, lanes: int) -> Literal["left", "right"]:
         """A side on which there are so many lanes, drawn from the seed."""
@@ -85,6 +122,21 @@ class MotionAction(Action):
         """The duration (s) if it is one number."""
         duration = self.duration
         return None if duration is None or isinstance(duration, tuple) else float(duration)
+
+    def time_left(self) -> float | None:
+        """Seconds until the end of the duration, if it is one number."""
+        duration = self.fixed_duration()
+        return None if duration is None else duration - self.elapsed
+
+    def option(self) -> str:
+        """What `physical_movement` says; `prefer_physical` without it."""
+        physical = one_of_kind(self.modifiers, PhysicalMovement)
+        return "prefer_physical" if physical is None else physical.option
+
+    @property
+    def may_jump(self) -> bool:
+        """Whether physics need not hold."""
+        return self.option() == "prefer_non_physical"
 
 
 class OneStepAction(MotionAction):

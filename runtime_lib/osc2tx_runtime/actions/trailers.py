@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.action import ActionOptions
-from osc2tx_runtime.behaviour.base import Status
 from osc2tx_runtime.modifiers import Modifier
 from osc2tx_runtime.registry import action
 from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
 
-from .support import OneStepAction
+from .support import OneStepAction, Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Trailer, Vehicle
@@ -31,48 +30,30 @@ class ConnectTrailer(OneStepAction):
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         self.trailer = trailer
-        self._refused: str | None = None
 
     def on_start(self) -> None:
         """Couples it, if it is near enough and free."""
         world, tow, trailer = self.world, self.actor.id, self.trailer.id
-        self._refused = None
         gap = coupling_gap(self.here, world.state(trailer))
         if world.trailer_of(tow) is not None:
-            self._refused = f"{tow} tows {world.trailer_of(tow)} already"
-        elif any(world.trailer_of(other) == trailer for other in world.actors()):
-            self._refused = f"{trailer} is towed already"
-        elif gap > COUPLING_REACH:
-            self._refused = (
+            raise Refused(f"{tow} tows {world.trailer_of(tow)} already")
+        if any(world.trailer_of(other) == trailer for other in world.actors()):
+            raise Refused(f"{trailer} is towed already")
+        if gap > COUPLING_REACH:
+            raise Refused(
                 f"the coupler of {trailer} is {gap:.1f} m from the hitch of {tow}; couple within"
                 f" {COUPLING_REACH:g} m"
             )
-        else:
-            self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
-
-    def on_update(self) -> Status:
-        """Ends at the next step."""
-        return super().on_update() if self._refused is None else self.fail(self._refused)
+        self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
 
 
 @action("vehicle", "disconnect_trailer")
 class DisconnectTrailer(OneStepAction):
     """Uncouple the trailer, which brakes and stands."""
 
-    def __init__(
-        self, actor: Vehicle, *modifiers: Modifier, **options: Unpack[ActionOptions]
-    ) -> None:
-        super().__init__(actor, *modifiers, **options)
-        self._refused: str | None = None
-
     def on_start(self) -> None:
         """Uncouples it."""
         tow, world = self.actor.id, self.world
-        tows = world.trailer_of(tow) is not None
-        self._refused = None if tows else f"{tow} tows no trailer"
-        if tows:
-            self.effect("trailer", None, lambda: world.attach(tow, None))
-
-    def on_update(self) -> Status:
-        """Ends at the next step."""
-        return super().on_update() if self._refused is None else self.fail(self._refused)
+        if world.trailer_of(tow) is None:
+            raise Refused(f"{tow} tows no trailer")
+        self.effect("trailer", None, lambda: world.attach(tow, None))

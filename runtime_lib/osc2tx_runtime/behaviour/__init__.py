@@ -6,6 +6,7 @@ from osc2tx_runtime.behaviour.base import Behaviour, Leaf, Node, Status
 from osc2tx_runtime.behaviour.compositions import OneOf, Serial
 from osc2tx_runtime.behaviour.conditions import Condition, elapsed, every, fall, rise
 from osc2tx_runtime.behaviour.directives import Call, Emit, Until, Wait
+from osc2tx_runtime.behaviour.ending import End, Fail
 from osc2tx_runtime.behaviour.events import Event, Trigger
 from osc2tx_runtime.behaviour.limits import Duration
 from osc2tx_runtime.behaviour.on import On
@@ -17,7 +18,9 @@ __all__ = [
     "Condition",
     "Duration",
     "Emit",
+    "End",
     "Event",
+    "Fail",
     "Leaf",
     "Node",
     "On",

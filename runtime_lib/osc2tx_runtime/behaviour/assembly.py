@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.behaviour.base import Behaviour, Node
+from osc2tx_runtime.behaviour.base import Behaviour, Leaf, Node
+from osc2tx_runtime.behaviour.coverage import Recording
+from osc2tx_runtime.behaviour.ending import End, Ending
 from osc2tx_runtime.behaviour.events import Event
 from osc2tx_runtime.behaviour.invocation import invocations
 from osc2tx_runtime.behaviour.override import Mode, guard
@@ -33,7 +35,15 @@ def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
     check_labels(scenario, tree)
     for overridden, by, mode in scenario._overrides:
         tree = with_override(scenario, tree, overridden, by, mode)
-    return with_variables(scenario, tree) if scenario._variables else tree
+    ends = [node for node in own_nodes(tree) if isinstance(node, End)]
+    if ends:
+        tree = around(scenario, tree, Ending(tree, ends))
+    services: list[Leaf] = []
+    if scenario._variables:
+        services.append(Sampling(list(scenario._variables.values())))
+    if scenario._items:
+        services.append(Recording(list(scenario._items.values())))
+    return with_services(scenario, tree, services) if services else tree
 
 
 def check_labels(scenario: Scenario, tree: Behaviour) -> None:
@@ -88,12 +98,17 @@ def with_override(
     return tree if around.parent is not None else around
 
 
-def with_variables(scenario: Scenario, tree: Behaviour) -> Behaviour:
-    """Return the tree with the node that samples the scenario's variables beside it."""
-    sampling = Sampling(list(scenario._variables.values()))
-    whole = Parallel(f"{tree.name}, with variables", tree, sampling)
+def with_services(scenario: Scenario, tree: Behaviour, services: list[Leaf]) -> Behaviour:
+    """Return the tree with the nodes beside it that sample variables and coverage items."""
+    for service in services:
+        service.source, service.scope = getattr(tree, "source", ""), scenario._path
+    return around(scenario, tree, Parallel(f"{tree.name}, with what it samples", tree, *services))
+
+
+def around(scenario: Scenario, tree: Behaviour, whole: Node) -> Node:
+    """Return a node around a tree that the module does not write."""
     whole.synthetic, whole.label = True, None
-    whole.source = sampling.source = getattr(tree, "source", "")
+    whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
     return whole
 
 
@@ -106,6 +121,8 @@ def invoked_placements(scenario: Scenario, tree: Behaviour) -> list[Placement]:
     found: list[Placement] = []
     for invocation, at_once in invocations(tree, scenario.one_of == "race"):
         placements = invocation.scenario.placements
+        if not at_once:
+            placements = [placement for placement in placements if not placement.throughout]
         if placements and not at_once:
             raise UnsupportedError(
                 f"{invocation.name} places {placements[0].actor.id}, but does not start with the"

@@ -56,6 +56,11 @@ class Composition(Node):
             self.stop(status)
         return status
 
+    @property
+    def limits(self) -> Limits | None:
+        """The duration at work; None without one."""
+        return self._limits
+
     def initialise(self) -> None:
         """Start the clock of the duration."""
         if self._limits is not None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import sys
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, SUCCESS, Status
@@ -14,7 +16,10 @@ if TYPE_CHECKING:
 __all__ = ["Duration", "Limits"]
 
 Duration = float | tuple[float, float]
-"""Seconds, or the least and the most seconds."""
+"""Seconds, or the least and the most seconds, which may be without end."""
+
+ENDLESS = sys.maxsize
+"""Steps of a duration without upper bound."""
 
 
 class Limits:
@@ -39,15 +44,31 @@ class Limits:
         """Start counting at the present step."""
         context = self._node.context
         self._start = context.step
-        self._low, self._high = (context.steps(seconds) for seconds in self._seconds)
+        self._low, self._high = self._steps()
         self.content_ended = False
 
     def length(self, content: int | None, open_ended: bool) -> int | None:
         """Return how many steps the node takes, given those of its content."""
-        low, high = (self._node.context.steps(seconds) for seconds in self._seconds)
+        low, high = self._steps()
         if open_ended or (content is None and low == high):
             return low
         return None if content is None or content > high else max(content, low)
+
+    def _steps(self) -> tuple[int, int]:
+        steps = self._node.context.steps
+        low, high = self._seconds
+        return steps(low), ENDLESS if math.isinf(high) else steps(high)
+
+    @property
+    def fixed(self) -> float | None:
+        """The duration in seconds, if it is one number."""
+        low, high = self._seconds
+        return low if low == high else None
+
+    @property
+    def left(self) -> int:
+        """Steps until the least duration is over."""
+        return self._start + self._low - self._node.context.step
 
     @property
     def least(self) -> int:

@@ -2,37 +2,119 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 
-__all__ = ["Range", "choose", "within"]
+__all__ = [
+    "Choice",
+    "Domain",
+    "Range",
+    "any_of",
+    "at_least",
+    "at_most",
+    "choose",
+    "within",
+]
+
+NumberT = TypeVar("NumberT", int, float)
+ValueT = TypeVar("ValueT", bool, int, float, str)
+
+INFINITY: Any = math.inf  # a bound of whole numbers as well
 
 
 @dataclass(frozen=True, slots=True)
-class Range:
-    """Values from `low` to `high`, SI units; one is drawn from the seed of the run."""
+class Range(Generic[NumberT]):
+    """Values from `low` to `high`, SI units; one is drawn from the seed of the run.
 
-    low: float
-    high: float
+    A bound may be infinite: then nothing can be drawn, and a value has to be given.
+    """
+
+    low: NumberT
+    high: NumberT
 
     def __post_init__(self) -> None:
         if not self.low <= self.high:
             raise ValueError(f"within({self.low}, {self.high}): from the lower to the upper bound")
 
+    @property
+    def is_bounded(self) -> bool:
+        """Whether both bounds are finite."""
+        return math.isfinite(self.low) and math.isfinite(self.high)
 
-def within(one: float, other: float) -> Range:
+    def draw(self, generator: random.Random) -> NumberT:
+        """Return a value; a whole number if both bounds are."""
+        if isinstance(self.low, int) and isinstance(self.high, int):
+            return generator.randint(self.low, self.high)
+        drawn: Any = generator.uniform(self.low, self.high)
+        return drawn  # type: ignore[no-any-return]
+
+    def __contains__(self, value: Any) -> bool:
+        if isinstance(value, Range):
+            return value.low in self and value.high in self
+        return bool(self.low <= value <= self.high)
+
+    def __str__(self) -> str:
+        if not math.isfinite(self.high):
+            return f"at least {self.low:g} (SI units)"
+        if not math.isfinite(self.low):
+            return f"at most {self.high:g} (SI units)"
+        return f"{self.low:g} to {self.high:g} (SI units)"
+
+
+@dataclass(frozen=True, slots=True)
+class Choice(Generic[ValueT]):
+    """Values of which one is drawn from the seed of the run."""
+
+    values: tuple[ValueT, ...]
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether one can be drawn: always."""
+        return True
+
+    def draw(self, generator: random.Random) -> ValueT:
+        """Return one of the values."""
+        return generator.choice(self.values)
+
+    def __contains__(self, value: Any) -> bool:
+        return value in self.values
+
+    def __str__(self) -> str:
+        return ", ".join(_text(value) for value in self.values)
+
+
+Domain: TypeAlias = Range[Any] | Choice[Any]
+
+
+def within(one: NumberT, other: NumberT) -> Range[NumberT]:
     """Return the range of a sampled parameter; its bounds may come in either order."""
     return Range(min(one, other), max(one, other))
+
+
+def at_least(bound: NumberT) -> Range[NumberT]:
+    """Return the range that ends at no upper bound."""
+    return Range(bound, INFINITY)
+
+
+def at_most(bound: NumberT) -> Range[NumberT]:
+    """Return the range that begins at no lower bound."""
+    return Range(-INFINITY, bound)
+
+
+def any_of(*values: ValueT) -> Choice[ValueT]:
+    """Return the set of some values."""
+    return Choice(values)
 
 
 def choose(
     name: str,
     default: Any,
-    domain: Range | None,
+    domain: Domain | None,
     generator: random.Random,
     *,
     given: Any = None,
@@ -45,41 +127,68 @@ def choose(
 
     Args:
         name: Name, in an invoked scenario with the path before it.
-        default: Value or range, SI units.
-        domain: What is allowed; the range itself where `default` is one.
+        default: Value, or what it is drawn from, SI units; a type if a value must be given.
+        domain: What is allowed; the default itself where that is a range or choice.
         generator: Draws.
-        given: Value or range that the caller gives; None for none.
+        given: Value, or what the caller lets it be drawn from; None for none.
         settings: What `--set` sets.
 
     Raises:
         ScenarioError: If a given value is outside of the domain.
-        SettingsError: If a set one is, or has another type.
+        SettingsError: If a set one is, or has another type; or if none is given at all.
     """
     value = default
-    if isinstance(default, Range):
-        value = generator.uniform(default.low, default.high)
+    if isinstance(default, Range | Choice):
+        value = default.draw(generator)
         domain = domain or default
-    if isinstance(given, Range):
-        given = generator.uniform(given.low, given.high)
+    if isinstance(given, Range | Choice):
+        given = draw(name, given, domain, generator)
     if given is not None:
         problem = outside(given, domain)
         if problem:
             raise ScenarioError(f"{name}={problem}")
         return given
     if name not in settings:
+        if isinstance(value, type):
+            allowed = "" if domain is None else f"; the scenario allows {domain}"
+            raise SettingsError(
+                f"the scenario leaves {name} open{allowed}: give it a value, --set {name}=VALUE"
+            )
         return value
-    value = fit(name, settings[name], value)
+    value = fit(name, settings[name], value() if isinstance(value, type) else value)
     problem = outside(value, domain)
     if problem:
         raise SettingsError(f"--set {name}={problem}")
     return value
 
 
-def outside(value: Any, domain: Range | None) -> str:
+def draw(name: str, given: Domain, domain: Domain | None, generator: random.Random) -> Any:
+    """Return a value from what the caller gives and the scenario allows.
+
+    Raises:
+        ScenarioError: If that is nothing, or without end.
+    """
+    if isinstance(given, Range) and isinstance(domain, Range):
+        low, high = max(given.low, domain.low), min(given.high, domain.high)
+        if low > high:
+            raise ScenarioError(f"{name}: {given} is asked for, the scenario allows {domain}")
+        given = Range(low, high)
+    if not given.is_bounded:
+        raise ScenarioError(f"{name}: {given} is no finite range to choose from; give a value")
+    return given.draw(generator)
+
+
+def outside(value: Any, domain: Domain | None) -> str:
     """Return what is wrong with a value that is not in its domain."""
-    if domain is None or domain.low <= value <= domain.high:
+    if domain is None or value in domain:
         return ""
-    return f"{value:g}: the scenario allows {domain.low:g} to {domain.high:g} (SI units)"
+    return f"{_text(value)}: the scenario allows {domain}"
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def fit(name: str, value: float | str, like: Any) -> Any:

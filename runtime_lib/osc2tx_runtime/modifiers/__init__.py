@@ -1,4 +1,4 @@
-"""Movement modifiers: how an action is to be carried out, or where an actor starts.
+"""Modifiers: how an action is to be carried out, where an actor starts, what roads are like.
 
 Each is a small value with the parameters of the DSL in their order. Numbers are SI floats, or
 functions that are called when the action starts. `MODIFIERS` lists all that have an effect. The
@@ -7,10 +7,32 @@ names of the DSL (`speed`, `lane`, ...) are those that scenarios import.
 
 from __future__ import annotations
 
-from .base import At, Modifier, Side, Value, value_of
-from .conduct import Along, AlongTrajectory, AvoidCollisions, PhysicalMovement, TowTrailer
+from .base import At, Modifier, MovementModifier, Side, Value, value_of
+from .conduct import (
+    Along,
+    AlongTrajectory,
+    AvoidCollisions,
+    OnPath,
+    PhysicalMovement,
+    TowTrailer,
+)
 from .lanes import ChangeLane, KeepLane, Lane, Lateral, LatMeasure
 from .places import Distance, KeepPosition, Location, Position
+from .roads import (
+    MAP_MODIFIERS,
+    CompoundLaneSide,
+    EndLane,
+    LaneSide,
+    MapModifier,
+    NumberOfLanes,
+    RoadsFollowInJunction,
+    RoutesAreInSequence,
+    RoutesAreOpposite,
+    RoutesOverlap,
+    SetMapFile,
+    SetTrafficLightsControlFile,
+    StartLane,
+)
 from .speeds import Acceleration, ChangeSpeed, KeepSpeed, Speed
 from .turns import Orient, Yaw
 
@@ -20,17 +42,29 @@ along_trajectory = AlongTrajectory
 avoid_collisions = AvoidCollisions
 change_lane = ChangeLane
 change_speed = ChangeSpeed
+compound_lane_side = CompoundLaneSide
 distance = Distance
+end_lane = EndLane
 keep_lane = KeepLane
 keep_position = KeepPosition
 keep_speed = KeepSpeed
 lane = Lane
+lane_side = LaneSide
 lateral = Lateral
 location = Location
+number_of_lanes = NumberOfLanes
+on_path = OnPath
 orientation = Orient
 physical_movement = PhysicalMovement
 position = Position
+roads_follow_in_junction = RoadsFollowInJunction
+routes_are_in_sequence = RoutesAreInSequence
+routes_are_opposite = RoutesAreOpposite
+routes_overlap = RoutesOverlap
+set_map_file = SetMapFile
+set_traffic_lights_control_file = SetTrafficLightsControlFile
 speed = Speed
+start_lane = StartLane
 tow_trailer = TowTrailer
 yaw = Yaw
 
@@ -56,11 +90,15 @@ MODIFIERS: dict[str, type[Modifier]] = {
         PhysicalMovement,
         AvoidCollisions,
         TowTrailer,
+        OnPath,
     )
 }
 """Modifiers that have an effect, by their name in the DSL."""
 
+MODIFIERS |= {each.name: each for each in MAP_MODIFIERS}
+
 __all__ = [
+    "MAP_MODIFIERS",
     "MODIFIERS",
     "Acceleration",
     "Along",
@@ -69,20 +107,34 @@ __all__ = [
     "AvoidCollisions",
     "ChangeLane",
     "ChangeSpeed",
+    "CompoundLaneSide",
     "Distance",
+    "EndLane",
     "KeepLane",
     "KeepPosition",
     "KeepSpeed",
     "Lane",
+    "LaneSide",
     "LatMeasure",
     "Lateral",
     "Location",
+    "MapModifier",
     "Modifier",
+    "MovementModifier",
+    "NumberOfLanes",
+    "OnPath",
     "Orient",
     "PhysicalMovement",
     "Position",
+    "RoadsFollowInJunction",
+    "RoutesAreInSequence",
+    "RoutesAreOpposite",
+    "RoutesOverlap",
+    "SetMapFile",
+    "SetTrafficLightsControlFile",
     "Side",
     "Speed",
+    "StartLane",
     "TowTrailer",
     "Value",
     "Yaw",
@@ -92,17 +144,29 @@ __all__ = [
     "avoid_collisions",
     "change_lane",
     "change_speed",
+    "compound_lane_side",
     "distance",
+    "end_lane",
     "keep_lane",
     "keep_position",
     "keep_speed",
     "lane",
+    "lane_side",
     "lateral",
     "location",
+    "number_of_lanes",
+    "on_path",
     "orientation",
     "physical_movement",
     "position",
+    "roads_follow_in_junction",
+    "routes_are_in_sequence",
+    "routes_are_opposite",
+    "routes_overlap",
+    "set_map_file",
+    "set_traffic_lights_control_file",
     "speed",
+    "start_lane",
     "tow_trailer",
     "value_of",
     "yaw",

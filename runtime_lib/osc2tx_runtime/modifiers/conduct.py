@@ -6,13 +6,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from .base import Modifier
+from .base import Modifier, MovementModifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Trailer
+    from osc2tx_runtime.road_parts import RoadPart, RoadPath
     from osc2tx_runtime.values import Path, Trajectory
 
-__all__ = ["Along", "AlongTrajectory", "AvoidCollisions", "PhysicalMovement", "TowTrailer"]
+__all__ = [
+    "Along",
+    "AlongTrajectory",
+    "AvoidCollisions",
+    "OnPath",
+    "PhysicalMovement",
+    "TowTrailer",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,29 +34,41 @@ class PhysicalMovement(Modifier):
 
 
 @dataclass(frozen=True, slots=True)
-class Along(Modifier):
-    """A path to move along.
+class Along(MovementModifier):
+    """A path to move along, or a route of the map; then in its lanes, from wherever one is.
 
     Attributes:
-        route: The path.
+        route: The path or route.
         start_offset: Metres of it that are left out at its start.
         end_offset: Metres that are left out at its end.
     """
 
     name = "along"
-    route: Path | Callable[[], Path]
+    route: Path | RoadPart | Callable[[], Path]
     start_offset: float = 0.0
     end_offset: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
-class AlongTrajectory(Modifier):
+class AlongTrajectory(MovementModifier):
     """A trajectory to move along; offsets as for `along`."""
 
     name = "along_trajectory"
     trajectory: Trajectory | Callable[[], Trajectory]
     start_offset: float = 0.0
     end_offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class OnPath(Modifier):
+    """Starts on a piece of road, wherever there is room if nothing else says where.
+
+    Attributes:
+        path: The piece of road.
+    """
+
+    name = "on_path"
+    path: RoadPath
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.argument_rules import at_least, at_least_one, at_most_one
 
-from .base import At, Modifier, Side, Value, at_most_one, value_of
+from .base import Modifier, MovementModifier, Side, Value, band_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject, Vehicle
+    from osc2tx_runtime.behaviour.parameters import Range
+    from osc2tx_runtime.shapes import CommonLateralShape
 
 LatMeasure = Literal[
     "left_to_left",
@@ -30,7 +33,7 @@ __all__ = ["ChangeLane", "KeepLane", "Lane", "LatMeasure", "Lateral"]
 
 
 @dataclass(frozen=True, slots=True)
-class Lane(Modifier):
+class Lane(MovementModifier):
     """A lane.
 
     Attributes:
@@ -39,23 +42,22 @@ class Lane(Modifier):
         side_of: Actor beside whose lane it is.
         side: On which side of it.
         from_: Edge from which lanes are counted, in direction of travel; the outermost is 1.
-        at: When it holds.
+        shape: Course of the lateral speed on the way there.
     """
 
     name = "lane"
+    rules = (
+        at_most_one("same_as", "side_of"),
+        at_least_one("side", when=["side_of"]),
+        at_least(1, "lane", unless=["side_of"]),  # the outermost one is 1
+        at_least(0, "lane", when=["side_of"]),
+    )
     lane: int | None = None
     same_as: PhysicalObject | None = None
     side_of: PhysicalObject | None = None
     side: Side | None = None
     from_: Side = "right"
-    at: At = "all"
-
-    def __post_init__(self) -> None:
-        at_most_one("lane: same_as, side_of", self.same_as, self.side_of)
-        if self.side_of is not None and self.side is None:
-            raise ScenarioError("lane: side_of needs a side, left or right")
-        if self.number < (0 if self.side_of is not None else 1):
-            raise ScenarioError(f"lane: {self.number} is no lane; the outermost one is 1")
+    shape: CommonLateralShape | None = None
 
     @property
     def number(self) -> int:
@@ -69,38 +71,58 @@ class Lane(Modifier):
 
 
 @dataclass(frozen=True, slots=True)
-class Lateral(Modifier):
+class Lateral(MovementModifier):
     """Place across the lane, or beside another actor.
 
     Attributes:
         distance: Metres to the left, unless `side` says right.
+        distance_range: Instead of it: what it may be at any time.
         side_of: Actor from which the distance counts; None: the centre of the lane.
         side: To which side the distance points.
         measure_by: Own edge `to` edge of the reference (of the lane without `side_of`); `closest`:
             between the facing sides.
-        at: When it holds.
+        shape: Course of the lateral speed on the way there, and a distance if none is given here.
     """
 
     name = "lateral"
-    distance: Value = 0.0
+    rules = (
+        at_most_one("distance", "distance_range"),
+        at_least_one("side_of", when=["measure_by"], values=["closest"]),
+    )
+    distance: Value | None = None
+    distance_range: Range[float] | Callable[[], Range[float]] | None = None
     side_of: Vehicle | None = None
     side: Side = "left"
     measure_by: LatMeasure = "center_to_center"
-    at: At = "all"
+    shape: CommonLateralShape | None = None
 
     @property
     def reference(self) -> Vehicle | None:
         """The actor it is relative to."""
         return self.side_of
 
-    def offset(self, own_width: float = 0.0, other_width: float = 0.0) -> float:
-        """How far (m) the own centre is to be left of that of the reference, now.
+    def offsets(self, own_width: float = 0.0, other_width: float = 0.0) -> tuple[float, float]:
+        """How far (m) the own centre may be left of that of the reference, now.
 
         Args:
             own_width: Width of the actor (m).
             other_width: Width of the reference or of the lane (m).
+
+        Returns:
+            The least and the greatest value; both the same without a range.
         """
-        value = value_of(self.distance)
+        low, high = band_of(self.distance, self.distance_range)
+        if self.distance is None and self.distance_range is None and self.shape is not None:
+            low = high = self.shape.target or 0.0
+        ends = [self._offset(value, own_width, other_width) for value in (low, high)]
+        return min(ends), max(ends)
+
+    def offset(self, own_width: float, other_width: float, now: float) -> float:
+        """The allowed place (m) that is nearest to the present one; arguments as above."""
+        low, high = self.offsets(own_width, other_width)
+        return min(max(now, low), high)
+
+    def _offset(self, value: float, own_width: float, other_width: float) -> float:
         left = -value if self.side == "right" else value
         if self.measure_by == "closest":
             reach = 0.5 * (own_width + other_width)
@@ -110,13 +132,19 @@ class Lateral(Modifier):
 
 
 @dataclass(frozen=True, slots=True)
-class ChangeLane(Modifier):
-    """Lanes to the side of the lane at the start of the action; no side: drawn from the seed."""
+class ChangeLane(MovementModifier):
+    """Lanes to the side of the lane at the start of the action.
+
+    Attributes:
+        lane: How many.
+        side: To which side; None: drawn from the seed.
+        shape: Course of the lateral speed on the way there.
+    """
 
     name = "change_lane"
     lane: int = 1
     side: Side | None = None
-    at: At = "all"
+    shape: CommonLateralShape | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,27 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.argument_rules import at_least_one, at_most_one, none_of
 
-from .base import At, Modifier, Value, at_most_one, upright
+from .base import Modifier, MovementModifier, Value, band_of, upright
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
+    from osc2tx_runtime.behaviour.parameters import Range
     from osc2tx_runtime.values import Point, Pose
+
+REFERENCES = ("ahead_of", "behind", "ahead_of_point", "behind_point")
 
 __all__ = ["Distance", "KeepPosition", "Location", "Position"]
 
 
 @dataclass(frozen=True, slots=True)
-class Position(Modifier):
+class Position(MovementModifier):
     """Place along the road, or in the world.
 
     Attributes:
         distance: Metres ahead of or behind a reference, else from the start of the road.
         time: Seconds times the speed of the one behind, instead of a distance.
+        distance_range: Instead of a distance: what it may be at any time.
+        time_range: Instead of a time: what it may be at any time.
         ahead_of: Reference.
         behind: Reference.
         ahead_of_point: Reference point in the world, projected on the road.
@@ -35,12 +41,22 @@ class Position(Modifier):
         project_on_route: `at_point` only says how far along the road and on which lane; False:
             the actor is at the point itself.
         frame: `carla`: left-handed, y and heading with the opposite sign, box centre.
-        at: When it holds.
     """
 
     name = "position"
+    rules = (
+        at_most_one("ahead_of", "behind", "ahead_of_point", "behind_point"),
+        at_most_one("distance", "time", "distance_range", "time_range", "at_point", "x"),
+        at_least_one("distance", "time", "distance_range", "time_range", "at_point", "x"),
+        none_of(*REFERENCES, when=["at_point", "x"]),
+        at_least_one("ahead_of", "behind", when=["time", "time_range"]),
+        at_least_one("y", when=["x"]),
+        at_least_one("x", when=["y"]),
+    )
     distance: Value | None = None
     time: Value | None = None
+    distance_range: Range[float] | Callable[[], Range[float]] | None = None
+    time_range: Range[float] | Callable[[], Range[float]] | None = None
     ahead_of: PhysicalObject | None = None
     behind: PhysicalObject | None = None
     ahead_of_point: Point | None = None
@@ -52,27 +68,6 @@ class Position(Modifier):
     z: float | None = None
     h: float | None = None
     frame: Literal["world", "carla"] = "world"
-    at: At = "all"
-
-    def __post_init__(self) -> None:
-        at_most_one(
-            "position: ahead_of, behind, ahead_of_point, behind_point",
-            self.ahead_of,
-            self.behind,
-            self.ahead_of_point,
-            self.behind_point,
-        )
-        at_most_one(
-            "position: distance, time, at_point, x", self.distance, self.time, self.at_point, self.x
-        )
-        if self.distance is None and self.time is None and not self.absolute:
-            raise ScenarioError("position: give a distance, a time or a point")
-        if self.absolute and (self.reference is not None or self.reference_point is not None):
-            raise ScenarioError("position: a point in the world leaves no room for a reference")
-        if self.time is not None and self.reference is None:
-            raise ScenarioError("position: a time needs ahead_of or behind")
-        if (self.x is None) != (self.y is None):
-            raise ScenarioError("position: give both x and y")
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -90,6 +85,17 @@ class Position(Modifier):
         return self.ahead_of is not None or self.ahead_of_point is not None
 
     @property
+    def timed(self) -> bool:
+        """True if a time says how far it is."""
+        return self.time is not None or self.time_range is not None
+
+    def size(self) -> tuple[float, float]:
+        """Least and greatest distance (m) or time (s) now; both the same without a range."""
+        if self.timed:
+            return band_of(self.time, self.time_range)
+        return band_of(self.distance, self.distance_range)
+
+    @property
     def absolute(self) -> bool:
         """True for a point in the world."""
         return self.at_point is not None or self.x is not None
@@ -103,6 +109,7 @@ class Location(Modifier):
     pose: Pose
 
     def __post_init__(self) -> None:
+        Modifier.__post_init__(self)
         upright("location", self.pose.pitch, self.pose.roll)
 
 
@@ -114,7 +121,7 @@ class KeepPosition(Modifier):
 
 
 @dataclass(frozen=True, slots=True)
-class Distance(Modifier):
+class Distance(MovementModifier):
     """Way (m) covered during the action: it ends then, or takes exactly its duration for it."""
 
     name = "distance"

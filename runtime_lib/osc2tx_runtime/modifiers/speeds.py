@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from osc2tx_runtime.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.errors import ScenarioError
 
-from .base import At, Modifier, Value, at_most_one, value_of
+from .base import Modifier, MovementModifier, Value, band_of, course_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
+    from osc2tx_runtime.behaviour.parameters import Range
+    from osc2tx_runtime.shapes import CommonAccelerationShape, CommonSpeedShape
     from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]
 
 
 @dataclass(frozen=True, slots=True)
-class Speed(Modifier):
+class Speed(MovementModifier):
     """Speed, absolute or relative to another actor.
 
     Attributes:
         speed: Speed, or difference to the reference (m/s); subtracted for `slower_than`.
+        speed_range: Instead of it: what it may be at any time.
         faster_than: Reference.
         slower_than: Reference.
         same_as: Reference.
@@ -29,11 +34,19 @@ class Speed(Modifier):
         factor: Multiplies the speed of the reference.
         rate_profile: Course of the acceleration.
         rate_peak: Peak of the acceleration (m/s^2).
-        at: When it holds.
+        shape: Both, and a speed if none is given here.
     """
 
     name = "speed"
+    rules = (
+        at_most_one("speed", "speed_range"),
+        at_most_one("faster_than", "slower_than", "same_as"),
+        at_least_one("speed", "speed_range", "faster_than", "slower_than", "same_as", "shape"),
+        at_most_one("shape", "rate_profile"),
+        at_most_one("shape", "rate_peak"),
+    )
     speed: Value | None = None
+    speed_range: Range[float] | Callable[[], Range[float]] | None = None
     faster_than: PhysicalObject | None = None
     slower_than: PhysicalObject | None = None
     same_as: PhysicalObject | None = None
@@ -41,36 +54,72 @@ class Speed(Modifier):
     factor: float = 1.0
     rate_profile: DynamicProfile = "none"
     rate_peak: float | None = None
-    at: At = "all"
+    shape: CommonSpeedShape | None = None
 
     def __post_init__(self) -> None:
-        at_most_one(
-            "speed: faster_than, slower_than, same_as",
-            self.faster_than,
-            self.slower_than,
-            self.same_as,
-        )
-        if self.speed is None and self.reference is None:
-            raise ScenarioError("speed: give a speed or a reference")
+        MovementModifier.__post_init__(self)
+        target = None if self.shape is None else self.shape.target
+        if all(v is None for v in (self.speed, self.speed_range, self.reference, target)):
+            raise ScenarioError("speed: the shape has no target, so give a speed or a reference")
 
     @property
     def reference(self) -> PhysicalObject | None:
         """The actor it is relative to."""
         return self.faster_than or self.slower_than or self.same_as
 
-    def difference(self) -> float:
-        """Signed value (m/s) now: the speed, or what is added to that of the reference."""
-        value = 0.0 if self.speed is None else value_of(self.speed)
-        return -value if self.slower_than is not None else value
+    def _own_course(self) -> tuple[DynamicProfile, float | None] | None:
+        given = self.rate_profile != "none" or self.rate_peak is not None
+        return (self.rate_profile, self.rate_peak) if given else None
+
+    @property
+    def course(self) -> tuple[DynamicProfile, float | None]:
+        """Profile and peak of the acceleration (m/s^2)."""
+        return self._own_course() or course_of(self.shape)
+
+    @property
+    def shaped(self) -> bool:
+        """Whether it says how the speed is to be reached."""
+        return self.course != ("none", None)
+
+    def difference(self) -> tuple[float, float]:
+        """Least and greatest value (m/s) now: of the speed, or of what is added to another's."""
+        if self.speed is None and self.speed_range is None and self.shape is not None:
+            target = self.shape.target or 0.0
+            return target, target
+        low, high = band_of(self.speed, self.speed_range)
+        return (-high, -low) if self.slower_than is not None else (low, high)
 
 
 @dataclass(frozen=True, slots=True)
-class ChangeSpeed(Modifier):
-    """Speed relative to that at the start of the action (m/s)."""
+class ChangeSpeed(MovementModifier):
+    """Speed relative to that at the start of the action.
+
+    Attributes:
+        speed: Difference (m/s).
+        speed_range: Instead of it: what the difference may be.
+        shape: How to get there.
+    """
 
     name = "change_speed"
-    speed: Value = 0.0
-    at: At = "all"
+    rules = (
+        at_most_one("speed", "speed_range"),
+        at_least_one("speed", "speed_range", "shape"),
+    )
+    speed: Value | None = None
+    speed_range: Range[float] | Callable[[], Range[float]] | None = None
+    shape: CommonSpeedShape | None = None
+
+    @property
+    def course(self) -> tuple[DynamicProfile, float | None]:
+        """Profile and peak of the acceleration (m/s^2)."""
+        return course_of(self.shape)
+
+    def difference(self) -> tuple[float, float]:
+        """Least and greatest value (m/s) now."""
+        if self.speed is None and self.speed_range is None and self.shape is not None:
+            target = self.shape.target or 0.0
+            return target, target
+        return band_of(self.speed, self.speed_range)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,15 +130,30 @@ class KeepSpeed(Modifier):
 
 
 @dataclass(frozen=True, slots=True)
-class Acceleration(Modifier):
+class Acceleration(MovementModifier):
     """Rate of change of the speed.
+
+    `at`: `all` from the start on; `start` then, and falling to zero afterwards; `end` reached at
+    the end of the action, or ends it.
 
     Attributes:
         acceleration: m/s^2; how fast a speed is reached if one is given as well.
-        at: `all`: from the start on; `start`: then, and falling to zero afterwards; `end`: reached
-            at the end of the action, or ends it.
+        acceleration_range: Instead of it: what it may be at any time.
+        shape: Course of its change, and a value if none is given here.
     """
 
     name = "acceleration"
-    acceleration: Value = 0.0
-    at: At = "all"
+    rules = (
+        at_most_one("acceleration", "acceleration_range"),
+        at_least_one("acceleration", "acceleration_range", "shape"),
+    )
+    acceleration: Value | None = None
+    acceleration_range: Range[float] | Callable[[], Range[float]] | None = None
+    shape: CommonAccelerationShape | None = None
+
+    def value(self, now: float) -> float:
+        """The allowed acceleration (m/s^2) that is nearest to the present one."""
+        if self.acceleration is None and self.acceleration_range is None and self.shape is not None:
+            return self.shape.target or 0.0
+        low, high = band_of(self.acceleration, self.acceleration_range)
+        return min(max(now, low), high)

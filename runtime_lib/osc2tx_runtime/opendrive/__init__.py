@@ -8,7 +8,8 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
 * `network`: which lane follows which; `lane_line`: arc length along a lane.
 * `motion`: moving along lanes; `routes`: distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `projection`: back to a lane.
-* `outlines`: drawing and default start places; `signals`, `errors`: value types.
+* `outlines`: drawing and default start places; `signal_places`: where signals hold;
+  `signals`, `errors`: value types.
 
 Invariants: SI units, right-handed coordinates, headings in (-pi, pi]. Results do not depend on
 set order, platform hash seeds or the order of queries. Distances are measured on the xy plane.
@@ -32,6 +33,7 @@ from .model import (
 )
 from .road_map import RoadMap, read_map, read_map_text
 from .routes import Route
+from .signal_places import SignalPlace, signal_places
 from .signals import Controller, Signal, SignalReference
 
 __all__ = [
@@ -51,7 +53,9 @@ __all__ = [
     "RoadMap",
     "Route",
     "Signal",
+    "SignalPlace",
     "SignalReference",
     "read_map",
     "read_map_text",
+    "signal_places",
 ]

@@ -80,6 +80,11 @@ class AccelerationRun:
             return Progress(False, f"it stands before its acceleration is {end:g} m/s^2")
         return PENDING
 
+    @property
+    def acceleration(self) -> float:
+        """Acceleration (m/s^2) at the present step."""
+        return 0.0 if self._standing else self._profile.value(self._time)
+
 
 def _integral(profile: Linear | Quintic, t: float) -> float:
     """Integral of a profile from 0 to t; beyond its duration with its end value."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 
 from .catalogue import COMFORT, Limits
-from .commands import Beside, Sideways
+from .commands import Beside, Sideways, Slant
 from .distances import side_gap
+from .guidance import rate_to_place_and_speed
 from .lateral_limits import SIDEWAYS
 from .protocol import PENDING, REACHED, Progress
 from .senses import Senses
 from .state import ActorState
+from .tracking import Tracked
 
 __all__ = ["BesideRun", "SidewaysRun"]
 
@@ -21,10 +23,11 @@ _STEPS = 4  # steps for which it must stay so
 
 
 class SidewaysRun:
-    """A constant speed across the lane, as far as the heading allows."""
+    """A constant speed across the lane, or a constant heading, as far as the heading allows."""
 
-    def __init__(self, command: Sideways) -> None:
-        self._speed = command.speed
+    def __init__(self, command: Sideways | Slant) -> None:
+        self._speed = command.speed if isinstance(command, Sideways) else 0.0
+        self._share = math.sin(command.angle) if isinstance(command, Slant) else 0.0
         self._reached = False
 
     def offset_after(
@@ -32,8 +35,9 @@ class SidewaysRun:
     ) -> tuple[float, float]:
         """One step to the side."""
         room = abs(path) * SIDEWAYS / senses.dt
-        speed = min(max(self._speed, -room), room)
-        self._reached = speed == self._speed
+        wanted = self._speed + self._share * path / senses.dt
+        speed = min(max(wanted, -room), room)
+        self._reached = speed == wanted
         return offset + speed * senses.dt, speed
 
     def progress(self) -> Progress:
@@ -46,40 +50,71 @@ class BesideRun:
 
     def __init__(self, command: Beside, limits: Limits, rate: float) -> None:
         self._command = command
-        self._limit = COMFORT * limits.lateral
+        self._limits = limits
         self._speed = rate
+        self._other = Tracked(command.reference, command.projected)
         self._settled = 0
+        self._steps: int | None = None  # to go, where there is a time
         self._failed: str | None = None
 
     def offset_after(
         self, offset: float, path: float, me: ActorState, senses: Senses
     ) -> tuple[float, float]:
         """A step at the lateral speed that closes the error, within the limits."""
-        command = self._command
-        other = senses.state(command.reference)
+        command, dt = self._command, senses.dt
+        other = self._other.state(senses)
         to_left = senses.aside(me, other)
         if to_left is None:
             self._failed = f"there is no way along lanes to {command.reference}"
             return offset, 0.0
-        if command.left is not None:
-            error = command.left + to_left  # it is `-to_left` left of the other one
-            speed = min(_RATE * abs(error), math.sqrt(2.0 * self._limit * abs(error)))
-            wanted = other.lateral_speed + math.copysign(speed, error)
-            near = abs(error) < _NEAR and abs(self._speed - wanted) < 4.0 * _RATE_NEAR
-        else:
+        if self._steps is None and command.duration is not None:
+            self._steps = max(round(command.duration / dt), 1)
+        error = 0.0
+        if command.left is None:
             gap = side_gap(to_left, me.shape, other.shape)
-            wanted = other.lateral_speed - gap / (command.time or senses.dt)
-            near = abs(self._speed - wanted) < _RATE_NEAR
-        self._settled = self._settled + 1 if near else 0
-        change = self._limit * senses.dt
-        speed = min(max(wanted, self._speed - change), self._speed + change)
-        room = abs(path) * SIDEWAYS / senses.dt
+            wanted = other.lateral_speed - gap / (command.time or dt)
+            self._note(abs(self._speed - wanted) < _RATE_NEAR)
+        else:
+            own = -to_left  # so far it is left of the other one
+            error = min(max(own, command.left), command.left + command.spread) - own
+            wanted = self._towards(error, other.lateral_speed, dt)
+        limit = self._limits.lateral * (1.0 if self._steps else COMFORT)
+        speed = min(max(wanted, self._speed - limit * dt), self._speed + limit * dt)
+        room = abs(path) * SIDEWAYS / dt
         speed = min(max(speed, -room), room)
-        moved = 0.5 * (self._speed + speed) * senses.dt
-        moved = min(max(moved, -room * senses.dt), room * senses.dt)
+        moved = 0.5 * (self._speed + speed) * dt
+        moved = min(max(moved, -room * dt), room * dt)
         self._speed = speed
+        if self._steps:
+            self._steps -= 1
+            self._judge(error + other.lateral_speed * dt - moved)
         return offset + moved, speed
 
+    def _towards(self, error: float, moving: float, dt: float) -> float:
+        """The lateral speed (m/s) that brings it nearer to its place."""
+        if self._steps:
+            missing = error - (self._speed - moving) * self._steps * dt
+            change = moving - self._speed
+            return self._speed + dt * rate_to_place_and_speed(self._steps, dt, missing, change)
+        rate = min(_RATE * abs(error), math.sqrt(2.0 * COMFORT * self._limits.lateral * abs(error)))
+        wanted = moving + math.copysign(rate, error)
+        if self._steps is None:
+            self._note(abs(error) < _NEAR and abs(self._speed - wanted) < 4.0 * _RATE_NEAR)
+        return wanted
+
+    def _note(self, near: bool) -> None:
+        self._settled = self._settled + 1 if near else 0
+
+    def _judge(self, missed: float) -> None:
+        """Whether it is there when its time is over."""
+        if self._steps == 0:
+            self._settled = _STEPS
+            if abs(missed) > _NEAR:
+                self._failed = (
+                    f"when its time is over it is {abs(missed):.2f} m from its place beside"
+                    f" {self._command.reference}"
+                )
+
     def progress(self) -> Progress:
-        """Done when the distance has been held for some steps."""
+        """Done when the distance has been held for some steps, or at its time."""
         return Progress(self._settled >= _STEPS, self._failed)

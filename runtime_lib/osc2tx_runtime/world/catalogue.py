@@ -14,6 +14,7 @@ __all__ = [
     "COMFORT",
     "MODELS",
     "RATE_CAP",
+    "TYRES",
     "VEHICLE_CATEGORIES",
     "Limits",
     "Shape",
@@ -64,13 +65,18 @@ class Limits:
         deceleration: Largest loss of speed (m/s^2).
         jerk: Largest change of acceleration (m/s^3).
         lateral: Largest lateral acceleration of a lane change (m/s^2).
+        road: What the road has to do with it, for messages: " on a wet road".
     """
 
     acceleration: float
     deceleration: float
     jerk: float = 10.0
     lateral: float = 3.0
+    road: str = ""
 
+
+TYRES = Limits(RATE_CAP, RATE_CAP)
+"""What not even those keep to who need not keep to the limits of their vehicle."""
 
 CAR_LIMITS = Limits(4.0, 8.0)
 TRUCK_LIMITS = Limits(1.5, 6.0, lateral=2.5)

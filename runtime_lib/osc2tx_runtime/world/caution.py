@@ -1,9 +1,9 @@
-"""Not running into what is ahead: the interaction term of the intelligent-driver model.
+"""Driving with care: not running into what is ahead, and stopping at red lights.
 
-The acceleration is at most a (1 - (g*/g)^2) with the wanted gap
-g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being comfortable values of the actor.
-Without anybody ahead the inner command acts unchanged, so its closed forms stay exact.
-Deterministic; reads the snapshot only.
+For others ahead: the interaction term of the intelligent-driver model. The acceleration is at most
+a (1 - (g*/g)^2) with the wanted gap g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being
+comfortable values of the actor. For lights see `red_lights`. With a free road the inner command
+acts unchanged, so its closed forms stay exact. Deterministic; reads the snapshot only.
 """
 
 from __future__ import annotations
@@ -11,9 +11,12 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
+from osc2tx_runtime.opendrive import Route
+
 from .catalogue import COMFORT, Limits
 from .commands import Careful
 from .protocol import REACHED, Progress
+from .red_lights import RedLights
 from .senses import Senses
 from .state import ActorState
 
@@ -43,31 +46,45 @@ class Hold:
 
 
 class Cautious:
-    """Another command, slowed down behind others.
+    """Another command, slowed down behind others and before red lights.
 
     While it is slower than the inner command wants, that one's time goes on; afterwards the actor
     gains speed with a comfortable acceleration until it has caught up with the wanted speed.
+
+    Args:
+        command: What to keep clear of.
+        inner: The other command; None holds the speed.
+        speed: Present speed (m/s).
+        limits: Of the actor.
+        route: Its way at forks.
     """
 
     def __init__(
-        self, command: Careful, inner: _Inner | None, speed: float, limits: Limits
+        self,
+        command: Careful,
+        inner: _Inner | None,
+        speed: float,
+        limits: Limits,
+        route: Route | None = None,
     ) -> None:
         self._inner = inner or Hold(speed)
         self._headway, self._gap = command.headway, command.gap
         self._limits = limits
+        self._lights = RedLights(limits, route)
         self._held = False
 
     def speed_after(self, me: ActorState, senses: Senses) -> float:
-        """The inner speed, or what the one ahead leaves room for."""
-        wanted = self._inner.speed_after(me, senses)
+        """The inner speed, or what others and lights leave room for."""
+        speed = wanted = self._inner.speed_after(me, senses)
         found = senses.obstacle(me)
-        if found is None and not self._held:
-            return wanted
-        comfort = COMFORT * self._limits.acceleration
-        rise = comfort if found is None else self._acceleration(me.v, found)
-        allowed = max(me.v + max(rise, -self._limits.deceleration) * senses.dt, 0.0)
-        self._held = allowed < wanted
-        return min(wanted, allowed)
+        if found is not None or self._held:
+            rise = COMFORT * self._limits.acceleration
+            if found is not None:
+                rise = max(self._acceleration(me.v, found), -self._limits.deceleration)
+            speed = min(wanted, max(me.v + rise * senses.dt, 0.0))
+        speed = self._lights.allowed(me, speed, senses)
+        self._held = speed < wanted
+        return speed
 
     def _acceleration(self, speed: float, found: tuple[float, float]) -> float:
         gap, other = found
@@ -78,6 +95,6 @@ class Cautious:
         return a * (1.0 - (wanted / max(gap, _LEAST_GAP)) ** 2)
 
     def progress(self) -> Progress:
-        """That of the inner command; not reached while somebody is in the way."""
+        """That of the inner command; not reached while something is in the way."""
         progress = self._inner.progress()
         return Progress(progress.done and not self._held, progress.failed)

@@ -9,16 +9,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_runtime.opendrive import LanePosition
+
 from .curve import Curve
 from .profiles import DynamicProfile
 
 __all__ = [
     "Accelerate",
     "AccelerationChange",
+    "Arrive",
     "Beside",
     "Careful",
     "Command",
     "FollowCourse",
+    "FollowRoute",
     "FollowSpeed",
     "GapMeasure",
     "KeepGap",
@@ -29,6 +33,7 @@ __all__ = [
     "ReplayCourse",
     "ReplayTrajectory",
     "Sideways",
+    "Slant",
     "SpeedChange",
     "Standstill",
     "Turn",
@@ -66,11 +71,11 @@ class Accelerate(Command):
     """Longitudinal: a constant acceleration (m/s^2); ends at standstill.
 
     Attributes:
-        acceleration: m/s^2.
+        acceleration: m/s^2; None: the present one.
         start: Speed to begin with (m/s), at once; None: the present one.
     """
 
-    acceleration: float
+    acceleration: float | None
     start: float | None = None
 
 
@@ -125,11 +130,19 @@ class KeepSchedule(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FollowSpeed(Command):
-    """Longitudinal: speed of another actor times `factor` plus `difference` (m/s)."""
+    """Longitudinal: speed of another actor times `factor` plus `difference` (m/s).
+
+    Attributes:
+        reference: The other actor.
+        factor: Multiplies its speed.
+        difference: Least difference (m/s).
+        spread: How much more (m/s) the difference may be.
+    """
 
     reference: str
     factor: float = 1.0
     difference: float = 0.0
+    spread: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,6 +155,8 @@ class KeepGap(Command):
         measure: Between facing ends ("gap"), fronts ("headway") or reference points.
         distance: Metres; exclusive with `time`.
         time: Seconds times the speed of the trailing one.
+        spread: How much more (m or s) it may be.
+        projected: The other one counts as if it went on as it does at the start.
     """
 
     reference: str
@@ -149,6 +164,25 @@ class KeepGap(Command):
     measure: GapMeasure = "gap"
     distance: float | None = None
     time: float | None = None
+    spread: float = 0.0
+    projected: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Arrive(Command):
+    """Longitudinal: be somewhere after a time, at a speed of its own if one is given.
+
+    Attributes:
+        duration: Seconds.
+        way: Metres to cover until then; exclusive with `gap`.
+        gap: Place relative to another actor.
+        speed: Speed at the end: a number (m/s), or relative to an actor; None: any.
+    """
+
+    duration: float
+    way: float | None = None
+    gap: KeepGap | None = None
+    speed: float | FollowSpeed | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -205,6 +239,13 @@ class Sideways(Command):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Slant(Command):
+    """Lateral: a heading (rad) against the lane, counter-clockwise."""
+
+    angle: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Beside(Command):
     """Lateral: reach and hold a distance across the lane to another actor.
 
@@ -213,11 +254,17 @@ class Beside(Command):
         left: Metres that the own reference point is to be left of the other one.
         time: Instead: seconds in which the sides would meet at the lateral speed; the actor
             approaches the reference with the gap over this time.
+        spread: How many metres more to the left it may be.
+        projected: The other one counts as if it went on as it does at the start.
+        duration: Seconds after which the distance is to be reached; None: as is comfortable.
     """
 
     reference: str
     left: float | None = None
     time: float | None = None
+    spread: float = 0.0
+    projected: bool = False
+    duration: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -233,6 +280,17 @@ class FollowCourse(Command):
     curve: Curve
     begin: float
     end: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowRoute(Command):
+    """Lateral: stay in the lane, and take the branches that lead to a place.
+
+    Attributes:
+        goal: The place; any lane beside it will do.
+    """
+
+    goal: LanePosition
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
+from .catalogue import Limits
 from .collision import Box, box_of, swept_contacts
 from .commands import Command, Standstill
 from .distances import along_lanes, lateral_on_road
+from .environment import Lights, Surroundings
+from .friction import grip
 from .motion import Body
 from .obstacles import nearest_ahead
 from .protocol import (
     LONGITUDINAL,
-    LOW_BEAM_SUN_ELEVATION,
     ActorSpec,
     LightMode,
     LightState,
     Progress,
 )
+from .signals import Signals
 from .state import ActorState
+from .stop_lines import StopLine, StopLines
 from .towing import drawn
+from .tracking import projected
+from .wheels import Wheels
 
 __all__ = ["EmbeddedWorld"]
 
@@ -30,9 +35,11 @@ _CAPABILITIES = frozenset(
     {
         "Accelerate",
         "AccelerationChange",
+        "Arrive",
         "Beside",
         "Careful",
         "FollowCourse",
+        "FollowRoute",
         "FollowSpeed",
         "KeepGap",
         "KeepLane",
@@ -42,6 +49,7 @@ _CAPABILITIES = frozenset(
         "ReplayCourse",
         "ReplayTrajectory",
         "Sideways",
+        "Slant",
         "SpeedChange",
         "Standstill",
         "Turn",
@@ -51,6 +59,7 @@ _CAPABILITIES = frozenset(
         "collisions",
         "environment",
         "lights",
+        "signals",
         "trailers",
     }
 )
@@ -62,20 +71,21 @@ class EmbeddedWorld:
     Attributes:
         map: The road map.
         dt: Length of a step (s).
+        signals: The traffic lights.
     """
 
     def __init__(self, road_map: RoadMap, dt: float = 0.05) -> None:
         self.map = road_map
         self.dt = dt
+        self.signals = Signals(road_map)
+        self._stop_lines = StopLines(road_map, self.signals)
         self._specs: dict[str, ActorSpec] = {}
         self._bodies: dict[str, Body] = {}
         self._boxes: list[Box] = []
         self._assigned: dict[str, dict[str, float | LanePosition | Pose]] = {}
         self._towed: dict[str, str] = {}  # towing vehicle to trailer
-        self._lights: dict[str, LightState] = {}
-        self._next_lights: dict[str, LightState] = {}
-        self._environment: dict[str, float] = {}
-        self._next_environment: dict[str, float] = {}
+        self._lights = Lights()
+        self._surroundings = Surroundings()
         self._touching: frozenset[tuple[int, int]] = frozenset()
         self._collisions: tuple[tuple[str, str], ...] = ()
 
@@ -99,13 +109,15 @@ class EmbeddedWorld:
             pose = Pose(pose.x, pose.y, pose.z, heading)
         unplaced = ActorState(pose.x, pose.y, pose.z, pose.h, 0.0, 0.0, None, 0.0, spec.shape)
         body = Body(spec, unplaced, None)
+        if spec.shape.wheelbase > 0.0:
+            body.wheels = Wheels(self._surroundings.road)
         if spec.lane_bound and isinstance(at, LanePosition):
             body.state = body.rebind(at, speed, self.map)
         else:
             body.state = body.free_state(pose, speed, 0.0, self.map)
         self._bodies[actor] = body
         self._bodies = {each: self._bodies[each] for each in self._specs if each in self._bodies}
-        self._lights[actor] = self._next_lights[actor] = LightState()
+        self._lights.add(actor)
         self._boxes = [box_of(each.state) for each in self._bodies.values()]
 
     def actors(self) -> tuple[str, ...]:
@@ -123,6 +135,10 @@ class EmbeddedWorld:
         body = self._bodies.get(actor)
         return self._body(actor).state if body is None else body.state
 
+    def projected(self, state: ActorState, seconds: float) -> ActorState:
+        """Where an actor would be after some time if it went on in its lane at its speed."""
+        return projected(self.map, state, seconds)
+
     def along(self, a: ActorState, b: ActorState) -> float | None:
         """Route distance (m) from a to b; None if not connected."""
         return along_lanes(self.map, a, b)
@@ -133,7 +149,25 @@ class EmbeddedWorld:
 
     def obstacle(self, me: ActorState) -> tuple[float, float] | None:
         """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
-        return nearest_ahead(self.map, me, [body.state for body in self._bodies.values()])
+        others = [body.state for body in self._bodies.values()]
+        return nearest_ahead(self.map, me, others, self._surroundings.sight)
+
+    def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
+        """First line within so many metres at which a light asks to stop; None if none does."""
+        place = me.lane_position
+        if place is None or not self.signals.lit():
+            return None
+        sight = me.shape.front + self._surroundings.sight
+        return self._stop_lines.ahead(place, route, me.shape.front, min(reach, sight))
+
+    def grip(self, me: ActorState) -> float:
+        """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""
+        return grip(self._surroundings.road)
+
+    def limits(self, actor: str, *, of_vehicle: bool = True) -> Limits:
+        """What an actor can do on the road as it is; without its own limits what tyres can."""
+        body = self._body(actor)
+        return body.limits if of_vehicle else body.tyres
 
     def progress(self, actor: str, slot: str) -> Progress:
         """Progress of the command in a slot."""
@@ -142,11 +176,11 @@ class EmbeddedWorld:
 
     def lights(self, actor: str) -> LightState:
         """Lights at the present step."""
-        return self._lights.get(actor, LightState())
+        return self._lights.of(actor)
 
     def environment(self) -> Mapping[str, float]:
         """Environment at the present step."""
-        return MappingProxyType(self._environment)
+        return self._surroundings.values
 
     def collisions(self) -> Sequence[tuple[str, str]]:
         """Pairs of actors (ids sorted) whose contact began during the last step, sorted."""
@@ -199,25 +233,15 @@ class EmbeddedWorld:
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
         """Switches lights from the next step on; returns what they will be."""
         self._body(actor)
-        lights = LightState(mode, self._automatic() if mode == "auto" else mode)
-        self._next_lights[actor] = lights
-        return lights
+        return self._lights.switch(actor, mode, self._surroundings.automatic_light)
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
         """Changes the environment from the next step on; returns the lights that switch."""
-        self._next_environment.update(values)
-        lights = LightState("auto", self._automatic())
-        switched = {
-            actor: lights
-            for actor, now in self._next_lights.items()
-            if now.mode == "auto" and now != lights
-        }
-        self._next_lights.update(switched)
-        return switched
-
-    def _automatic(self) -> LightMode:
-        elevation = self._next_environment.get("sun_elevation", LOW_BEAM_SUN_ELEVATION)
-        return "low_beam" if elevation < LOW_BEAM_SUN_ELEVATION else "off"
+        self._surroundings.set(values)
+        for body in self._bodies.values():
+            if body.wheels is not None:
+                body.wheels.road = self._surroundings.road
+        return self._lights.follow(self._surroundings.automatic_light)
 
     # --- time ---------------------------------------------------------------------------------
 
@@ -237,8 +261,9 @@ class EmbeddedWorld:
                 self._boxes[i] = boxes[i]  # a jump touches nothing on its way
         self._find_collisions(boxes)
         self._boxes = boxes
-        self._lights.update(self._next_lights)
-        self._environment.update(self._next_environment)
+        self._lights.step()
+        self._surroundings.step()
+        self.signals.step()
 
     def _draw_trailers(self, states: list[ActorState]) -> None:
         """Puts trailers behind the new states of what tows them, the foremost first."""

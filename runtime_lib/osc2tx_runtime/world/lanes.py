@@ -7,7 +7,7 @@ from typing import Literal
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
-__all__ = ["lane_with_number", "lanes_to_left", "number_of_lane"]
+__all__ = ["lane_with_number", "lanes_to_left", "neighbouring", "number_of_lane"]
 
 Side = Literal["left", "right"]
 
@@ -45,3 +45,10 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
         if number == 0:
             raise ScenarioError(f"lane {each.lane} of road {each.road} is no driving lane")
     return numbers[0] - numbers[1]
+
+
+def neighbouring(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
+    """The drivable lane so many to the left (negative: right) of a place; None without one."""
+    if lanes == 0:
+        return place
+    return road_map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))

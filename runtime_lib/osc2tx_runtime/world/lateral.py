@@ -16,7 +16,8 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 from .beside import BesideRun, SidewaysRun
 from .catalogue import Limits
-from .commands import Beside, Command, KeepLane, LaneChange, LaneOffset, Sideways
+from .commands import Beside, Command, KeepLane, LaneChange, LaneOffset, Sideways, Slant
+from .lanes import neighbouring
 from .lateral_limits import HEADING_LIMIT, SIDEWAYS
 from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
 from .protocol import PENDING, REACHED, Progress
@@ -206,7 +207,7 @@ def lateral_of(
     x, y, rate = motion
     match command:
         case LaneChange():
-            target = _lane_beside(road_map, physical, command.lanes)
+            target = neighbouring(road_map, physical, command.lanes)
             if target is None:
                 return bound, Impossible(_no_lane(road_map, physical, command.lanes))
             end = command.offset
@@ -214,7 +215,7 @@ def lateral_of(
             target, end = physical, command.offset
         case Beside():
             return bound, BesideRun(command, limits, rate)
-        case Sideways():
+        case Sideways() | Slant():
             return bound, SidewaysRun(command)
         case None | KeepLane() if isinstance(before, BesideRun | SidewaysRun):
             # It may have come to another lane; what is left of the lateral speed runs out.
@@ -263,12 +264,6 @@ def excessive_shift(
         f"{abs(offset - here):.1f} m sideways in {duration:g} s takes more than"
         f" {limits.lateral:g} m/s^2; {least:.2f} s are possible"
     )
-
-
-def _lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
-    if lanes == 0:
-        return place
-    return road_map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
 
 
 def _no_lane(road_map: RoadMap, place: LanePosition, lanes: int) -> str:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from typing import Protocol
 
 from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.opendrive import Route
 
 from .acceleration import AccelerationRun, ConstantAcceleration
-from .catalogue import COMFORT, RATE_CAP, Limits
+from .catalogue import COMFORT, TYRES, Limits
 from .caution import Cautious, Hold
 from .commands import (
     Accelerate,
     AccelerationChange,
+    Arrive,
     Careful,
     Command,
     FollowSpeed,
@@ -22,7 +23,7 @@ from .commands import (
     SpeedChange,
     Standstill,
 )
-from .distances import gap_between, headway_between
+from .gaps import ArrivalRun, GapRun
 from .profiles import Linear, Profile, Quintic, SCurve, quintic_duration
 from .protocol import PENDING, REACHED, Progress
 from .schedule import Schedule, towards
@@ -31,17 +32,14 @@ from .state import ActorState
 
 __all__ = [
     "Longitudinal",
+    "acceleration_of",
     "excessive_acceleration",
     "excessive_rate",
     "longitudinal_of",
     "speed_profile",
 ]
 
-_SPEED_TOLERANCE = 0.05  # m/s at which a followed speed or gap counts as reached
-_GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
-_GAP_STEPS = 4  # steps for which it must stay so
-_GAP_RATE = 0.6  # 1/s: how fast small gap errors decay
-_RESPONSE = 0.3  # s in which the gap controller corrects the speed
+_SPEED_TOLERANCE = 0.05  # m/s at which a followed speed counts as reached
 
 
 class Longitudinal(Protocol):
@@ -74,6 +72,11 @@ class _ProfileRun:
         """Done when the profile has ended."""
         return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING
 
+    @property
+    def acceleration(self) -> float:
+        """Acceleration (m/s^2) at the present step; zero once the speed is reached."""
+        return 0.0 if self.progress().done else self._profile.rate(self._time)
+
 
 class _Following:
     """Feedback: the speed of another actor, approached within comfortable limits."""
@@ -88,7 +91,8 @@ class _Following:
     def speed_after(self, me: ActorState, senses: Senses) -> float:
         """A step towards the speed of the reference at the present step."""
         command = self._command
-        wanted = senses.state(command.reference).v * command.factor + command.difference
+        least = senses.state(command.reference).v * command.factor + command.difference
+        wanted = min(max(me.v, least), least + command.spread)
         speed = towards(me.v, wanted, self._limits, COMFORT, senses.dt)
         self._done = abs(speed - wanted) < _SPEED_TOLERANCE
         return speed
@@ -96,62 +100,6 @@ class _Following:
     def progress(self) -> Progress:
         """Done while the speeds agree."""
         return REACHED if self._done else PENDING
-
-
-class _Gap:
-    """Feedback on a distance to another actor.
-
-    The closing speed grows linearly with a small error and with the square root of a large one,
-    so that the actor can always still brake; it does not reverse.
-    """
-
-    __slots__ = ("_command", "_failed", "_limits", "_settled")
-
-    def __init__(self, command: KeepGap, limits: Limits) -> None:
-        self._command = command
-        self._limits = limits
-        self._settled = 0
-        self._failed: str | None = None
-
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
-        """A step towards the speed that closes the error."""
-        command = self._command
-        other = senses.state(command.reference)
-        along = senses.along(other, me)
-        if along is None:
-            self._failed = f"there is no way along lanes to {command.reference}"
-            return me.v
-        here = _measured(command, along, me, other)
-        wanted = self._distance(me, other)
-        error = wanted - here if command.ahead else -wanted - here  # > 0: more speed is needed
-        brake = COMFORT * min(self._limits.deceleration, 2.0 * self._limits.acceleration)
-        closing = min(_GAP_RATE * abs(error), math.sqrt(2.0 * brake * abs(error)))
-        goal = max(other.v + math.copysign(closing, error), 0.0)
-        blend = min(1.0, senses.dt / _RESPONSE)
-        speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, senses.dt)
-        near = abs(error) < _GAP_TOLERANCE and abs(me.v - other.v) < 4.0 * _SPEED_TOLERANCE
-        self._settled = self._settled + 1 if near else 0
-        return speed
-
-    def _distance(self, me: ActorState, other: ActorState) -> float:
-        command = self._command
-        if command.time is None:
-            return command.distance or 0.0
-        return command.time * max(other.v if command.ahead else me.v, 0.0)
-
-    def progress(self) -> Progress:
-        """Done when the gap has been held for some steps."""
-        return Progress(self._settled >= _GAP_STEPS, self._failed)
-
-
-def _measured(command: KeepGap, along: float, me: ActorState, other: ActorState) -> float:
-    match command.measure:
-        case "gap":
-            return gap_between(along, me.shape, other.shape)
-        case "headway":
-            return headway_between(along, me.shape, other.shape)
-        case "reference":
-            return along
 
 
 def speed_profile(command: SpeedChange, speed: float, limits: Limits) -> Profile:
@@ -187,41 +135,54 @@ def _limit(speed: float, target: float, limits: Limits) -> float:
     return limits.acceleration if abs(target) > abs(speed) else limits.deceleration
 
 
-def excessive_rate(command: SpeedChange, speed: float, limits: Limits | None = None) -> str | None:
+def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -> str | None:
     """Why a speed change cannot be driven; None if it can.
 
     Args:
         command: The change.
         speed: Speed at its start (m/s).
-        limits: Of the actor, where they must hold; None: only those of tyres do.
+        limits: Those that must hold: of the actor, or of tyres only.
     """
-    cap = RATE_CAP if limits is None else _limit(speed, command.target, limits)
+    cap = _limit(speed, command.target, limits)
+    most = f"{cap:.4g} m/s^2{limits.road}"
     if command.rate_peak is not None and not 0.0 < command.rate_peak <= cap:
-        return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {cap:g} m/s^2"
+        return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {most}"
     if command.duration is not None and command.profile != "asap":
         factor = 1.0 if command.profile == "constant" else 1.875
         change = factor * abs(command.target - speed)
         if change > cap * command.duration * (1.0 + 1e-9):
             return (
                 f"{speed:.1f} to {command.target:.1f} m/s in {command.duration:g} s takes more"
-                f" than {cap:g} m/s^2"
+                f" than {most}"
             )
     return None
 
 
-def excessive_acceleration(value: float, speed: float, limits: Limits | None = None) -> str | None:
+def excessive_acceleration(value: float, speed: float, limits: Limits = TYRES) -> str | None:
     """Why an acceleration (m/s^2) cannot be; None if it can. Arguments as above."""
-    gaining = value * speed >= 0.0
-    cap = RATE_CAP
-    if limits is not None:
-        cap = limits.acceleration if gaining else limits.deceleration
+    cap = limits.acceleration if value * speed >= 0.0 else limits.deceleration
     if abs(value) <= cap * (1.0 + 1e-9):
         return None
-    return f"an acceleration of {value:.2f} m/s^2 is beyond the {cap:g} m/s^2 it can do"
+    return (
+        f"an acceleration of {value:.2f} m/s^2 is beyond the {cap:.4g} m/s^2 it can do{limits.road}"
+    )
 
 
-def longitudinal_of(command: Command, me: ActorState, limits: Limits) -> Longitudinal:
-    """Puts a longitudinal command to work on an actor in its present state."""
+def acceleration_of(run: Longitudinal | None, me: ActorState) -> float:
+    """Acceleration (m/s^2) of this instant: that of a closed form, else the mean of the last step.
+
+    A mean would make what follows depend on the size of the step.
+    """
+    return run.acceleration if isinstance(run, _ProfileRun | AccelerationRun) else me.a
+
+
+def longitudinal_of(
+    command: Command, me: ActorState, limits: Limits, route: Route | None = None
+) -> Longitudinal:
+    """Puts a longitudinal command to work on an actor in its present state, on its way.
+
+    The acceleration of this state is that of the very instant, see `acceleration_of`.
+    """
     speed = me.v
     match command:
         case SpeedChange():
@@ -231,13 +192,14 @@ def longitudinal_of(command: Command, me: ActorState, limits: Limits) -> Longitu
             return _ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk))
         case Accelerate():
             start = speed if command.start is None else command.start
-            return ConstantAcceleration(command.acceleration, start)
+            held = me.a if command.acceleration is None else command.acceleration
+            return ConstantAcceleration(held, start)
         case AccelerationChange():
             return AccelerationRun(command, me, limits)
         case Careful():
             course = command.course
             inner = None if course is None else longitudinal_of(course, me, limits)
-            return Cautious(command, inner, speed, limits)
+            return Cautious(command, inner, speed, limits, route)
         case KeepSchedule():
             return Schedule(command, me, limits)
         case ReplayTrajectory():
@@ -245,5 +207,7 @@ def longitudinal_of(command: Command, me: ActorState, limits: Limits) -> Longitu
         case FollowSpeed():
             return _Following(command, limits)
         case KeepGap():
-            return _Gap(command, limits)
+            return GapRun(command, limits)
+        case Arrive():
+            return ArrivalRun(command, limits)
     raise UnsupportedError(f"{type(command).__name__} is no longitudinal command")

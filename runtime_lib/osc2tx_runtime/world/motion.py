@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
 
-from .commands import Command, KeepLane, SpeedChange, Turn
+from .catalogue import TYRES, Limits
+from .commands import Command, FollowRoute, KeepLane, SpeedChange, Turn
 from .courses import TURN_RATE, Course, Steering, course_of
 from .curve import turn_between
+from .friction import held_by
 from .lateral import (
     SIDEWAYS,
     HoldOffset,
@@ -21,10 +22,12 @@ from .lateral import (
     offset_from,
     shift_profile,
 )
-from .longitudinal import Longitudinal, longitudinal_of
+from .longitudinal import Longitudinal, acceleration_of, longitudinal_of
 from .protocol import PENDING, REACHED, ActorSpec, Progress
 from .senses import Senses
 from .state import ActorState
+from .way import Way
+from .wheels import Wheels, curvature_ahead
 
 __all__ = ["ANY_LANE", "CRUISE", "Body"]
 
@@ -56,6 +59,7 @@ class Body:
         route: Decides at forks; None: the smallest change of heading.
         blocked: Why it cannot go on; None while it can.
         jumped: In the last step it was put somewhere instead of moving there.
+        wheels: Its grip on the road; None for those without wheels.
     """
 
     spec: ActorSpec
@@ -64,11 +68,24 @@ class Body:
     route: Route | None = None
     blocked: str | None = None
     jumped: bool = False
+    wheels: Wheels | None = None
     _course: Course | None = None
     _home: LanePosition | None = None  # lane it returns to
+    _way: Way | None = None
     _speed: Longitudinal | None = None
     _side: Lateral = field(default_factory=HoldOffset)
     _heading: float | None = None
+
+    @property
+    def limits(self) -> Limits:
+        """What it can do on the road as it is."""
+        limits = self.spec.limits
+        return limits if self.wheels is None else held_by(limits, self.wheels.road)
+
+    @property
+    def tyres(self) -> Limits:
+        """What tyres can do there."""
+        return TYRES if self.wheels is None else held_by(TYRES, self.wheels.road)
 
     # --- commands -----------------------------------------------------------------------------
 
@@ -77,11 +94,19 @@ class Body:
         if command is None:
             self._speed = None
             return
-        self._speed = longitudinal_of(command, self.state, self.spec.limits)
+        slips = self.wheels is not None and self.wheels.slipping
+        now = self.state.a if slips else acceleration_of(self._speed, self.state)
+        state = self.state._replace(a=now)
+        self._speed = longitudinal_of(command, state, self.limits, self.route)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
-        course = course_of(command, self.state, self.spec.limits)
+        if self._way is not None:
+            self.route, self._way = self._way.before, None
+        if isinstance(command, FollowRoute):
+            self._way = Way(command, road_map, self.route)
+            self.route, command = self._way.route, KeepLane()
+        course = course_of(command, self.state, self.limits)
         if course is not None:
             self._course, self.bound, self._home = course, None, None
             self._side = HoldOffset()
@@ -110,32 +135,42 @@ class Body:
             here,
             (state.x, state.y, rate),
             self._side,
-            self.spec.limits,
+            self.limits,
         )
 
     def _pursue_heading(self, command: Command | None) -> None:
-        if isinstance(command, Turn):
-            self._heading = command.heading
-        elif command is None or isinstance(command, KeepLane):
-            self._heading = None
-        else:
-            raise UnsupportedError(
+        self._heading = command.heading if isinstance(command, Turn) else None
+        self._side = HoldOffset()
+        if command is not None and not isinstance(command, KeepLane | Turn):
+            self._side = Impossible(
                 f"{self.spec.id} is not on a driving lane, so it cannot change or follow one"
             )
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command."""
-        if self.blocked is not None:
-            return Progress(False, self.blocked)
-        return REACHED if self._speed is None else self._speed.progress()
+        if self._hindrance is not None:
+            return Progress(False, self._hindrance)
+        progress = REACHED if self._speed is None else self._speed.progress()
+        lags = self.wheels is not None and self.wheels.slipping
+        return PENDING if lags and progress.done else progress
+
+    @property
+    def _hindrance(self) -> str | None:
+        """Why it cannot go on; the end of the road is none for who wanted to go to it."""
+        sliding = None if self.wheels is None else self.wheels.sliding
+        arrived = self._way is not None and self._way.progress().done
+        return sliding if arrived else self.blocked or sliding
 
     def side_progress(self) -> Progress:
         """Progress of the lateral command."""
-        if self.blocked is not None:
-            return Progress(False, self.blocked)
+        if self._hindrance is not None:
+            return Progress(False, self._hindrance)
         if self._course is not None:
             return self._course.progress()
-        if self.bound is not None or self._home is not None:
+        if self._way is not None:
+            return self._way.progress()
+        lost = isinstance(self._side, Impossible)
+        if self.bound is not None or self._home is not None or lost:
             return self._side.progress()
         turned = self._heading is None or abs(turn_between(self.state.h, self._heading)) < 1e-9
         return REACHED if turned else PENDING
@@ -148,6 +183,9 @@ class Body:
         if self._course is not None and self._speed is None and state.v == 0.0:
             self.pursue_speed(SpeedChange(CRUISE.get(self.spec.kind, CRUISE_VEHICLE)))
         speed = state.v if self._speed is None else self._speed.speed_after(state, senses)
+        if self.wheels is not None and self.wheels.limited:
+            way = curvature_ahead(road_map, self.bound, self.route)
+            speed = self.wheels.held(speed, state, way, dt)
         path = 0.5 * (state.v + speed) * dt
         self.jumped = False
         if self._home is not None:
@@ -171,6 +209,8 @@ class Body:
             return self._standing(speed, dt)
         along = path if aside == 0.0 else math.copysign(math.sqrt(max(path**2 - aside**2, 0)), path)
         if along:
+            if self._way is not None:
+                self._way.look(bound, along)
             ahead = road_map.advance(bound, along, self.route)
             place = ahead.position
             if abs(ahead.travelled - along) > 1e-6:
@@ -282,7 +322,7 @@ class Body:
         inside = abs(offset) <= 0.5 * road_map.lane_width(home.road, home.lane, home.s)
         if inside and abs(turn) <= (_ALIGNED if state.v > 0.5 else 1e-3):
             rate = state.v * math.sin(turn)
-            profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.spec.limits)
+            profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.limits)
             self.bound = LanePosition(home.road, home.lane, home.s, offset)
             self._side, self._home = Shift(profile, 0.0), None
 
@@ -292,7 +332,7 @@ class Body:
     def _towards_lane(self, home: LanePosition, path: float, road_map: RoadMap) -> Pose:
         """Steers at the centre of the lane, some way ahead."""
         state = self.state
-        steering = Steering(state.shape, self.spec.limits)
+        steering = Steering(state.shape, self.limits)
         ahead = road_map.advance(home, steering.look_ahead(state.v), self.route).position
         goal = road_map.pose(ahead)
         return steering.towards(state, goal.x, goal.y, path)

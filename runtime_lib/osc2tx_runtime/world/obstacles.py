@@ -20,7 +20,7 @@ _BESIDE = 0.3  # m to the sides that are kept free
 
 
 def nearest_ahead(
-    road_map: RoadMap, me: ActorState, others: Iterable[ActorState]
+    road_map: RoadMap, me: ActorState, others: Iterable[ActorState], visual_range: float = math.inf
 ) -> tuple[float, float] | None:
     """Free metres to the nearest actor ahead, and its speed (m/s) along the way.
 
@@ -31,6 +31,7 @@ def nearest_ahead(
         road_map: The map.
         me: Who looks; it may be among the others.
         others: All actors.
+        visual_range: Metres from the front beyond which nobody is seen.
     """
     sight = _SIGHT + _SIGHT_TIME * abs(me.v)
     best: tuple[float, float] | None = None
@@ -47,6 +48,8 @@ def nearest_ahead(
         if along <= 0.0 or abs(aside) > 0.5 * me.width + reach_aside + _BESIDE:
             continue
         gap = along - reach_along - me.shape.front
+        if gap > visual_range:
+            continue
         if best is None or gap < best[0]:
             best = (gap, other.v * math.cos(turn))
     return best

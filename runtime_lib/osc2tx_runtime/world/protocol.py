@@ -10,9 +10,11 @@ from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
 from .catalogue import Limits, Shape
 from .commands import Command
+from .signals import Signals
 from .state import ActorState
 
 __all__ = [
+    "FOG_LIGHT_RANGE",
     "LATERAL",
     "LONGITUDINAL",
     "LOW_BEAM_SUN_ELEVATION",
@@ -31,6 +33,9 @@ LATERAL = "lateral"
 
 LOW_BEAM_SUN_ELEVATION = 0.2617993877991494
 """Sun elevation (rad, 15 degrees) below which lights in mode `auto` are low beams."""
+
+FOG_LIGHT_RANGE = 100.0
+"""Visual range (m) below which they are so, too (UK Highway Code, rule 226)."""
 
 LightMode = Literal["off", "auto", "daytime", "position", "low_beam", "high_beam"]
 
@@ -83,7 +88,7 @@ class LightState:
 
     Attributes:
         mode: What was asked for.
-        lit: What shines: for mode `auto` "low_beam" or "off", depending on the sun.
+        lit: What shines: for mode `auto` "low_beam" or "off", depending on sun and fog.
     """
 
     mode: LightMode = "off"
@@ -99,6 +104,7 @@ class World(Protocol):
 
     dt: float
     map: RoadMap
+    signals: Signals
 
     def add(self, spec: ActorSpec) -> None:
         """Makes an actor known; it has a state from its placement on."""
@@ -138,6 +144,12 @@ class World(Protocol):
 
     def set_route(self, actor: str, route: Route | None) -> None:
         """Decides which branch the actor takes at forks."""
+
+    def limits(self, actor: str, *, of_vehicle: bool = True) -> Limits:
+        """What an actor can do on the road as it is; without its own limits what tyres can."""
+
+    def grip(self, me: ActorState) -> float:
+        """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""
 
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
         """Switches lights from the next step on; returns what they will be."""

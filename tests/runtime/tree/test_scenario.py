@@ -234,8 +234,10 @@ def test_registry() -> None:
     assert registry.signature("physical_object", "jump").startswith("jump(steps: ")
     assert registry.names(hero.kinds) == ("jump",)
     assert [method.kind for method in registry.all()] == ["physical_object", "vehicle"]
-    with pytest.raises(AttributeError, match=r"vehicle has no method `jmp`; did you mean jump\?"):
-        registry.bind(hero, "jmp")
+    refused = registry.bind(hero, "jmp")(3, label="high")
+    assert refused.label == "high"
+    with pytest.raises(UnsupportedError, match=r"vehicle has no action `jmp`.*; did you mean jump"):
+        refused.setup()
     assert Jump.method.ends == "instant"
 
 

@@ -156,7 +156,6 @@ def test_a_lane_at_the_end_of_a_drive(run: Run) -> None:
         (lambda s: orientation(yaw=1.0), 1.0),
         (lambda s: orientation(yaw=0.4, measure_by="relative_to_road"), 0.4),
         (lambda s: orientation(yaw=0.4, relative_to=s.b, measure_by="absolute"), 0.4),
-        (lambda s: yaw(0.3, at="start"), 0.3),
         (lambda s: yaw(0.3, at="end"), 0.3),
     ],
 )

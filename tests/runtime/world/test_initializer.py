@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -191,7 +192,7 @@ def test_mistakes(
 
 def swap(modifier: Any, a: Vehicle) -> Any:
     """The modifier with the actor in place of its name."""
-    values = {name: getattr(modifier, name) for name in type(modifier).__slots__}
+    values = {f.name: getattr(modifier, f.name) for f in dataclasses.fields(modifier)}
     return type(modifier)(**{name: a if v == "a" else v for name, v in values.items()})
 
 

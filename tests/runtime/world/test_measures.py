@@ -69,7 +69,8 @@ def test_coordinates(pair: tuple[Vehicle, Vehicle]) -> None:
     assert front.get_s_coord() == pytest.approx(130.0)
     assert front.get_t_coord() == pytest.approx(front.position.y)
     assert back.get_t_coord("on_lane") == 0.0
-    assert (front.speed, front.acceleration) == (10.0, 0.0)
+    assert (front.speed, front.velocity.translational.x) == (10.0, 10.0)
+    assert front.acceleration.translational.x == 0.0
 
 
 def test_time_gap_behind_a_standing_follower_is_infinite(highway: RoadMap) -> None:
@@ -97,8 +98,8 @@ def test_reading_before_the_run_is_an_error() -> None:
 
 
 def test_unknown_names_have_suggestions() -> None:
-    with pytest.raises(AttributeError, match="did you mean change_lane"):
-        Vehicle().change_lan(side="left")
+    with pytest.raises(ScenarioError, match="did you mean change_lane"):
+        Vehicle().change_lan(side="left").setup()
     with pytest.raises(ScenarioError, match="vehicle_category `lorry` is none of car, van"):
         Vehicle(vehicle_category="lorry")
     with pytest.raises(TypeError, match="wheels"):

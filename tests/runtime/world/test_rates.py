@@ -14,6 +14,7 @@ from osc2tx_runtime.modifiers import acceleration, distance, physical_movement, 
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]
+JUMP = physical_movement("prefer_non_physical")
 
 
 @pytest.mark.parametrize("dt", [0.01, 0.05])
@@ -86,7 +87,7 @@ def test_assign_and_keep_acceleration(run: Run) -> None:
         (lambda s: s.a.drive(distance(200.0), duration=4.0), "20.00 m/s^2 is beyond"),
         (
             lambda s: s.a.drive(position(50.0, behind=s.b, at="end"), duration=1.0),
-            "its duration is over before what is to hold at its end does",
+            "when its time is over it is 4.0 m beyond its place; it can do 4 and -8 m/s^2",
         ),
     ],
 )
@@ -116,7 +117,7 @@ def test_acceleration_at_the_start_of_a_drive(run: Run) -> None:
 
 def test_speed_at_both_ends_of_a_drive(run: Run) -> None:
     def body(s: TwoCars) -> Behaviour:
-        return s.a.drive(speed(4.0, at="start"), speed(14.0, at="end"), duration=5.0)
+        return s.a.drive(speed(4.0, at="start"), speed(14.0, at="end"), JUMP, duration=5.0)
 
     states = run(scenario(body)).states("a")
     assert states[1]["v"] == pytest.approx(4.0, abs=0.01)
@@ -130,7 +131,8 @@ def test_a_speed_at_the_end_ends_a_drive_without_duration(run: Run) -> None:
 
 
 def test_speed_and_acceleration_from_a_start_speed(run: Run) -> None:
-    done = run(scenario(lambda s: s.a.drive(speed(5.0, at="start"), acceleration(1.0), duration=4)))
+    jump = speed(5.0, at="start")
+    done = run(scenario(lambda s: s.a.drive(jump, acceleration(1.0), JUMP, duration=4)))
     assert done.states("a")[-1]["v"] == pytest.approx(9.0)
 
 
@@ -155,7 +157,5 @@ def test_a_position_on_the_road_ends_a_drive(run: Run) -> None:
 def test_refused_before_the_start(run: Run) -> None:
     with pytest.raises(UnsupportedError, match="distance speak of the same thing"):
         run(scenario(lambda s: s.a.drive(distance(10.0), speed(3.0), duration=2.0)))
-    with pytest.raises(UnsupportedError, match="position does not take effect at the start"):
-        run(scenario(lambda s: s.a.drive(position(10.0, behind=s.b, at="start"))))
     with pytest.raises(ScenarioError, match="two speeds for one time"):
         run(scenario(lambda s: s.a.drive(speed(10.0), speed(12.0, at="end"))))

@@ -12,6 +12,7 @@ from osc2tx_runtime import Behaviour, Vehicle, Wait, elapsed
 from osc2tx_runtime.actors import OdrPoint, Point, Pose
 from osc2tx_runtime.along import way_between
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.in_world import path_in_world, trajectory_in_world
 from osc2tx_runtime.modifiers import lane, lateral, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.paths import PathError, curve_of_path
@@ -74,13 +75,19 @@ def test_create_paths(asked: Callable[..., Any]) -> None:
     def question(s: TwoCars) -> Any:
         points = [OdrPoint("1", -3, 100.0), OdrPoint("1", -2, 200.0)]
         route_points = [RoutePoint(RoadRoute("1", -3), 100.0), RoutePoint(RoadRoute("1"), 200.0)]
+        here = s.road.context.world.map
         return (
             s.road.create_path([Pose(0.0, 0.0), Pose(1.0, 0.0)], "smooth"),
-            s.road.create_path_odr_points(points, "straight_line", False),
-            s.road.create_path_odr_points(points, "straight_line", True),
-            s.road.create_path_route_points(route_points),
-            s.road.create_trajectory_odr_points(points, [0.0, 10.0], "straight_line", True),
-            s.road.create_trajectory_route_points(route_points, [0.0, 4.0]),
+            path_in_world(here, s.road.create_path_odr_points(points, "straight_line", False)),
+            path_in_world(here, s.road.create_path_odr_points(points, "straight_line", True)),
+            path_in_world(here, s.road.create_path_route_points(route_points)),
+            trajectory_in_world(
+                here,
+                s.road.create_trajectory_odr_points(points, [0.0, 10.0], "straight_line", True),
+            ),
+            trajectory_in_world(
+                here, s.road.create_trajectory_route_points(route_points, [0.0, 4.0])
+            ),
             s.road.resolve_relative_path(
                 RelativePath((Pose(1.0, 2.0),)), s.b, "object_relative"
             ).points,

@@ -9,7 +9,7 @@ import pytest
 from osc2tx.analysis import analyse
 from osc2tx.diagnostics import CODES, DiagnosticSink
 from osc2tx.diagnostics.render import render_text
-from tests.unit.semantics.support import build_file
+from tests.unit.semantics.support import build_file, build_text
 
 CASES = sorted((Path(__file__).parents[2] / "golden" / "diagnostics").glob("analysis_*"))
 FAMILIES = ("OSC42", "OSC43")
@@ -51,3 +51,13 @@ def test_neighbor_is_valid(case: Path) -> None:
 def test_every_code_has_a_case() -> None:
     announced = {code for case in CASES for _, code in marks(case / "input.osc")}
     assert {code for code in CODES if code.startswith(FAMILIES)} == announced
+
+
+def test_a_long_chain_of_global_parameters() -> None:
+    """All global parameters are looked at once, together."""
+    last = 2000
+    chain = "".join(f"global g{i}: int = g{i - 1} + 1\n" for i in range(1, last + 1))
+    broken = f"global h: int with:\n    keep(it == g{last})\n    keep(it < 9)\n"
+    model, sink = build_text(f"global g0: int = 1\n{chain}{broken}")
+    analyse(model, sink)
+    assert [d.code for d in sink.sorted()] == ["OSC422"]

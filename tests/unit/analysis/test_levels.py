@@ -3,6 +3,7 @@
 import pytest
 
 from osc2tx.analysis import analyse
+from osc2tx.options import OneOfPolicy
 from tests.unit.semantics.support import build_text
 
 TEXT = """import osc.standard.all
@@ -21,10 +22,10 @@ scenario top:
 """
 
 
-def level(text: str) -> str:
+def level(text: str, one_of: OneOfPolicy = "race") -> str:
     model, sink = build_text(text)
     assert not sink.has_errors, sink.sorted()
-    analysis = analyse(model, sink)
+    analysis = analyse(model, sink, one_of)
     assert not sink.has_errors, sink.sorted()
     return str(analysis.levels[-1]).removeprefix("scenario top: ")
 
@@ -34,11 +35,11 @@ def level(text: str) -> str:
     [
         ("", "", "concrete"),
         (" = 30kph", "", "abstract (open: v)"),
-        (" = 30kph", " with:\n        keep(it < 30kph)", "abstract (open: v < 30 kph)"),
+        (" = 30kph", " with:\n        keep(it < 30kph)", "abstract (open: v < 30kph)"),
         (
             " = 30kph",
             " with:\n        keep(it in [25kph..30kph])",
-            "logical (open: v in [25 kph..30 kph])",
+            "logical (open: v in [25kph..30kph])",
         ),
         ("speed(v)", "speed([v..40kph])", "logical (open: speed in [v..40kph])"),
         ("duration: 3s", "duration: [2s..3s]", "logical (open: drive duration in [2s..3s])"),
@@ -46,7 +47,7 @@ def level(text: str) -> str:
         ("            speed(v)\n", "", "abstract (open: speed of ego)"),
         ("highway.xodr", "highway.xodr", "concrete"),
         (' with:\n        keep(it.map_file == "highway.xodr")', "", "abstract (open: map file)"),
-        ("do serial:", "do one_of:", "logical (open: one_of in line 9)"),
+        ("do serial:", "do one_of:", "concrete"),
         ("do serial:", "do parallel(any):", "abstract (open: overlap `any` in line 9)"),
         ("        ego.change_speed(target: 0kph)\n", "        ego.drive()\n",
          "abstract (open: nothing ends it)"),
@@ -58,6 +59,18 @@ def level(text: str) -> str:
 def test_level(old: str, new: str, expected: str) -> None:
     assert old in TEXT
     assert level(TEXT.replace(old, new, 1)) == expected
+
+
+@pytest.mark.parametrize(
+    ("policy", "expected"),
+    [
+        ("race", "concrete"),
+        ("first", "concrete"),
+        ("seeded", "logical (open: one_of in line 9)"),
+    ],
+)
+def test_only_a_drawn_member_of_one_of_is_open(policy: OneOfPolicy, expected: str) -> None:
+    assert level(TEXT.replace("do serial:", "do one_of:"), policy) == expected
 
 
 def test_a_scenario_of_an_actor_leaves_the_actor_open() -> None:

@@ -130,7 +130,11 @@ def within(a: Term, low: Term, high: Term) -> Term:
 
 
 def one_of(a: Term, b: Term, c: Term) -> Term:
-    first, second = comparison("==", a, b), comparison("==", a, c)
+    element = common(b, c)  # of all elements (§7.4.2.7)
+    first, second = (
+        comparison("==", a, Term("", element, lambda values, t=t: converted(t, element, values)))
+        for t in (b, c)
+    )
     return Term(
         f"({a.text} in [{b.text}, {c.text}])",
         "bool",

@@ -10,7 +10,7 @@ from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 
 PRELUDE = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
-WITHOUT_TEXT = {"OSC101", "OSC105"}  # not about what is written, or too long to write down
+WITHOUT_TEXT = {"OSC101", "OSC105", "OSC115"}  # too long to write down, or not about a text
 
 
 def codes_of(explanation: Explanation, text: str, folder: Path) -> dict[str, Severity]:
@@ -19,7 +19,11 @@ def codes_of(explanation: Explanation, text: str, folder: Path) -> dict[str, Sev
     (folder / "limits.osc").touch()  # one example imports it
     path = folder / "example.osc"
     path.write_text(text if is_whole else PRELUDE + text, encoding="utf-8")
-    options = CompileOptions(explanation.standard, explanation.dialect)  # type: ignore[arg-type]
+    options = CompileOptions(
+        explanation.standard,  # type: ignore[arg-type]
+        explanation.dialect,  # type: ignore[arg-type]
+        target=explanation.target,  # type: ignore[arg-type]
+    )
     compilation = Compilation(path, path.name, options)
     compilation.check()
     return {report.code: report.severity for report in compilation.diagnostics}

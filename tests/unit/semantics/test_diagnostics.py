@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.analysis import analyse
 from osc2tx.diagnostics import CODES
 from osc2tx.diagnostics.render import render_text
 from tests.unit.semantics.support import build_file
@@ -36,8 +37,10 @@ def test_faulty(case: Path, golden: Golden) -> None:
 
 @pytest.mark.parametrize("case", CASES, ids=lambda path: path.name)
 def test_neighbor_is_valid(case: Path) -> None:
-    _, sink = build_file(case / "valid.osc")
+    model, sink = build_file(case / "valid.osc")
     assert [d.message for d in sink.sorted()] == []
+    analyse(model, sink)
+    assert not sink.has_errors, sink.sorted()
 
 
 def test_every_code_has_a_case() -> None:

@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from osc2tx.semantics import dump_model
+from osc2tx.semantics.symbols import EnumSymbol
 from tests.unit.semantics.support import build_text, codes
 
 HEAD = "import osc.standard\n\n"
@@ -101,3 +102,20 @@ def test_dropped_lines(data: st.DataObject) -> None:
     lines = [line for line in SAMPLE.splitlines() if data.draw(st.integers(0, 4))]
     model, _ = build_text("\n".join(lines) + "\n")
     dump_model(model)
+
+
+def test_a_long_chain_of_enum_values() -> None:
+    """Each link is followed once, whatever their number."""
+    last = 20_000
+    members = ", ".join(f"m{i} = m{i + 1}" for i in range(last))
+    model, sink = build_text(f"enum e: [{members}, m{last} = 7]\n", standard="2.2")
+    assert codes(sink) == []
+    (symbol,) = model.symbols
+    assert isinstance(symbol, EnumSymbol)
+    assert {member.value for member in symbol.members.values()} == {7}
+
+
+def test_a_circle_of_enum_values_is_reported_once() -> None:
+    members = ", ".join(f"m{i} = m{(i + 1) % 2000}" for i in range(2000))
+    _, sink = build_text(f"enum e: [{members}]\n", standard="2.2")
+    assert codes(sink) == ["OSC312"]

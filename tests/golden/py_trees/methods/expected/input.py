@@ -27,7 +27,7 @@ class Methods(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(lambda: self.share(self.limit)))
+        self.place(self.ego, speed(self.share(self.limit)))
 
     # A method of the scenario becomes a method of its class.
     def share(self, v: float, part: float = 0.5) -> float:  # input.osc:14
@@ -43,7 +43,7 @@ class Methods(Scenario):
     def behavior(self) -> Behaviour:  # input.osc:19
         return Serial(
             "methods",
-            self.ego.drive(speed(lambda: self.share(self.limit)), duration=2 * s),
+            self.ego.drive(speed(self.share(self.limit)), duration=2 * s),
             Wait(
                 lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
                 > self.longer(1 * m, self_=2 * m)

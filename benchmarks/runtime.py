@@ -1,0 +1,337 @@
+"""What a run costs: one pass over the tree, one step of the world, and whole scenarios.
+
+    python benchmarks/runtime.py [--map MAP.xodr]
+
+Prints
+
+- trees: one pass over the runtime's compositions beside py_trees' own (the floor), and how the cost
+  grows with the number of leaves and with depth;
+- the world: one step for 1 to 500 actors, and how the cost grows with them;
+- whole scenarios, tree and world together, as multiples of real time, against the budget.
+
+Times are CPU seconds, the least of a few runs. Ratios count, not seconds: U is one `next()` of a
+trivial generator on the same machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import py_trees
+from py_trees.common import ParallelPolicy, Status
+
+import osc2tx_runtime
+from osc2tx_runtime import Map, RunSettings, Scenario, Vehicle, rise, run_scenario
+from osc2tx_runtime.behaviour import (
+    Behaviour,
+    Emit,
+    Event,
+    On,
+    OneOf,
+    Parallel,
+    Serial,
+    Until,
+    Wait,
+    elapsed,
+)
+from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
+from osc2tx_runtime.runner import settle, setup_tree
+from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
+from osc2tx_runtime.world.catalogue import limits_of, shape_of
+from osc2tx_runtime.world.commands import LaneChange, SpeedChange
+
+DT = 0.05  # s, 20 Hz
+LEAVES = (10, 100, 1000)
+DEPTHS = (10, 50, 200)
+ACTORS = (1, 5, 20, 100, 500)
+
+
+def best(work: Callable[[], object], runs: int = 5) -> float:
+    """Seconds of one call, the least of some rounds of at least 20 ms each."""
+    calls = 1
+    while (seconds := spent(work, calls)) < 0.02:
+        calls = max(2 * calls, math.ceil(0.025 * calls / max(seconds, 1e-6)))
+    return min([seconds, *(spent(work, calls) for _ in range(runs - 1))]) / calls
+
+
+def spent(work: Callable[[], object], calls: int) -> float:
+    gc.collect()
+    begin = time.process_time()
+    for _ in range(calls):
+        work()
+    return time.process_time() - begin
+
+
+def unit() -> float:
+    """Seconds of one `next()`."""
+
+    def forever() -> Iterator[None]:
+        while True:
+            yield
+
+    generators = [forever() for _ in range(1000)]
+
+    def advance() -> None:
+        for generator in generators:
+            next(generator)
+
+    return best(advance) / 1000
+
+
+def growth(sizes: tuple[int, ...], costs: list[float]) -> str:
+    """Exponents between one size and the next: 1.00 is linear."""
+    found = (
+        f"{math.log(after / before) / math.log(large / small):.2f}"
+        for (small, large), (before, after) in zip(pairwise(sizes), pairwise(costs), strict=True)
+    )
+    return " ".join(found)
+
+
+# --- Trees ----------------------------------------------------------------------------------------
+
+
+def started(tree: Behaviour) -> tuple[ExecutionContext, Behaviour]:
+    """Set a tree up in a run without a world, and start it."""
+    world: Any = None
+    context = ExecutionContext(world)
+    setup_tree(tree, context)
+    context.begin_step(0)
+    context.begin_pass()
+    tree.tick_once()
+    assert tree.status is Status.RUNNING
+    return context, tree
+
+
+def chain(depth: int, wrap: Callable[[str, Behaviour], Behaviour], leaf: Behaviour) -> Behaviour:
+    for level in range(depth):
+        leaf = wrap(f"level {level}", leaf)
+    return leaf
+
+
+def their_parallel(leaves: int) -> Behaviour:
+    members = [py_trees.behaviours.Running(f"leaf {index}") for index in range(leaves)]
+    return py_trees.composites.Parallel("p", ParallelPolicy.SuccessOnAll(), members)
+
+
+def their_chain(depth: int) -> Behaviour:
+    def sequence(name: str, member: Behaviour) -> Behaviour:
+        return py_trees.composites.Sequence(name, memory=True, children=[member])
+
+    return chain(depth, sequence, py_trees.behaviours.Running("leaf"))
+
+
+def waits(leaves: int) -> Behaviour:
+    return Parallel("p", *(Wait(Event()) for _ in range(leaves)))
+
+
+def branches(count: int) -> Behaviour:
+    """Branches as they stand in scenarios: race, until, duration; two leaves each."""
+    return Parallel(
+        "p",
+        *(
+            Serial(
+                "s",
+                OneOf("r", Wait(Event()), Until(Wait(elapsed(1e6)), Event())),
+                duration=(0, 1e6),
+            )
+            for _ in range(count)
+        ),
+    )
+
+
+def reactions(count: int) -> Behaviour:
+    return Parallel("p", *(On(Event(), Emit(Event())) for _ in range(count)), Wait(Event()))
+
+
+def instant(tree: Behaviour) -> Callable[[], object]:
+    """Make what the runner does at each step: passes until nothing is pending."""
+    context, started_tree = started(tree)
+
+    def next_step() -> None:
+        context.begin_step(context.step + 1)
+        settle(started_tree.tick_once, context, ())  # type: ignore[arg-type]
+
+    return next_step
+
+
+def print_trees(u: float) -> None:
+    print(f"\n{'trees: one pass':48}{'us':>10}{'U':>10}{'U/leaf':>10}")
+
+    def row(name: str, work: Callable[[], object], leaves: int) -> float:
+        seconds = best(work)
+        print(f"{name:48}{seconds * 1e6:10.1f}{seconds / u:10.0f}{seconds / u / leaves:10.1f}")
+        return seconds
+
+    floor = []
+    for leaves in LEAVES:
+        tree = their_parallel(leaves)
+        tree.tick_once()
+        floor.append(row(f"py_trees Parallel, {leaves} Running", tree.tick_once, leaves))
+    ours = [
+        row(f"Parallel, {leaves} Wait(event)", started(waits(leaves))[1].tick_once, leaves)
+        for leaves in LEAVES
+    ]
+    for depth in DEPTHS:
+        tree = their_chain(depth)
+        tree.tick_once()
+        row(f"py_trees Sequence, depth {depth}", tree.tick_once, 1)
+    deep = [
+        row(f"Serial, depth {d}", started(chain(d, Serial, Wait(Event())))[1].tick_once, 1)
+        for d in DEPTHS
+    ]
+    row("20 branches of serial, one_of, until", started(branches(20))[1].tick_once, 40)
+    row("100 on beside a Wait(event)", started(reactions(100))[1].tick_once, 101)
+    row("20 Wait(event), a whole instant of the runner", instant(waits(20)), 20)
+    levels = Parallel("p", *(Wait(lambda: False) for _ in range(100)))
+    row("100 Wait(condition), a whole instant", instant(levels), 100)
+    print(f"growth exponents with leaves: py_trees {growth(LEAVES, floor)},", end=" ")
+    print(f"ours {growth(LEAVES, ours)}; with depth: {growth(DEPTHS, deep)}")
+
+
+# --- The world ------------------------------------------------------------------------------------
+
+
+def starts(road_map: RoadMap) -> list[LanePosition]:
+    """Places with a long way to go."""
+    return [p for p in road_map.spawn_points() if road_map.advance(p, 400.0).travelled > 399.0]
+
+
+def filled_world(road_map: RoadMap, actors: int) -> EmbeddedWorld:
+    world = EmbeddedWorld(road_map, DT)
+    places = starts(road_map)
+    limits = limits_of("vehicle")
+    for i in range(actors):
+        spec = ActorSpec(f"v{i}", "vehicle", shape_of("vehicle"), limits, lane_bound=True)
+        world.add(spec)
+        world.place(spec.id, places[i * len(places) // actors], 8.0 + i % 5)
+    return world
+
+
+def drive(world: EmbeddedWorld, steps: int) -> None:
+    """Every 5 s each actor gets a new speed, every 10 s some change lane."""
+    ids = world.actors()
+    for step in range(steps):
+        if step % 100 == 0:
+            for i, actor in enumerate(ids):
+                target = 8.0 + (i + step // 100) % 7
+                world.command(actor, "longitudinal", SpeedChange(target, "smooth"))
+                if step % 200 == 0 and i % 3 == 0:
+                    world.command(actor, "lateral", LaneChange(1 if step % 400 else -1))
+        world.step()
+
+
+def print_world(road_map: RoadMap, u: float) -> None:
+    print(f"\n{'world: one step':24}{'us':>10}{'us/actor':>10}{'U/actor':>10}{'x real time':>14}")
+    costs = []
+    for actors in ACTORS:
+        steps = 2000 // actors + 100
+        worlds = [filled_world(road_map, actors) for _ in range(3)]
+        cost = min(spent(lambda w=world, n=steps: drive(w, n), 1) for world in worlds) / steps
+        costs.append(cost)
+        print(
+            f"{actors:4d} actors{'':13}{cost * 1e6:10.1f}{cost * 1e6 / actors:10.2f}"
+            f"{cost / actors / u:10.0f}{DT / cost:14.0f}"
+        )
+    print(f"growth exponents with actors: {growth(ACTORS, costs)}")
+
+
+# --- Whole scenarios ------------------------------------------------------------------------------
+
+
+class Traffic(Scenario):
+    """Cars with leaves that are at work all the time."""
+
+    name = source = "traffic"
+    count = 5
+    leaves = 4  # of each car
+    length = 60.0  # s
+
+    def declare(self) -> None:
+        self.road = Map(map_file="highway")
+        self.cars = [Vehicle(name=f"c{i}") for i in range(self.count)]
+        for i, car in enumerate(self.cars):
+            setattr(self, f"c{i}", car)
+
+    def placement(self) -> None:
+        for i, car in enumerate(self.cars):
+            at = position(distance=20.0 + 35.0 * (i // 4))
+            self.place(car, lane(1 + i % 4), at, speed(15.0))
+
+    def behavior(self) -> Behaviour:
+        cars = Parallel("cars", *(self._car(i) for i in range(self.count)))
+        return OneOf("traffic", cars, Wait(elapsed(self.length)))
+
+    def _car(self, i: int) -> Behaviour:
+        car, other = self.cars[i], self.cars[(i + 1) % self.count]
+        leaves = (
+            car.drive(speed(15.0)),
+            car.follow_lane(),
+            Wait(rise(lambda: other.position.ahead_of(car) > 1e6)),
+            Wait(lambda: car.speed > 1e3),
+        )
+        return Parallel(f"car {i}", *leaves[: self.leaves])
+
+
+class Crowd(Traffic):
+    """Many cars that drive."""
+
+    count, leaves, length = 100, 2, 20.0
+
+
+@dataclass(frozen=True)
+class Budget:
+    """How many times faster than real time a scenario has to be."""
+
+    text: str
+    scenario: type[Traffic]
+    factor: float
+
+
+BUDGETS = (
+    Budget("5 actors, 20 leaves, 20 Hz, 60 s", Traffic, 300.0),
+    Budget("100 actors, 200 leaves, 20 Hz, 20 s", Crowd, 20.0),
+)
+
+
+def print_scenarios() -> None:
+    print(f"\n{'whole scenarios':40}{'us/tick':>10}{'x real time':>14}{'budget':>10}")
+    for budget in BUDGETS:
+
+        def run(kind: type[Traffic] = budget.scenario) -> None:
+            done = run_scenario(kind, RunSettings(dt=DT), keep_trace=False)
+            assert done.status == "success", done.reason
+
+        cost = min(spent(run, 1) for _ in range(3))
+        length = budget.scenario.length
+        factor = length / cost
+        verdict = "kept" if factor >= budget.factor else "MISSED"
+        print(
+            f"{budget.text:40}{cost / (length / DT) * 1e6:10.0f}{factor:14.0f}"
+            f"{budget.factor:10.0f} {verdict}"
+        )
+
+
+def main() -> None:
+    default = Path(osc2tx_runtime.__file__).parent / "maps" / "highway.xodr"
+    parser = argparse.ArgumentParser(description="What a run costs.")
+    parser.add_argument("--map", type=Path, default=default, help="OpenDRIVE file for the world")
+    road_map = read_map(parser.parse_args().map)
+    u = unit()
+    print(f"map {road_map.name}; U = {u * 1e9:.1f} ns (one next() on a trivial generator)")
+    print_trees(u)
+    print_world(road_map, u)
+    print_scenarios()
+
+
+if __name__ == "__main__":
+    main()

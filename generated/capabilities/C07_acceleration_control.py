@@ -1,0 +1,50 @@
+"""Scenario `acceleration_control`.
+
+C07 Acceleration control: reach an acceleration with a constant jerk, hold it, then have another
+one at once.
+
+Made by osc2tx from capabilities/C07_acceleration_control.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, mpspsps, mpss, s
+
+require_api(1)
+
+
+class AccelerationControl(Scenario):
+    """Scenario `acceleration_control` (capabilities/C07_acceleration_control.osc:7)."""
+
+    name = "acceleration_control"
+    source = "capabilities/C07_acceleration_control.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C07_acceleration_control.osc:12
+        return Serial(
+            "acceleration_control",
+            self.ego.change_acceleration(
+                target=1.5 * mpss, rate_profile="constant", rate_peak=1 * mpspsps, label="build_up"
+            ),
+            self.ego.keep_acceleration(duration=2 * s, label="hold"),
+            self.ego.assign_acceleration(acceleration=-2 * mpss),
+            self.ego.keep_acceleration(duration=3 * s, label="brake"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return AccelerationControl().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(AccelerationControl))

@@ -1,0 +1,84 @@
+"""Scenario `change_position`.
+
+C11 Change position: a car finds its own way to a point: along lanes to one that is given by the
+road, a person straight across to one of the world.
+
+Made by osc2tx from capabilities/C11_change_position.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Person,
+    Point,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, position, speed, yaw
+from osc2tx_runtime.units import deg, m, mps, s
+
+require_api(1)
+
+
+class ChangePosition(Scenario):
+    """Scenario `change_position` (capabilities/C11_change_position.osc:7)."""
+
+    name = "change_position"
+    source = "capabilities/C11_change_position.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.car = Vehicle()
+        self.walker = Person()
+        self.begin = Point(x=100 * m, y=-30 * m, z=0 * m)
+        self.goal = Point(x=106 * m, y=-38 * m, z=0 * m)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.car, lane(2), position(50 * m), speed(15 * mps))
+        self.place(
+            self.walker,
+            position(at_point=self.begin, project_on_route=False),
+            yaw(0 * deg),
+            speed(1 * mps),
+        )
+
+    def behavior(self) -> Behaviour:  # capabilities/C11_change_position.osc:22
+        return Parallel(
+            "change_position",
+            self.car_serial(),
+            self.walker_serial(),
+        )
+
+    def car_serial(self) -> Behaviour:  # capabilities/C11_change_position.osc:23
+        return Serial(
+            "car: serial",
+            self.car.drive(speed(15 * mps), duration=1 * s),
+            self.car.change_position(
+                target_odr=self.road.create_odr_point(road_id="1", lane_id="-3", s=200 * m, t=0 * m)
+            ),
+        )
+
+    def walker_serial(self) -> Behaviour:  # capabilities/C11_change_position.osc:31
+        return Serial(
+            "walker: serial",
+            self.walker.walk(speed(1 * mps), duration=1 * s),
+            self.walker.change_position(
+                target_xyz=self.goal, interpolation="straight_line", on_road_network=False
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return ChangePosition().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(ChangePosition))

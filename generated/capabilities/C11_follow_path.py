@@ -1,0 +1,61 @@
+"""Scenario `path_following`.
+
+C11 Follow path: a smooth path through points of the world, at the vehicle's own speed; then the
+same car replays a straight one exactly.
+
+Made by osc2tx from capabilities/C11_follow_path.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Pose, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class PathFollowing(Scenario):
+    """Scenario `path_following` (capabilities/C11_follow_path.osc:7)."""
+
+    name = "path_following"
+    source = "capabilities/C11_follow_path.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.begin = Pose(x=60 * m, y=-8.75 * m, z=0 * m)
+        self.middle = Pose(x=100 * m, y=-4 * m, z=0 * m)
+        self.end_point = Pose(x=140 * m, y=-8.75 * m, z=0 * m)
+        self.far = Pose(x=240 * m, y=-12.25 * m, z=0 * m)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C11_follow_path.osc:29
+        return Serial(
+            "path_following",
+            self.ego.drive(speed(10 * mps), duration=1 * s),
+            self.ego.follow_path(
+                absolute=self.road.create_path(
+                    points=[self.begin, self.middle, self.end_point], interpolation="smooth"
+                ),
+                label="curve",
+            ),
+            self.ego.replay_path(
+                absolute=self.road.create_path(
+                    points=[self.end_point, self.far], interpolation="straight_line"
+                ),
+                label="line",
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return PathFollowing().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(PathFollowing))

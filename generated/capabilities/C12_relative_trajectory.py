@@ -1,0 +1,68 @@
+"""Scenario `relative_trajectory`.
+
+C12 Relative trajectory: points with times in the frame of the car, as it is when it begins.
+
+Made by osc2tx from capabilities/C12_relative_trajectory.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Pose,
+    RelativeTrajectoryPose3d,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class RelativeTrajectory(Scenario):
+    """Scenario `relative_trajectory` (capabilities/C12_relative_trajectory.osc:6)."""
+
+    name = "relative_trajectory"
+    source = "capabilities/C12_relative_trajectory.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.here = Pose(x=0 * m, y=0 * m)
+        self.ahead = Pose(x=40 * m, y=0 * m)
+        self.aside = Pose(x=80 * m, y=3.5 * m)
+        self.shape = RelativeTrajectoryPose3d(
+            points=[self.here, self.ahead, self.aside],
+            time_stamps=[0 * s, 4 * s, 8 * s],
+            interpolation="straight_line",
+        )
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C12_relative_trajectory.osc:25
+        return Serial(
+            "relative_trajectory",
+            self.ego.drive(speed(10 * mps), duration=1 * s),
+            self.ego.replay_trajectory(
+                relative=self.shape,
+                reference=self.ego,
+                transform="object_relative",
+                label="pass_by",
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return RelativeTrajectory().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(RelativeTrajectory))

@@ -1,0 +1,64 @@
+"""Scenario `signal_cycles`.
+
+C17 Signal cycles: the lights of a group run through their phases by themselves.
+
+Made by osc2tx from capabilities/C17_signal_cycles.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    TrafficLight,
+    TrafficLightController,
+    TrafficLightCycle,
+    TrafficLightGroup,
+    TrafficLightPhase,
+    main,
+    require_api,
+)
+from osc2tx_runtime.units import s
+
+require_api(1)
+
+
+class SignalCycles(Scenario):
+    """Scenario `signal_cycles` (capabilities/C17_signal_cycles.osc:6)."""
+
+    name = "signal_cycles"
+    source = "capabilities/C17_signal_cycles.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="urban_crossing.xodr")
+        self.lights = TrafficLightController()
+        self.east = TrafficLight(map_id="101")
+        self.main_road = TrafficLightGroup(map_id="1")
+        self.free = TrafficLightPhase(
+            group=self.main_road,
+            bulbs_state=self.east.semantic_state_to_state("go"),
+            duration=3 * s,
+        )
+        self.closed = TrafficLightPhase(
+            group=self.main_road,
+            bulbs_state=self.east.semantic_state_to_state("stop"),
+            duration=5 * s,
+        )
+        self.cycle = TrafficLightCycle(phases=[self.free, self.closed])
+
+    def behavior(self) -> Behaviour:  # capabilities/C17_signal_cycles.osc:26
+        return Serial(
+            "signal_cycles",
+            self.lights.play_cycles(cycles=[self.cycle], duration=12 * s, label="run_by_itself"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return SignalCycles().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(SignalCycles))

@@ -1,0 +1,73 @@
+"""Scenario `traffic_signals`.
+
+C17 Traffic signals: a light is red and turns green; the car stops before the line and drives on.
+The lights across change as a group.
+
+Made by osc2tx from capabilities/C17_traffic_signals.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    TrafficLight,
+    TrafficLightController,
+    TrafficLightGroup,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import avoid_collisions, lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class TrafficSignals(Scenario):
+    """Scenario `traffic_signals` (capabilities/C17_traffic_signals.osc:7)."""
+
+    name = "traffic_signals"
+    source = "capabilities/C17_traffic_signals.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="urban_crossing.xodr")
+        self.lights = TrafficLightController()
+        self.ego = Vehicle()
+        self.ahead = TrafficLight(map_id="101")
+        self.across = TrafficLightGroup(map_id="2")
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C17_traffic_signals.osc:17
+        return Parallel(
+            "traffic_signals",
+            self.lights_serial(),
+            self.ego.drive(speed(12 * mps), avoid_collisions(True), duration=20 * s),
+        )
+
+    def lights_serial(self) -> Behaviour:  # capabilities/C17_traffic_signals.osc:18
+        return Serial(
+            "lights: serial",
+            self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),
+            self.lights.set_group_semantic_state(traffic_light_group=self.across, state="go"),
+            Wait(elapsed(14 * s)),
+            self.lights.set_group_semantic_state(traffic_light_group=self.across, state="stop"),
+            self.lights.set_semantic_state(traffic_light=self.ahead, state="go"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return TrafficSignals().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(TrafficSignals))

@@ -1,0 +1,47 @@
+"""Scenario `acceleration_modifier`.
+
+C20 Acceleration modifier: a drive with a constant acceleration, then one with a deceleration that
+ends at a stand.
+
+Made by osc2tx from capabilities/C20_acceleration_modifier.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import acceleration, lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+
+class AccelerationModifier(Scenario):
+    """Scenario `acceleration_modifier` (capabilities/C20_acceleration_modifier.osc:7)."""
+
+    name = "acceleration_modifier"
+    source = "capabilities/C20_acceleration_modifier.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(8 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C20_acceleration_modifier.osc:12
+        return Serial(
+            "acceleration_modifier",
+            self.ego.drive(speed(8 * mps), duration=1 * s),
+            self.ego.drive(acceleration(1.25 * mpss), duration=4 * s, label="gain"),
+            self.ego.drive(acceleration(-2 * mpss), duration=8 * s, label="lose"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return AccelerationModifier().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(AccelerationModifier))

@@ -1,0 +1,49 @@
+"""Scenario `along_a_path`.
+
+C21 Along a path: a drive that follows a path through the world and ends ten metres before its end.
+
+Made by osc2tx from capabilities/C21_along.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Path, Pose, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import along, lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class AlongAPath(Scenario):
+    """Scenario `along_a_path` (capabilities/C21_along.osc:6)."""
+
+    name = "along_a_path"
+    source = "capabilities/C21_along.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.begin = Pose(x=70 * m, y=-8.75 * m, z=0 * m)
+        self.end_point = Pose(x=190 * m, y=-8.75 * m, z=0 * m)
+        self.way = Path(points=[self.begin, self.end_point], interpolation="straight_line")
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C21_along.osc:23
+        return Serial(
+            "along_a_path",
+            self.ego.drive(speed(20 * mps), duration=1 * s),
+            self.ego.drive(along(self.way, end_offset=10 * m), label="ride"),
+            self.ego.drive(duration=1 * s),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return AlongAPath().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(AlongAPath))

@@ -1,0 +1,60 @@
+"""Scenario `serial_execution`.
+
+C30 Serial execution: each step starts in the instant in which the step before it ends.
+
+Made by osc2tx from capabilities/C30_serial.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+
+class SerialExecution(Scenario):
+    """Scenario `serial_execution` (capabilities/C30_serial.osc:6)."""
+
+    name = "serial_execution"
+    source = "capabilities/C30_serial.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(1), position(50 * m), speed(12 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C30_serial.osc:11
+        return Serial(
+            "serial_execution",
+            self.ego.drive(speed(12 * mps), duration=2 * s, label="drive_on"),
+            self.ego.change_lane(side="left", duration=4 * s, label="swerve"),
+            self.ego.change_speed(
+                target=18 * mps, rate_profile="constant", rate_peak=2 * mpss, label="faster"
+            ),
+            Wait(elapsed(0.5 * s), label="pause"),
+            self.ego.change_lane(side="right", duration=4 * s, label="back"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return SerialExecution().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(SerialExecution))

@@ -1,0 +1,68 @@
+"""Scenario `parallel_execution`.
+
+C31 Parallel execution: speed and lane of one car at the same time, a second car beside it, and
+members that meet at their ends.
+
+Made by osc2tx from capabilities/C31_parallel.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class ParallelExecution(Scenario):
+    """Scenario `parallel_execution` (capabilities/C31_parallel.osc:7)."""
+
+    name = "parallel_execution"
+    source = "capabilities/C31_parallel.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
+        self.place(self.other, lane(1), position(50 * m), speed(12 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C31_parallel.osc:12
+        return Serial(
+            "parallel_execution",
+            self.together(),
+            self.same_end(),
+        )
+
+    def together(self) -> Behaviour:  # capabilities/C31_parallel.osc:13
+        return Parallel(
+            "together",
+            self.ego.change_speed(
+                target=16 * mps, rate_profile="smooth", duration=4 * s, label="faster"
+            ),
+            self.ego.change_lane(side="left", duration=5 * s, label="swerve"),
+            self.other.drive(speed(12 * mps), duration=3 * s),
+        )
+
+    def same_end(self) -> Behaviour:  # capabilities/C31_parallel.osc:23
+        return Parallel(
+            "same_end",
+            self.ego.change_lane(side="right", duration=5 * s, label="long"),
+            self.other.change_speed(
+                target=16 * mps, rate_profile="constant", duration=2 * s, label="short"
+            ),
+            overlap="end",
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return ParallelExecution().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(ParallelExecution))

@@ -1,0 +1,112 @@
+"""Scenario `conditional_triggers`.
+
+C32 Conditional triggers: a declared event with a condition, one that is emitted, and a reaction
+beside the story.
+
+Made by osc2tx from capabilities/C32_conditional_triggers.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Emit,
+    Event,
+    Map,
+    On,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+    rise,
+)
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+
+class ConditionalTriggers(Scenario):
+    """Scenario `conditional_triggers` (capabilities/C32_conditional_triggers.osc:7)."""
+
+    name = "conditional_triggers"
+    source = "capabilities/C32_conditional_triggers.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+        self.near = Event(
+            rise(
+                lambda: self.ego.space_gap(reference=self.other, direction="longitudinal") > -20 * m
+            )
+        )
+        self.ready = Event()
+        self.noticed = Event()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
+        self.place(self.other, lane(2), position(150 * m), speed(10 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:19
+        return Parallel(
+            "conditional_triggers",
+            self.do_parallel(),
+            On(
+                self.ready,
+                Emit(self.noticed),
+            ),
+        )
+
+    def do_parallel(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:19
+        return Parallel(
+            "do parallel",
+            self.ego_part(),
+            self.other_part(),
+            self.answer(),
+        )
+
+    def ego_part(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:20
+        return Serial(
+            "ego_part",
+            Until(
+                self.ego.drive(speed(20 * mps)),
+                self.near,
+                label="approach",
+            ),
+            self.ego.change_lane(side="left", duration=3 * s, label="swerve"),
+            Emit(self.ready),
+        )
+
+    def other_part(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:28
+        return Serial(
+            "other_part",
+            Until(
+                self.other.drive(speed(10 * mps)),
+                self.ready,
+            ),
+            self.other.change_speed(
+                target=15 * mps, rate_profile="constant", rate_peak=2.5 * mpss, label="go"
+            ),
+        )
+
+    def answer(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:35
+        return Serial(
+            "answer",
+            Wait(self.noticed),
+            self.ego.change_speed(target=16 * mps, rate_profile="constant", rate_peak=2 * mpss),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return ConditionalTriggers().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(ConditionalTriggers))

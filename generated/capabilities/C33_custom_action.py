@@ -1,0 +1,47 @@
+"""Scenario `custom_action`.
+
+C33 Custom actions: two actions that the library does not have. Python classes for them come from
+an installed package (docs/extending.md); the scenario only declares what it uses.
+
+Made by osc2tx from capabilities/C33_custom_action.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class CustomAction(Scenario):
+    """Scenario `custom_action` (capabilities/C33_custom_action.osc:14)."""
+
+    name = "custom_action"
+    source = "capabilities/C33_custom_action.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(3 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C33_custom_action.osc:19
+        return Serial(
+            "custom_action",
+            self.ego.drive(speed(3 * mps), duration=1 * s),
+            self.ego.creep(v=2 * mps, duration=3 * s),
+            self.ego.roll_out(),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return CustomAction().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(CustomAction))

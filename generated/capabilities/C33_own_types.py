@@ -1,0 +1,66 @@
+"""Scenario `own_types`.
+
+C33 Own types: a unit, an enum, and a struct whose constraints say what belongs together. The
+scenario names the mood; how fast and how hard follows from it.
+
+Made by osc2tx from capabilities/C33_own_types.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+
+from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+# Units that the scenario declares
+knot = 0.514444
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """Struct `plan` (capabilities/C33_own_types.osc:12)."""
+
+    mood: str
+    cruise: float
+    peak: float
+
+
+class OwnTypes(Scenario):
+    """Scenario `own_types` (capabilities/C33_own_types.osc:20)."""
+
+    name = "own_types"
+    source = "capabilities/C33_own_types.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.quiet = Plan(cruise=20 * knot, mood="calm", peak=1.0 * mpss)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(5 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C33_own_types.osc:27
+        return Serial(
+            "own_types",
+            self.ego.drive(speed(5 * mps), duration=1 * s),
+            self.ego.change_speed(
+                target=self.quiet.cruise,
+                rate_profile="constant",
+                rate_peak=self.quiet.peak,
+                label="gain",
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return OwnTypes().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(OwnTypes))

@@ -1,0 +1,74 @@
+"""Scenario `conflict_resolution`.
+
+C34 Conflict resolution: who controls a car. A later step takes over from an earlier one in the
+same instant, and speed and lane are controlled apart, so that two branches may share a car.
+
+Made by osc2tx from capabilities/C34_conflict_resolution.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+
+class ConflictResolution(Scenario):
+    """Scenario `conflict_resolution` (capabilities/C34_conflict_resolution.osc:7)."""
+
+    name = "conflict_resolution"
+    source = "capabilities/C34_conflict_resolution.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C34_conflict_resolution.osc:12
+        return Serial(
+            "conflict_resolution",
+            # Controls the speed, until `evade` wants it
+            Until(
+                self.ego.drive(speed(20 * mps)),
+                elapsed(2 * s),
+                label="cruise",
+            ),
+            self.share(),
+            self.ego.change_speed(
+                target=16 * mps, rate_profile="constant", rate_peak=2 * mpss, label="recover"
+            ),
+        )
+
+    def share(self) -> Behaviour:  # capabilities/C34_conflict_resolution.osc:19
+        return Parallel(
+            "share",
+            self.ego.change_speed(
+                target=10 * mps, rate_profile="constant", rate_peak=4 * mpss, label="evade"
+            ),
+            self.ego.change_lane(side="left", duration=3 * s, label="swerve"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return ConflictResolution().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(ConflictResolution))

@@ -1,0 +1,77 @@
+"""Scenario `overriding`.
+
+C34 Override: a warning brake ends the cruise as soon as it starts; a comfort action does not even
+start while the brake is on.
+
+Made by osc2tx from capabilities/C34_override.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+
+class Overriding(Scenario):
+    """Scenario `overriding` (capabilities/C34_override.osc:7)."""
+
+    name = "overriding"
+    source = "capabilities/C34_override.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
+
+    def behavior(self) -> Behaviour:  # capabilities/C34_override.osc:14
+        self.override("cruise", "brake")
+        self.override("hurry", "brake", mode="when_active")
+        return Parallel(
+            "overriding",
+            self.ego.drive(speed(20 * mps), label="cruise"),
+            self.warning(),
+            self.comfort(),
+        )
+
+    def warning(self) -> Behaviour:  # capabilities/C34_override.osc:19
+        return Serial(
+            "warning",
+            Wait(elapsed(2 * s)),
+            self.ego.change_speed(
+                target=10 * mps, rate_profile="constant", rate_peak=4 * mpss, label="brake"
+            ),
+        )
+
+    def comfort(self) -> Behaviour:  # capabilities/C34_override.osc:22
+        return Serial(
+            "comfort",
+            Wait(elapsed(3 * s)),
+            self.ego.change_speed(target=25 * mps, label="hurry"),
+            Wait(elapsed(2 * s)),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Overriding().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Overriding))

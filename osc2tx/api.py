@@ -1,0 +1,170 @@
+"""The library: compile a file or a text from a program of your own.
+
+>>> from osc2tx import compile_text
+>>> result = compile_text('''
+... import osc.standard
+...
+... scenario cruise:
+...     ego: vehicle
+...     do serial:
+...         ego.drive(duration: 3s) with:
+...             speed(30kph)
+... ''', name="cruise.osc")
+>>> result.ok, sorted(result.outputs)
+(True, ['cruise.map.json', 'cruise.py', 'cruise.xosc', 'cruise.xosc.report.json'])
+>>> "class Cruise(Scenario):" in result.python
+True
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from osc2tx.building.jobs import find_jobs
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.diagnostics import Diagnostic, Severity
+from osc2tx.driver import Compilation
+from osc2tx.inputs import InputError
+from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
+
+__all__ = ["CompileResult", "compile_file", "compile_text"]
+
+
+@dataclass(frozen=True, slots=True)
+class CompileResult:
+    """What came of one source.
+
+    Attributes:
+        name: How diagnostics and generated files call the source.
+        diagnostics: What was reported and no comment suppresses, in order of place.
+        outputs: Names of files to what they hold: the module, the map of its nodes to lines of
+            the source, and for each scenario OpenSCENARIO XML, if that can say what it says, and
+            the report on it. Empty for a source with errors, or without scenarios.
+        levels: Scenario to `abstract`, `logical` or `concrete` (§5.2).
+    """
+
+    name: str
+    diagnostics: tuple[Diagnostic, ...]
+    outputs: Mapping[str, str]
+    levels: Mapping[str, str]
+
+    @property
+    def ok(self) -> bool:
+        """Whether there are no errors; warnings are fine."""
+        return all(found.severity is not Severity.ERROR for found in self.diagnostics)
+
+    @property
+    def python(self) -> str | None:
+        """The py_trees module; `None` if there is none."""
+        return next((text for name, text in self.outputs.items() if name.endswith(".py")), None)
+
+    @property
+    def xml(self) -> str | None:
+        """The OpenSCENARIO XML of the first scenario that has some; `None` if none has."""
+        made = (n for n in self.outputs if n.endswith(".xosc") and ".params." not in n)
+        return next((self.outputs[name] for name in made), None)
+
+    def write(self, folder: str | Path) -> list[Path]:
+        """Write all outputs into a folder, which is made when needed; return their paths.
+
+        Raises:
+            OSError: If a file cannot be written.
+        """
+        place = Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        for name, text in self.outputs.items():
+            (place / name).write_text(text, encoding="utf-8", newline="\n")
+        return [place / name for name in self.outputs]
+
+
+def compile_file(
+    path: str | Path,
+    *,
+    std: Standard | None = None,
+    dialect: Dialect | None = None,
+    one_of: OneOfPolicy | None = None,
+    target: Target | None = None,
+    xml_version: XmlVersion | None = None,
+    xml_profile: XmlProfile | None = None,
+    allow_approx: bool | None = None,
+) -> CompileResult:
+    """Compile a scenario file as `osc2tx build` does, without writing anything.
+
+    What is not given comes from the nearest `osc2tx.toml` or `pyproject.toml`, then from the
+    defaults. The file may import what lies in its folder and in that of the settings file.
+
+    Args:
+        path: The file.
+        std: Version of the standard.
+        dialect: Dialect of the source.
+        one_of: Meaning of `one_of`.
+        target: What to make.
+        xml_version: Version of OpenSCENARIO XML.
+        xml_profile: Tool that is to read the XML.
+        allow_approx: Whether XML may mean nearly the same.
+
+    Raises:
+        InputError: If there is no such file.
+        ConfigError: If a settings file is wrong.
+    """
+    if Path(path).is_dir():
+        raise InputError(f"{path}: is a folder; name one scenario file")
+    given = GivenOptions(std, dialect, one_of, target, xml_version, xml_profile, allow_approx)
+    (job,) = find_jobs([path], given, ConfigFiles())
+    return _result(job.compilation())
+
+
+def compile_text(
+    text: str,
+    *,
+    name: str = "scenario.osc",
+    folder: str | Path = ".",
+    std: Standard | None = None,
+    dialect: Dialect | None = None,
+    one_of: OneOfPolicy | None = None,
+    target: Target | None = None,
+    xml_version: XmlVersion | None = None,
+    xml_profile: XmlProfile | None = None,
+    allow_approx: bool | None = None,
+) -> CompileResult:
+    """Compile a text as if it were the file `name` of a folder; that file need not exist.
+
+    >>> from osc2tx import compile_text
+    >>> (found,) = compile_text("actor car inherits vehicel").diagnostics
+    >>> found.code, found.primary.line, found.primary.column
+    ('OSC202', 1, 20)
+
+    Args:
+        text: The text.
+        name: How diagnostics and generated files call it.
+        folder: Where imported files are looked for, and from where settings files.
+        std: Version of the standard.
+        dialect: Dialect of the source.
+        one_of: Meaning of `one_of`.
+        target: What to make.
+        xml_version: Version of OpenSCENARIO XML.
+        xml_profile: Tool that is to read the XML.
+        allow_approx: Whether XML may mean nearly the same.
+
+    Raises:
+        ConfigError: If a settings file is wrong.
+    """
+    path = Path(folder, name)
+    config = ConfigFiles().for_source(path)
+    given = GivenOptions(std, dialect, one_of, target, xml_version, xml_profile, allow_approx)
+    options = config.options_for(path, given)
+    return _result(Compilation(path, name, options, roots=config.roots, text=text))
+
+
+def _result(compilation: Compilation) -> CompileResult:
+    outputs = {
+        f"{compilation.stem}{output.suffix}": output.text for output in compilation.outputs()
+    }
+    return CompileResult(
+        name=compilation.name,
+        diagnostics=compilation.diagnostics,
+        outputs=outputs,
+        levels={entry.name: entry.level for entry in compilation.scenarios},
+    )

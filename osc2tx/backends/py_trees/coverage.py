@@ -1,0 +1,76 @@
+"""Coverage items as calls of `cover` and `record`."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.calls import CallWriter, code
+from osc2tx.backends.py_trees.code import (
+    Level,
+    PyExpr,
+    PyName,
+    literal,
+    name_expression,
+    self_attribute,
+)
+from osc2tx.backends.py_trees.view import ArgumentView, CallView
+
+
+class CoverageWriter:
+    """Writes coverage items.
+
+    Args:
+        calls: Writer of the scenario's calls.
+    """
+
+    def __init__(self, calls: CallWriter) -> None:
+        """See the class."""
+        self._calls = calls
+
+    def write(self, item: ir.Coverage) -> CallView:
+        """Return the call that declares an item."""
+        arguments = [code(literal(item.name))]
+        writer = self._calls.expressions
+        if item.expression is not None:
+            arguments.append(code(writer.late(writer.write(item.expression))))
+        else:
+            arguments.append(code(_tuple(tuple(map(literal, item.items))), "items"))
+        arguments += self._slices(item)
+        if isinstance(item.event, ir.EventRef):
+            arguments.append(code(writer.field(item.event.name), "at"))
+        elif item.event is not ir.Moment.END:
+            arguments.append(code(literal(item.event.value), "at"))
+        for keyword, condition in (("ignore", item.ignore), ("illegal", item.illegal)):
+            if condition is not None:
+                body = writer.write(condition).within(Level.CONDITIONAL)
+                arguments.append(code(PyExpr(f"lambda it: {body}", Level.LAMBDA), keyword))
+        if item.target is not None:
+            arguments.append(code(literal(item.target), "target"))
+        if item.text:
+            arguments.append(code(literal(item.text), "text"))
+        return CallView(self_attribute(PyName(item.kind)), tuple(arguments))
+
+    def _slices(self, item: ir.Coverage) -> list[ArgumentView]:
+        arguments = []
+        if item.unit is not None:
+            arguments.append(code(self._unit(item.unit), "unit"))
+        if item.within is not None:
+            arguments.append(code(_tuple(tuple(map(literal, item.within))), "within"))
+        if item.every is not None:
+            arguments.append(code(literal(item.every), "every"))
+        if item.buckets:
+            arguments.append(code(_tuple(tuple(map(literal, item.buckets))), "buckets"))
+        return arguments
+
+    def _unit(self, unit: ir.Unit) -> PyExpr:
+        """Write a unit; one with an offset is a function in the runtime, so by its numbers."""
+        name = self._calls.use_name("Unit")
+        if unit.offset:
+            numbers = f"{literal(unit.factor)}, {literal(unit.offset)}"
+            return PyExpr(f"{name}({literal(unit.name)}, {numbers})", Level.ATOM)
+        factor = name_expression(self._calls.expressions.unit(unit))
+        return PyExpr(f"{name}({literal(unit.name)}, {factor})", Level.ATOM)
+
+
+def _tuple(parts: tuple[PyExpr, ...]) -> PyExpr:
+    inner = ", ".join(str(part) for part in parts)
+    return PyExpr(f"({inner},)" if len(parts) == 1 else f"({inner})", Level.ATOM)

@@ -1,0 +1,10 @@
+"""The XML back end: IR in, OpenSCENARIO XML 1.0 to 1.3 and a loss report out.
+
+Begin at `emitter`. In order of control flow: `document` (the skeleton), `entities`, `placement`
+(`Init`), `flatten` (the tree as acts and events) with `actions`, `conditions` and `events`; what
+they make are `tree.Element`s, which `schema` puts in order and checks.
+"""
+
+from osc2tx.backends.xosc.emitter import XmlScenario, emit
+
+__all__ = ["XmlScenario", "emit"]

@@ -1,0 +1,208 @@
+"""What all parts of the back end share while one scenario is written down."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from osc2tx import ir
+from osc2tx.backends.xosc.cast import CastMember
+from osc2tx.backends.xosc.facts import Roads, map_places, roads_of
+from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.parameters import OpenParameter
+from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
+from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
+from osc2tx.backends.xosc.scopes import Scope, open_scopes
+from osc2tx.backends.xosc.state import ActorState
+from osc2tx.backends.xosc.tree import Element, element
+from osc2tx.backends.xosc.values import Values
+from osc2tx.diagnostics import Span
+from osc2tx.options import XmlOptions, XmlVersion
+
+
+class Context:
+    """One scenario on its way to the XML.
+
+    Attributes:
+        scenario: What is written down.
+        module: Where it stands.
+        options: What was chosen.
+        version: Of the XML.
+        profile: The tool that reads it.
+        report: What became of the constructs.
+        names: Of elements.
+        parameters: Open parameters that are parameters of the document.
+        scope: The scenario, or the one it invokes that is being written down.
+        entities: All physical actors.
+        roads: The map, if it was found.
+        map_places: Where it was looked for, outside of the runtime library.
+        map_file: What the scenario calls its map.
+        states: What is known about the actors at the present place of the tree.
+        at_start: The states after the initial placement.
+        init_gaps: Metres by which an actor starts behind another one.
+        init_globals: Actions of `Init` that concern no entity.
+        weather: What the scenario has said about it up to the present place of the tree.
+        monitors: Value at the start of monitors, by name.
+        variables: Type and value at the start of variables, by name.
+        lamps: States of the lamps of traffic lights at the present place of the tree; `None` if
+            not known, off if not there.
+        controllers: Of traffic lights, for the road network.
+    """
+
+    def __init__(
+        self,
+        scenario: ir.Scenario,
+        module: ir.Module,
+        options: XmlOptions,
+        folder: Path | None,
+        parameters: Sequence[OpenParameter] = (),
+        given: Mapping[str, float] | None = None,
+    ) -> None:
+        """Take the scenario.
+
+        Args:
+            scenario: What is written down.
+            module: Where it stands.
+            options: What was chosen.
+            folder: Where the source lies, if it has a folder.
+            parameters: Open parameters that are to be parameters of the document.
+            given: Numbers for others.
+        """
+        self.scenario = scenario
+        self.module = module
+        self.options = options
+        self.version: XmlVersion = options.version
+        self.profile: ToolProfile = PROFILES[options.profile]
+        self.report = LossReport(options)
+        self.names = Names()
+        self.parameters = tuple(parameters)
+        symbols = {p.declaration.name: p.symbol(self.version) for p in parameters}
+        self.scope = open_scopes(scenario, module, {**(given or {}), **symbols})
+        self.entities: list[CastMember] = self.scope.members()
+        self.map_file = self._map_file()
+        folders = [*([folder] if folder else []), *map(Path, options.map_path)]
+        self.roads: Roads | None = roads_of(self.map_file, folders)
+        self.map_places = tuple(map_places(self.map_file, folders))
+        self.states: dict[str, ActorState] = {}
+        self.at_start: dict[str, ActorState] = {}
+        self.monitors: dict[str, bool] = {}
+        self.weather: dict[str, float] = {}
+        self.init_globals: list[Element] = []
+        self.init_gaps: dict[tuple[str, str], float] = {}
+        self.variables: dict[str, tuple[str, str]] = {}
+        self.lamps: dict[str, tuple[str, ...] | None] = {}
+        self.controllers: list[Element] = []
+        self._variable_names: dict[str, str] = {}
+        for name in given or ():  # parameters, whether they are kept or not
+            self.names.new(name)
+        for member in self.entities:
+            self.names.new(member.name)
+
+    @property
+    def values(self) -> Values:
+        """Constants of the scenario that is being written down."""
+        return self.scope.values
+
+    @property
+    def cast(self) -> dict[str, CastMember]:
+        """Its physical actors, by their names in it."""
+        return self.scope.cast
+
+    @contextmanager
+    def within(self, scope: Scope) -> Iterator[None]:
+        """Look at names as an invoked scenario does."""
+        outer, self.scope = self.scope, scope
+        try:
+            yield
+        finally:
+            self.scope = outer
+
+    def _map_file(self) -> str | None:
+        for declaration in self.scenario.declarations:
+            if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
+                value = self.values.field(declaration.name, ("map_file",))
+                if isinstance(value, str):
+                    return value
+        return None
+
+    def comment(self, span: Span, text: str) -> str:
+        """Return a comment that leads back to the source."""
+        return f"{span}: {text}"
+
+    @contextmanager
+    def report_as(self, construct: str, span: Span) -> Iterator[None]:
+        """Report a construct: exact, unless it turns out to be inexpressible inside."""
+        try:
+            yield
+        except Inexpressible as error:
+            self.report.cannot(construct, error.span or span, error.reason, error.remedy)
+        else:
+            self.report.exact(construct, span)
+
+    def require(self, what: str, since: XmlVersion, span: Span | None = None) -> None:
+        """Refuse what the version does not have yet.
+
+        Raises:
+            Inexpressible: It does not.
+        """
+        if self.version < since:
+            raise Inexpressible(
+                f"{what} is not in OpenSCENARIO XML {self.version}", span, Remedy(version=since)
+            )
+
+    def require_support(self, feature: str, span: Span | None = None) -> None:
+        """Refuse what the tool does not carry out; `feature` as in `ToolProfile.unsupported`.
+
+        Raises:
+            Inexpressible: It does not.
+        """
+        instead = self.profile.unsupported.get(feature)
+        if instead is not None:
+            raise Inexpressible(
+                f"{self.profile.name} does not carry out {feature}: {instead}",
+                span,
+                Remedy(profile="generic"),
+            )
+
+    def can(self, feature: str, since: XmlVersion) -> bool:
+        """Whether version and tool have a feature."""
+        return self.version >= since and feature not in self.profile.unsupported
+
+    # --- variables ------------------------------------------------------------------------------
+
+    def declare(self, name: str, type_: str, value: str) -> None:
+        """Declare a variable (a parameter before 1.2) if it is not there yet."""
+        self.variables.setdefault(name, (type_, value))
+
+    def variable_name(self, name: str) -> str:
+        """Return the name of the variable for a name of the source; others have others."""
+        if name not in self._variable_names:
+            self._variable_names[name] = self.names.new(name)
+        return self._variable_names[name]
+
+    def set_variable(self, name: str, value: str) -> Element:
+        """Return the action that sets a variable."""
+        if self.version >= "1.2":
+            action = element("VariableAction", element("SetAction", value=value), variableRef=name)
+        else:
+            action = element(
+                "ParameterAction", element("SetAction", value=value), parameterRef=name
+            )
+        return element("GlobalAction", action)
+
+    def variable_is(self, name: str, rule: str, value: str) -> Element:
+        """Return the condition on a variable."""
+        if self.version >= "1.2":
+            condition = element("VariableCondition", variableRef=name, rule=rule, value=value)
+        else:
+            condition = element("ParameterCondition", parameterRef=name, rule=rule, value=value)
+        return element("ByValueCondition", condition)
+
+    def mark(self, name: str) -> Element:
+        """Return the action of an event that only keeps that something has come true.
+
+        It sets a variable of its own. Tools see that one step earlier than the state of the event.
+        """
+        self.declare(name, "boolean", "false")
+        return self.set_variable(name, "true")

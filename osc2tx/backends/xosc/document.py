@@ -1,0 +1,115 @@
+"""The document: a scenario from its header to its stop trigger."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities import scenario_objects
+from osc2tx.backends.xosc.facts import DEFAULT_MAP
+from osc2tx.backends.xosc.flatten import Flattener
+from osc2tx.backends.xosc.flow import Flow, at_time, single
+from osc2tx.backends.xosc.parameters import declaration
+from osc2tx.backends.xosc.placement import initial_actions
+from osc2tx.backends.xosc.storyboard import StoryboardWriter
+from osc2tx.backends.xosc.tree import Element, element
+
+DATE = "2000-01-01T00:00:00"
+"""The schema asks for a date; a real one would change the file each day."""
+
+AUTHOR = "osc2tx"
+
+MOST_TIME = 300.0
+"""Seconds after which a scenario without end is over, as with `osc2tx run`."""
+
+
+def make_document(ctx: Context) -> Element:
+    """Return the document; what it cannot say is in the report."""
+    objects = scenario_objects(ctx)
+    privates = initial_actions(ctx)
+    flattener = Flattener(ctx)
+    end = flattener.run()
+    writer = StoryboardWriter(ctx.names, ctx.version)
+    story = writer.story(f"story_{ctx.scenario.name}", flattener.acts)
+    storyboard = element(
+        "Storyboard",
+        element("Init", element("Actions", *ctx.init_globals, *privates)),
+        story,
+        writer.trigger("StopTrigger", _end(ctx, end), "end"),
+    )
+    major, minor = ctx.version.split(".")
+    return element(
+        "OpenSCENARIO",
+        element(
+            "FileHeader",
+            _source(ctx),
+            revMajor=major,
+            revMinor=minor,
+            date=DATE,
+            description=ctx.scenario.name,
+            author=AUTHOR,
+        ),
+        _parameters(ctx),
+        _variables(ctx),
+        _monitors(ctx),
+        element("CatalogLocations"),
+        _road_network(ctx),
+        element("Entities", *objects),
+        storyboard,
+    )
+
+
+def _end(ctx: Context, end: Flow) -> Flow:
+    if not end.is_never:
+        return end
+    note = f"it ends after {MOST_TIME:g} s, as with `osc2tx run`"
+    ctx.report.exact("a scenario without end", ctx.scenario.span, note)
+    return single(at_time(MOST_TIME))
+
+
+def _monitors(ctx: Context) -> Element | None:
+    if not ctx.monitors:
+        return None
+    declarations = (
+        element("MonitorDeclaration", name=name, value=value)
+        for name, value in ctx.monitors.items()
+    )
+    return element("MonitorDeclarations", *declarations)
+
+
+def _source(ctx: Context) -> Element | None:
+    if ctx.version < "1.2":
+        return None
+    return element("Properties", element("Property", name="source", value=str(ctx.scenario.span)))
+
+
+def _road_network(ctx: Context) -> Element:
+    signals = element("TrafficSignals", *ctx.controllers) if ctx.controllers else None
+    map_file = element("LogicFile", filepath=ctx.map_file or DEFAULT_MAP)
+    return element("RoadNetwork", map_file, signals)
+
+
+def _parameters(ctx: Context) -> Element | None:
+    given = [declaration(parameter, ctx.version) for parameter in ctx.parameters]
+    if ctx.version < "1.2":
+        given += [
+            element("ParameterDeclaration", name=name, parameterType=type_, value=value)
+            for name, (type_, value) in ctx.variables.items()
+        ]
+    return element("ParameterDeclarations", *given) if given else None
+
+
+def _variables(ctx: Context) -> Element | None:
+    if ctx.version < "1.2" or not ctx.variables:
+        return None
+    return element(
+        "VariableDeclarations",
+        *(
+            element("VariableDeclaration", name=name, variableType=type_, value=value)
+            for name, (type_, value) in ctx.variables.items()
+        ),
+    )
+
+
+def entry_scenarios(module: ir.Module) -> tuple[ir.Scenario, ...]:
+    """Return the scenarios that are written down: those of the file itself."""
+    return tuple(scenario for scenario in module.scenarios if not scenario.is_imported)

@@ -1,0 +1,124 @@
+"""Invocations of actions as events."""
+
+from __future__ import annotations
+
+from math import inf
+
+from osc2tx import ir
+from osc2tx.backends.xosc.flow import Flow, Test
+from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.loom import RUN_START, Loom, construct_of, one_line
+from osc2tx.backends.xosc.neighbours import is_first
+from osc2tx.backends.xosc.own import own_action
+from osc2tx.backends.xosc.registry import ACTIONS, GLOBAL_ACTIONS
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.settling import take
+from osc2tx.backends.xosc.shape import OPEN_GLOBALS
+from osc2tx.backends.xosc.tree import Element, commented
+
+
+def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
+    """Write down an invocation that starts with a flow; return when it ends."""
+    if node.action in GLOBAL_ACTIONS:
+        return _invoke_global(loom, node, start)
+    ctx = loom.ctx
+    leaf_handler = own_action if node.is_own else ACTIONS.get(node.action)
+    if leaf_handler is None:
+        raise Inexpressible(f"there is no counterpart of `{node.owner}.{node.action}`")
+    member = ctx.cast.get(ctx.values.actor(node.actor))
+    if member is None:
+        raise Inexpressible(f"`{node.actor.span.text}` is no entity of the XML")
+    loom.voice = member.name
+    overriding = loom.overriding(node)
+    is_measured = any(call.name == "distance" for call in node.modifiers)
+    if node.until or overriding or node.duration is not None or is_measured:
+        start = loom.latched(start, node.name)
+    name = ctx.names.new(node.label or f"{member.name}_{node.action}")
+    is_start = start == RUN_START or is_first(ctx.scenario.body, node)
+    leaf = Leaf(ctx, node, member, name, is_start=is_start)
+    performance = Performance((), "instant")
+    with ctx.report_as(leaf.construct, node.span):
+        performance = leaf_handler(leaf)
+        leaf.arguments.finish()
+    actions = tuple(action for change in performance.changes for action in change.actions)
+    goal = start
+    if actions:
+        comment = ctx.comment(node.span, one_line(node.span.text))
+        goal = loom.add(name, actions, start, comment, actor=member.name)
+    ends = _ends(loom, node, start, goal, performance)
+    lasting = _least_length(loom, node, performance)
+    successors = loom.claimed_by(overriding)
+    for change in performance.changes:
+        take(loom, leaf, change, is_over=not overriding and _is_over(change, lasting))
+        if (member.name, change.domain) in successors:
+            ctx.states[member.name] = ctx.states[member.name].finished(change.domain)
+    return loom.ended(node, ends)
+
+
+def _ends(loom: Loom, node: ir.Invoke, start: Flow, goal: Flow, performance: Performance) -> Flow:
+    """Return when an action is over: at its goal, or when others end it."""
+    if performance.reached:
+        at_place = Flow(tuple((Test(condition),) for condition in performance.reached))
+        return goal & at_place | loom.until(node, start)
+    if performance.lasts is not None:
+        return start.later(performance.lasts) | loom.until(node, start)
+    if performance.ends == "open":
+        return loom.limit(node, start)
+    return goal | loom.until(node, start)
+
+
+def _least_length(loom: Loom, node: ir.Invoke, performance: Performance) -> float | None:
+    """Return how long (s) an action surely lasts; infinite if only its goal ends it."""
+    if loom.is_race:
+        return None
+    lengths = [] if performance.lasts is None else [performance.lasts]
+    if performance.ends == "open" and performance.lasts is None:
+        lasting = loom.length_of(node)
+        lengths += [] if lasting is None else [lasting]
+    for trigger in node.until:
+        match trigger:
+            case ir.Trigger(event=None, condition=ir.Elapsed(duration=duration)):
+                lengths.append(loom.ctx.values.number(duration))
+            case _:
+                return None
+    if performance.ends == "open" and not lengths:
+        return None
+    return min(lengths, default=inf)
+
+
+def _is_over(change: Change, lasting: float | None) -> bool:
+    """Whether a change is surely done when the action ends."""
+    if change.time == 0.0 or lasting == inf:
+        return True
+    return lasting is not None and change.time is not None and change.time <= lasting
+
+
+def _invoke_global(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
+    """Write down an action that concerns no entity; at the very start it goes to `Init`."""
+    ctx = loom.ctx
+    actions: tuple[Element, ...] = ()
+    with ctx.report_as(construct_of(node), node.span):
+        arguments = Arguments(ctx, node.arguments, node)
+        actions = GLOBAL_ACTIONS[node.action](ctx, node, arguments)
+        arguments.finish()
+    lasts = node.action in OPEN_GLOBALS
+    if lasts:
+        start = loom.latched(start, node.name)
+    if node.modifiers or (not lasts and (node.until or node.duration is not None)):
+        raise Inexpressible("it takes no time, so it has no duration and no modifiers")
+    goal = _act_globally(loom, node, actions, start)
+    if not lasts:
+        return loom.ended(node, goal)
+    return loom.ended(node, loom.limit(node, start))
+
+
+def _act_globally(loom: Loom, node: ir.Invoke, actions: tuple[Element, ...], start: Flow) -> Flow:
+    """Add an event for actions that concern no entity; return when they are done."""
+    ctx = loom.ctx
+    if not actions:
+        return start
+    comment = ctx.comment(node.span, one_line(node.span.text))
+    if start == RUN_START and loom.is_outermost:
+        ctx.init_globals.extend(commented(action, comment) for action in actions)
+        return start
+    return loom.add(ctx.names.new(node.label or node.action), actions, start, comment)

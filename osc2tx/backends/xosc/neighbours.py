@@ -1,0 +1,47 @@
+"""What stands before and behind an invocation in its `serial`."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+
+
+def predecessor(body: ir.Behavior, node: ir.Invoke) -> ir.Invoke | None:
+    """Return the invocation that ends where another one starts; emissions take no time."""
+    return _beside(body, node, -1)
+
+
+def follower(body: ir.Behavior, node: ir.Invoke) -> ir.Invoke | None:
+    """Return the invocation that starts where another one ends; emissions take no time."""
+    return _beside(body, node, 1)
+
+
+def _beside(body: ir.Behavior, node: ir.Invoke, way: int) -> ir.Invoke | None:
+    for serial in ir.walk_behaviors(body):
+        if not isinstance(serial, ir.Serial):
+            continue
+        members = [each for each in serial.members if not isinstance(each, ir.Emit)]
+        for index, each in enumerate(members):
+            if each is node:
+                found = index + way
+                other = members[found] if 0 <= found < len(members) else None
+                return other if isinstance(other, ir.Invoke) else None
+    return None
+
+
+def is_first(body: ir.Behavior, node: ir.Invoke) -> bool:
+    """Whether an invocation begins with the run."""
+    match body:
+        case ir.Serial(members=members):
+            first = next((each for each in members if not isinstance(each, ir.Emit)), None)
+            return first is not None and is_first(first, node)
+        case ir.Parallel(members=members, start_to_start=None) | ir.OneOf(members=members):
+            return any(is_first(each, node) for each in members)
+    return body is node
+
+
+def is_last(body: ir.Behavior, node: ir.Invoke) -> bool:
+    """Whether the run ends with an invocation."""
+    if isinstance(body, ir.Serial):
+        members = [each for each in body.members if not isinstance(each, ir.Emit)]
+        return bool(members) and is_last(members[-1], node)
+    return body is node

@@ -1,0 +1,216 @@
+"""The loss report: what became of each construct of the scenario.
+
+Every construct is exact, approximated or inexpressible. One inexpressible construct, or one that
+is approximated though nobody allowed it, and the scenario has no XML.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from enum import Enum
+
+from osc2tx.diagnostics import Span
+from osc2tx.light_dataclass import dataclass
+from osc2tx.options import XmlOptions
+
+
+class Grade(Enum):
+    """What became of a construct."""
+
+    EXACT = "exact"
+    APPROXIMATED = "approximated"
+    INEXPRESSIBLE = "inexpressible"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remedy:
+    """What could express a construct; empty if nothing can.
+
+    Attributes:
+        version: The lowest version of OpenSCENARIO XML that could.
+        profile: A profile of a tool that could.
+    """
+
+    version: str | None = None
+    profile: str | None = None
+
+    def __str__(self) -> str:
+        parts = []
+        if self.version is not None:
+            parts.append(f"OpenSCENARIO XML {self.version}")
+        if self.profile is not None:
+            parts.append(f"profile {self.profile}")
+        return " or ".join(parts)
+
+
+NOTHING = Remedy()
+
+
+class Inexpressible(Exception):
+    """A construct that cannot be written down.
+
+    Attributes:
+        span: Where it stands; `None`: the construct that is being looked at.
+        reason: A sentence without full stop.
+        remedy: What could.
+    """
+
+    def __init__(self, reason: str, span: Span | None = None, remedy: Remedy = NOTHING) -> None:
+        """Take what there is to say."""
+        super().__init__(reason)
+        self.reason = reason
+        self.span = span
+        self.remedy = remedy
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Entry:
+    """What became of one construct.
+
+    Attributes:
+        construct: What it is, as in the tables of `docs/coverage.md`.
+        span: Where it stands.
+        grade: What became of it.
+        reason: Why it is not exact, or what is worth knowing about an exact one.
+        bound: How far an approximation is from the original.
+        remedy: What could express it.
+    """
+
+    construct: str
+    span: Span
+    grade: Grade
+    reason: str = ""
+    bound: str = ""
+    remedy: Remedy = NOTHING
+
+    @property
+    def code(self) -> str:
+        """The diagnostic that reports it where XML is asked for."""
+        return "OSC514" if self.grade is Grade.INEXPRESSIBLE else "OSC515"
+
+    @property
+    def message(self) -> str:
+        """Why it stands in the way of XML."""
+        bound = f"; {self.bound}" if self.bound else ""
+        return f"{self.construct}: {self.reason}{bound}"
+
+    @property
+    def help(self) -> str | None:
+        """What to do about it, if there is something to do."""
+        better = f"{self.remedy} can say this" if self.remedy != NOTHING else None
+        if self.grade is Grade.APPROXIMATED:
+            accept = "`--allow-approx` accepts this"
+            return f"{accept}; {better} exactly" if better else accept
+        return better
+
+
+class LossReport:
+    """Collects what became of the constructs of one scenario."""
+
+    def __init__(self, options: XmlOptions) -> None:
+        """Start with nothing."""
+        self.options = options
+        self._entries: dict[tuple[str, Span], list[Entry]] = {}
+
+    def exact(self, construct: str, span: Span, note: str = "") -> None:
+        """Note that a construct means the same in the XML."""
+        self._add(Entry(construct=construct, span=span, grade=Grade.EXACT, reason=note))
+
+    def approximate(
+        self, construct: str, span: Span, reason: str, bound: str, remedy: Remedy = NOTHING
+    ) -> None:
+        """Note that a construct means nearly the same in the XML."""
+        grade = Grade.APPROXIMATED
+        self._add(
+            Entry(
+                construct=construct,
+                span=span,
+                grade=grade,
+                reason=reason,
+                bound=bound,
+                remedy=remedy,
+            )
+        )
+
+    def cannot(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
+        """Note that a construct cannot be written down."""
+        grade = Grade.INEXPRESSIBLE
+        self._add(Entry(construct=construct, span=span, grade=grade, reason=reason, remedy=remedy))
+
+    def _add(self, entry: Entry) -> None:
+        """Add an entry; what is not exact stands instead of what is."""
+        same = self._entries.setdefault((entry.construct, entry.span), [])
+        if entry.grade is Grade.EXACT:
+            if not same:
+                same.append(entry)
+            return
+        same[:] = [e for e in same if e.grade is not Grade.EXACT and e.reason != entry.reason]
+        same.append(entry)
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """All of them, in order of place."""
+        found = [entry for same in self._entries.values() for entry in same]
+        return tuple(sorted(found, key=lambda e: (e.span.source.name, e.span.start)))
+
+    @property
+    def obstacles(self) -> tuple[Entry, ...]:
+        """Those for which there is no XML."""
+        accepted = {Grade.EXACT}
+        if self.options.allow_approx:
+            accepted.add(Grade.APPROXIMATED)
+        return tuple(entry for entry in self.entries if entry.grade not in accepted)
+
+    @property
+    def is_expressible(self) -> bool:
+        """Whether there is XML."""
+        return not self.obstacles
+
+    def summary(self) -> str:
+        """Return one line for people."""
+        counts = Counter(entry.grade for entry in self.entries)
+        told = ", ".join(f"{counts[grade]} {grade.value}" for grade in Grade if counts[grade])
+        asked = f"OpenSCENARIO XML {self.options.version}"
+        if self.options.profile != "generic":
+            asked += f" for {self.options.profile}"
+        return f"{asked if self.is_expressible else f'no {asked}'}: {told or 'nothing to say'}"
+
+    def to_json(self, scenario: str, source: str) -> str:
+        """Return the report as JSON; `docs/xml-report.md` says what it holds."""
+        counts = Counter(entry.grade for entry in self.entries)
+        data = {
+            "format": 1,
+            "scenario": scenario,
+            "source": source,
+            "xml_version": self.options.version,
+            "xml_profile": self.options.profile,
+            "allow_approx": self.options.allow_approx,
+            "written": self.is_expressible,
+            "counts": {grade.value: counts[grade] for grade in Grade},
+            "constructs": [_entry_data(entry) for entry in self.entries],
+        }
+        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def _entry_data(entry: Entry) -> dict[str, object]:
+    span = entry.span
+    end_line, end_column = span.source.position(span.end)
+    data: dict[str, object] = {
+        "construct": entry.construct,
+        "grade": entry.grade.value,
+        "file": span.source.name,
+        "line": span.line,
+        "column": span.column,
+        "end_line": end_line,
+        "end_column": end_column,
+    }
+    if entry.reason:
+        data["reason"] = entry.reason
+    if entry.bound:
+        data["bound"] = entry.bound
+    if entry.remedy.version is not None:
+        data["expressible_in_version"] = entry.remedy.version
+    if entry.remedy.profile is not None:
+        data["expressible_in_profile"] = entry.remedy.profile
+    return data

@@ -1,0 +1,134 @@
+"""Scopes: a scenario and those that it invokes, each with its own names.
+
+The XML has one level of names, so an invoked scenario is written down in place: its cast is that of
+the invoker where it is handed in, its other actors and its events get the label of the invocation
+in front of their names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field, replace
+
+from osc2tx import ir
+from osc2tx.backends.xosc.cast import CastMember, cast_member
+from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values import Constant, Named, Values
+
+
+@dataclass(slots=True, eq=False)
+class Scope:
+    """A scenario as it is written down at one place.
+
+    Attributes:
+        scenario: The scenario.
+        values: Its constants.
+        cast: Its physical actors, by their names in it.
+        prefix: Before the names of what is its own.
+        inner: Scopes of the scenarios that it invokes, by the span of the invocation.
+        by_label: The same by label.
+        own: Those of its cast that nobody has handed in.
+        is_first: It begins with the run.
+    """
+
+    scenario: ir.Scenario
+    values: Values
+    cast: dict[str, CastMember]
+    prefix: str
+    inner: dict[Hashable, Scope] = field(default_factory=dict)
+    by_label: dict[str, Scope] = field(default_factory=dict)
+    own: list[CastMember] = field(default_factory=list)
+    is_first: bool = True
+
+    def all(self) -> list[Scope]:
+        """Return this scope and those below it, outer ones first."""
+        return [self, *(scope for inner in self.inner.values() for scope in inner.all())]
+
+    def members(self) -> list[CastMember]:
+        """Return all entities, those of this scenario first."""
+        return [member for scope in self.all() for member in scope.own]
+
+
+MOST_DEPTH = 20
+"""Scenarios in each other; the verifier refuses those that invoke themselves."""
+
+
+def open_scopes(
+    scenario: ir.Scenario, module: ir.Module, given: Mapping[str, Constant] | None = None
+) -> Scope:
+    """Return the scope of a scenario, with those of what it invokes.
+
+    Args:
+        scenario: The scenario.
+        module: Where it stands.
+        given: Values of its parameters.
+    """
+    return _Opener(module).open(scenario, given or {}, {}, "", 0)
+
+
+class _Opener:
+    def __init__(self, module: ir.Module) -> None:
+        self._by_key = {scenario.key: scenario for scenario in module.scenarios}
+        self._names = Names()  # `|my car|` and `my_car` are two actors
+
+    def open(
+        self,
+        scenario: ir.Scenario,
+        given: Mapping[str, Constant],
+        handed_in: Mapping[str, CastMember],
+        prefix: str,
+        depth: int,
+    ) -> Scope:
+        values = Values(scenario, given)
+        scope = Scope(scenario, values, dict(handed_in), prefix)
+        for declaration in scenario.declarations:
+            if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
+                member = cast_member(declaration, prefix + declaration.name, values)
+                if member is not None:
+                    member = replace(member, name=self._names.new(member.name))
+                    scope.cast[declaration.name] = member
+                    scope.own.append(member)
+        if depth < MOST_DEPTH:
+            first = _first_invocations(scenario.body)
+            for node in ir.walk_behaviors(scenario.body):
+                if isinstance(node, ir.InvokeScenario):
+                    inner = self._invoke(node, scope, depth)
+                    inner.is_first = scope.is_first and node.span in first
+        return scope
+
+    def _invoke(self, node: ir.InvokeScenario, scope: Scope, depth: int) -> Scope:
+        given: dict[str, Constant] = {}
+        handed_in: dict[str, CastMember] = {}
+        arguments = [(argument.parameter, argument.value) for argument in node.arguments]
+        if node.actor is not None:
+            arguments.append(("actor", node.actor))
+        for name, expression in arguments:
+            try:
+                value = scope.values.of(expression)
+            except Inexpressible:
+                continue  # where it is used it is reported
+            if isinstance(value, Named) and value.name in scope.cast:
+                handed_in[name] = scope.cast[value.name]
+            else:
+                given[name] = value
+        callee = self._by_key[node.key]
+        label = node.label or callee.name.rpartition(".")[2]
+        inner = self.open(callee, given, handed_in, f"{scope.prefix}{label}_", depth + 1)
+        scope.inner[node.span] = inner
+        if node.label is not None:
+            scope.by_label[node.label] = inner
+        return inner
+
+
+def _first_invocations(node: ir.Behavior) -> frozenset[Hashable]:
+    """Return the places of the invoked scenarios that begin when a member does."""
+    match node:
+        case ir.Serial(members=members):
+            return _first_invocations(members[0])
+        case ir.Parallel(members=members) | ir.OneOf(members=members):
+            return frozenset[Hashable]().union(*map(_first_invocations, members))
+        case ir.InvokeScenario(span=span):
+            return frozenset((span,))
+        case _:
+            return frozenset()

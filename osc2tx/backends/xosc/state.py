@@ -1,0 +1,91 @@
+"""What is known about an actor while the tree is walked: its speed, its lane, its pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from osc2tx.backends.xosc.facts import LanePosition, Pose
+
+LONGITUDINAL, LATERAL, WAY = "longitudinal", "lateral", "way"
+"""Domains that actions control; `way` is the motion of those off the lanes, which just goes on."""
+
+
+class Interval(NamedTuple):
+    """Where a value lies."""
+
+    low: float
+    high: float
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it is one value."""
+        return self.low == self.high
+
+    def over(self, other: Interval) -> Interval:
+        """Return the interval that holds both."""
+        return Interval(min(self.low, other.low), max(self.high, other.high))
+
+
+def known(value: float) -> Interval:
+    """Return the interval of one value."""
+    return Interval(value, value)
+
+
+CENTRE = Interval(0.0, 0.0)
+"""Of a lane."""
+
+
+@dataclass(frozen=True, slots=True)
+class ActorState:
+    """What is known about an actor.
+
+    Attributes:
+        speed: m/s; `None` if it may be anything.
+        offset: Metres left of the centre of its lane; `None` if it may be anything.
+        lane: The lane it is in; its `s` is that of the start. `None` if unknown.
+        pose: Where it is, for those off the lanes; `None` if unknown.
+        rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
+        unfinished: What may still be changing when the last action has ended, by domain, with the
+            event that changes it.
+    """
+
+    speed: Interval | None = None
+    offset: Interval | None = CENTRE
+    lane: LanePosition | None = None
+    pose: Pose | None = None
+    rate: float | None = 0.0
+    unfinished: tuple[tuple[str, str], ...] = ()
+
+    def with_unfinished(self, domain: str, event: str) -> ActorState:
+        """Return the state in which an event may not be over."""
+        return replace(self, unfinished=(*self._others(domain), (domain, event)))
+
+    def finished(self, domain: str) -> ActorState:
+        """Return the state in which nothing changes in a domain."""
+        rate = 0.0 if domain == LONGITUDINAL else self.rate
+        return replace(self, rate=rate, unfinished=self._others(domain))
+
+    def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
+        return tuple(pair for pair in self.unfinished if pair[0] != domain)
+
+
+def either(a: Mapping[str, ActorState], b: Mapping[str, ActorState]) -> dict[str, ActorState]:
+    """Return what is known if one of two courses was taken."""
+    return {name: merged(a[name], b[name]) for name in a}
+
+
+def merged(a: ActorState, b: ActorState) -> ActorState:
+    """Return what is known about an actor that is in one of two states."""
+    if a == b:
+        return a
+    unfinished = tuple(dict.fromkeys((*a.unfinished, *b.unfinished)))
+    return ActorState(
+        speed=None if a.speed is None or b.speed is None else a.speed.over(b.speed),
+        offset=None if a.offset is None or b.offset is None else a.offset.over(b.offset),
+        lane=a.lane if a.lane == b.lane else None,
+        pose=a.pose if a.pose == b.pose else None,
+        rate=a.rate if a.rate == b.rate else None,
+        unfinished=unfinished,
+    )

@@ -1,0 +1,30 @@
+"""Coupling and uncoupling of trailers (§8.8.3.12, §8.8.3.13), from 1.3 on."""
+
+from __future__ import annotations
+
+from osc2tx.backends.xosc.leaf import Change, Leaf, Performance
+from osc2tx.backends.xosc.registry import action
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.tree import Element, element
+
+
+@action("connect_trailer")
+def _connect(leaf: Leaf) -> Performance:
+    trailer = leaf.arguments.entity("trailer")
+    if trailer is None:
+        raise Inexpressible("it names no trailer", leaf.node.span)
+    return _act(leaf, element("ConnectTrailerAction", trailerRef=trailer.name))
+
+
+@action("disconnect_trailer")
+def _disconnect(leaf: Leaf) -> Performance:
+    note = "what the trailer does then is up to the tool: the embedded world lets it stand"
+    leaf.ctx.report.exact(leaf.construct, leaf.node.span, note)
+    return _act(leaf, element("DisconnectTrailerAction"))
+
+
+def _act(leaf: Leaf, what: Element) -> Performance:
+    leaf.ctx.require("a trailer that is coupled", "1.3", leaf.node.span)
+    leaf.ctx.require_support("TrailerAction", leaf.node.span)
+    action = element("PrivateAction", element("TrailerAction", what))
+    return Performance((Change("trailer", (action,), 0.0, leaf.state, leaf.state),), "goal")

@@ -1,0 +1,12 @@
+"""From a tree of sources to a tree of modules.
+
+Every source file that declares a scenario gives `NAME.py` and its map `NAME.map.json`; the layout
+of the sources is mirrored. A file with errors does not stop the others. Outputs appear whole or
+not at all, and those that are up to date are not touched.
+
+`build` is the way through: `jobs` says what there is to compile, `memory` knows the `results` of
+earlier builds that still hold (`fingerprint` is what they hold for), `workers` make the others,
+`plan` compares what the sources make with what the `manifest` and the folder say, and `write`
+brings the folder up to date. `diff` and `revision` show changes instead; `watch` builds again
+when a source changes.
+"""

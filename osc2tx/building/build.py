@@ -1,0 +1,255 @@
+"""The way through a build: find jobs, recall or compile, compare with the folder, write."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from osc2tx.building.jobs import Job, find_jobs
+from osc2tx.building.manifest import MANIFEST_NAME, Manifest, read_manifest
+from osc2tx.building.memory import Memory
+from osc2tx.building.plan import (
+    PROTECTED,
+    Folder,
+    Orphan,
+    Planned,
+    State,
+    find_orphans,
+    place_outputs,
+)
+from osc2tx.building.results import FileResult
+from osc2tx.building.workers import compile_jobs
+from osc2tx.building.write import Update, update_folder
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.light_dataclass import dataclass
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BuildOptions:
+    """How to build.
+
+    Attributes:
+        check_only: Write nothing, only find out what would change.
+        force: Write also over what was edited by hand or is not ours.
+        prune: Remove outputs that no source makes any more.
+        workers: How many processes may compile.
+        want_texts: Get the texts of all outputs that differ, even if they will not be written.
+    """
+
+    check_only: bool = False
+    force: bool = False
+    prune: bool = False
+    workers: int = 1
+    want_texts: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """An output that is not as the sources make it.
+
+    Attributes:
+        path: The file.
+        state: How it stands, or stood before it was written.
+        text: What it should be; `None` for an orphan, or if nobody asked.
+        origin: For an orphan, the source that made it.
+        is_untouched: For an orphan, whether it still is as osc2tx wrote it.
+    """
+
+    path: Path
+    state: State
+    text: str | None = None
+    origin: str = ""
+    is_untouched: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class BuildResult:
+    """What a build did, or with `check_only` what it would do.
+
+    Attributes:
+        results: One for each source file, in order.
+        modules: How many sources make outputs.
+        changes: Outputs that were not as they should be, in order.
+        written: What was written or removed, without the manifest.
+        collisions: Outputs without a place of their own, a sentence each; none is written.
+        failures: Outputs that could not be written, a sentence each.
+    """
+
+    results: tuple[FileResult, ...]
+    modules: int
+    changes: tuple[Change, ...]
+    written: tuple[Path, ...]
+    collisions: tuple[str, ...]
+    failures: tuple[str, ...]
+
+    @property
+    def bugs(self) -> tuple[str, ...]:
+        """Mistakes of osc2tx itself; their sources make nothing."""
+        return tuple(result.bug for result in self.results if result.bug)
+
+    def remaining(self) -> tuple[Change, ...]:
+        """Return what a build did not put right."""
+        done = set(self.written)
+        return tuple(change for change in self.changes if change.path not in done)
+
+
+def build(
+    paths: Sequence[str | Path],
+    out_dir: Path,
+    given: GivenOptions,
+    options: BuildOptions | None = None,
+    *,
+    configs: ConfigFiles | None = None,
+    progress: Progress = lambda done, total: None,
+) -> BuildResult:
+    """Compile sources and write what they make.
+
+    Args:
+        paths: Files and folders.
+        out_dir: Folder of the outputs; made when needed.
+        given: Options that go before those of settings files.
+        options: How to build.
+        configs: The settings files, if the caller wants to look at them afterwards.
+        progress: Is told how many of how many files are compiled.
+
+    Raises:
+        InputError, ConfigError: As `find_jobs`.
+        ManifestError: If the manifest is damaged.
+    """
+    options = options or BuildOptions()
+    jobs = find_jobs(paths, given, configs or ConfigFiles())
+    folders = [Path(path) for path in paths if Path(path).is_dir()]
+    return _Build(out_dir, options, progress).run(jobs, folders)
+
+
+class _Build:
+    def __init__(self, out_dir: Path, options: BuildOptions, progress: Progress) -> None:
+        self.out_dir = out_dir
+        self.options = options
+        self.progress = progress
+        self.folder = Folder(out_dir)
+        self.stored = read_manifest(out_dir)
+        self.manifest: Manifest = self.stored.settled(self.folder.has)
+        self.failures: list[str] = []
+
+    def run(self, jobs: Sequence[Job], folders: Sequence[Path]) -> BuildResult:
+        results = self._compile(jobs)
+        placed, collisions = place_outputs(results)
+        states = self._states(placed)
+        orphans = list(find_orphans(self.manifest, placed, results, folders, self.folder))
+        changes = self._changes(placed, states, orphans)
+        written: list[str] = []
+        if self.options.check_only:
+            changes += self._changes_of_manifest(placed, states)
+        else:
+            update = self._update(placed, states, orphans)
+            written, failures = update_folder(self.out_dir, self.stored, update)
+            self.failures += failures
+        return BuildResult(
+            results=tuple(results),
+            modules=len({planned.result.job for planned in placed}),
+            changes=tuple(sorted(changes, key=lambda change: change.path)),
+            written=tuple(self.out_dir / path for path in written),
+            collisions=tuple(f"{self.out_dir}/{problem}" for problem in collisions),
+            failures=tuple(self.failures),
+        )
+
+    def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
+        """Return the results of all jobs, with texts of all outputs that may be written."""
+        memory = Memory("builds", self.out_dir)
+        recalled = {job: memory.recall(job) for job in jobs}
+        known = {job: result for job, result in recalled.items() if result is not None}
+        placed, _ = place_outputs(list(known.values()))
+        for planned in placed:
+            if self._needs_text(planned):
+                known.pop(planned.result.job, None)
+        missing = [job for job in jobs if job not in known]
+        made = compile_jobs(
+            missing, self.options.workers, lambda done: self.progress(done, len(missing))
+        )
+        if made:
+            self.folder.look_again()
+            memory.keep(made)
+        known |= dict(zip(missing, made, strict=True))
+        return [known[job] for job in jobs]
+
+    def _needs_text(self, planned: Planned) -> bool:
+        try:
+            state = self.folder.state_of(planned, self.manifest)
+        except OSError:
+            return False
+        is_kept = state in PROTECTED and not self.options.force
+        may_be_shown = self.options.want_texts or not (self.options.check_only or is_kept)
+        return state is not State.CURRENT and may_be_shown
+
+    def _states(self, placed: Sequence[Planned]) -> dict[str, State]:
+        """Return how every output stands; what cannot be told is a failure."""
+        states = {}
+        for planned in placed:
+            try:
+                states[planned.path] = self.folder.state_of(planned, self.manifest)
+            except OSError as error:
+                place = self.out_dir / planned.path
+                self.failures.append(f"{place}: cannot be written: {error.strerror}")
+        return states
+
+    def _update(
+        self, placed: Sequence[Planned], states: dict[str, State], orphans: Sequence[Orphan]
+    ) -> Update:
+        force, prune = self.options.force, self.options.prune
+        removals = [orphan for orphan in orphans if prune and (orphan.is_untouched or force)]
+        listed = {planned.path for planned in placed} | {orphan.path for orphan in orphans}
+        return Update(
+            current=[p for p in placed if states.get(p.path) is State.CURRENT],
+            writes=[
+                (planned, planned.made.text)
+                for planned in placed
+                if planned.made.text is not None
+                and (state := states.get(planned.path)) is not None
+                and state is not State.CURRENT
+                and (force or state not in PROTECTED)
+            ],
+            removals=removals,
+            forgotten=[p for p in self.manifest.outputs if p not in listed and self._is_gone(p)],
+        )
+
+    def _is_gone(self, path: str) -> bool:
+        try:
+            return self.folder.digest_of(path) is None
+        except OSError:
+            return False
+
+    def _changes(
+        self, placed: Sequence[Planned], states: dict[str, State], orphans: Sequence[Orphan]
+    ) -> list[Change]:
+        changes = [
+            Change(self.out_dir / planned.path, state, planned.made.text)
+            for planned in placed
+            if (state := states.get(planned.path)) not in (None, State.CURRENT)
+        ]
+        changes += [
+            Change(
+                self.out_dir / orphan.path,
+                State.ORPHANED,
+                origin=orphan.source,
+                is_untouched=orphan.is_untouched,
+            )
+            for orphan in orphans
+        ]
+        return changes
+
+    def _changes_of_manifest(
+        self, placed: Sequence[Planned], states: dict[str, State]
+    ) -> list[Change]:
+        """Return the manifest if it does not list what is current; a build that writes mends it."""
+        current = [planned for planned in placed if states.get(planned.path) is State.CURRENT]
+        if all(map(self._is_listed, current)) and not self.stored.unfinished:
+            return []
+        return [Change(self.out_dir / MANIFEST_NAME, State.STALE)]
+
+    def _is_listed(self, planned: Planned) -> bool:
+        entry = self.stored.outputs.get(planned.path)
+        name, sha256 = planned.result.job.name, planned.made.digest
+        return entry is not None and (entry.source, entry.sha256) == (name, sha256)

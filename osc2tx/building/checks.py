@@ -1,0 +1,28 @@
+"""Checks files, or recalls what an earlier check of the same texts found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from osc2tx.building.jobs import Job
+from osc2tx.building.memory import Memory
+from osc2tx.building.results import FileResult, check_job
+
+
+def check_jobs(jobs: Sequence[Job], *, remember: bool = True) -> list[FileResult]:
+    """Return what there is to report on each file, in the order of the jobs.
+
+    Args:
+        jobs: What to check.
+        remember: Whether results of earlier checks in this folder count, and these are kept.
+    """
+    if not remember:
+        return [check_job(job) for job in jobs]
+    memory = Memory("checks", Path.cwd())
+    known = {job: result for job in jobs if (result := memory.recall(job)) is not None}
+    made = {job: check_job(job) for job in jobs if job not in known}
+    if made:
+        memory.keep(made.values())
+    known |= made
+    return [known[job] for job in jobs]

@@ -1,0 +1,105 @@
+"""What there is to compile: a file, its settings, the folders it may import from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from traceback import format_exception
+from typing import TYPE_CHECKING
+
+from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.inputs import find_inputs
+from osc2tx.light_dataclass import dataclass
+
+if TYPE_CHECKING:
+    from osc2tx.config import ConfigFiles, GivenOptions
+    from osc2tx.driver import Compilation
+    from osc2tx.options import CompileOptions
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One source file to compile.
+
+    Attributes:
+        path: The file.
+        name: How diagnostics and generated files call it.
+        options: How to compile it.
+        roots: Folders whose files it may import.
+        is_asked: Whether somebody named this very file, and not a folder that holds it.
+    """
+
+    path: Path
+    name: str
+    options: CompileOptions
+    roots: tuple[Path, ...]
+    is_asked: bool
+
+    def compilation(self) -> Compilation:
+        """Return its compilation; no stage has run yet."""
+        from osc2tx.driver import Compilation
+
+        return Compilation(
+            self.path, self.name, self.options, roots=self.roots, is_trusted=self.is_asked
+        )
+
+
+def find_jobs(
+    paths: Sequence[str | Path], given: GivenOptions, configs: ConfigFiles
+) -> tuple[Job, ...]:
+    """Return a job for each file that the paths name.
+
+    A file may import what lies in the folder that was named, and what lies in that of its
+    settings file.
+
+    Args:
+        paths: Files and folders.
+        given: Options that go before those of settings files.
+        configs: The settings files.
+
+    Raises:
+        InputError: If a path does not exist or holds no scenario file.
+        ConfigError: If a settings file is wrong.
+    """
+    jobs = []
+    for item in find_inputs(paths):
+        config = configs.for_source(item.path)
+        options = config.options_for(item.path, given)
+        roots = (item.folder, *config.roots)
+        jobs.append(Job(item.path, item.name, options, roots, item.is_asked))
+    return tuple(jobs)
+
+
+def compile_all(paths: Sequence[str | Path], given: GivenOptions) -> list[Compilation]:
+    """Return the compilations of all files that the paths name; no stage has run yet.
+
+    Raises:
+        InputError, ConfigError: As `find_jobs`.
+    """
+    from osc2tx.config import ConfigFiles
+
+    return [job.compilation() for job in find_jobs(paths, given, ConfigFiles())]
+
+
+def run_all(
+    compilations: Sequence[Compilation], stages: Callable[[Compilation], object]
+) -> tuple[str, ...]:
+    """Run stages on every file; a bug that one file shows does not stop the others.
+
+    Returns:
+        The bugs: file and message, for unforeseen ones below their traceback.
+    """
+    bugs = (find_bug(compilation, stages) for compilation in compilations)
+    return tuple(bug for bug in bugs if bug)
+
+
+def find_bug(compilation: Compilation, stages: Callable[[Compilation], object]) -> str:
+    """Run stages on a file; return what mistake of osc2tx itself it shows, if any."""
+    try:
+        stages(compilation)
+    except InternalCompilerError as error:
+        return f"{compilation.path}: internal error: {error}"
+    except Exception as error:  # whatever it is, it is ours, and the other files need not wait
+        trace = "".join(format_exception(error))
+        return f"{trace}{compilation.path}: internal error: {error!r}"
+    return ""

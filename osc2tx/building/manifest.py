@@ -1,0 +1,153 @@
+"""The manifest: which files of the output folder osc2tx wrote, and what it wrote.
+
+It lies in the output folder, belongs into version control with the outputs, and is the same on
+every machine: one line for each output, sorted, so that git merges two changes of different files.
+
+    {
+      "format": 1,
+      "tool": "osc2tx 0.1.0",
+      "outputs": {
+        "cut_in.py": {"source": "cut_in.osc", "sha256": "…"}
+      }
+    }
+
+Paths are relative to the output folder and to the folder of the sources. While a build writes,
+`unfinished` lists what it is about to write, so that after a sudden end the next
+build knows its own work from that of others. A manifest may come from a stranger's branch: a path
+that leaves the folder makes it invalid.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import field
+from pathlib import Path, PurePosixPath, PureWindowsPath
+
+from osc2tx import __version__
+from osc2tx.light_dataclass import dataclass
+
+MANIFEST_NAME = ".osc2tx-manifest.json"
+FORMAT = 1
+
+
+class ManifestError(Exception):
+    """A manifest that cannot be used; the message names it and says what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One output.
+
+    Attributes:
+        source: Name of the source that makes it.
+        sha256: Digest of what was written.
+    """
+
+    source: str
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True)
+class Manifest:
+    """What a manifest says.
+
+    Attributes:
+        outputs: Path of an output to its entry.
+        unfinished: The same for what a build was about to write when it was killed.
+    """
+
+    outputs: Mapping[str, Entry] = field(default_factory=dict)
+    unfinished: Mapping[str, Entry] = field(default_factory=dict)
+
+    def settled(self, has: Callable[[str, str], bool]) -> Manifest:
+        """Return the manifest as the unfinished build would have left it had it stopped by itself.
+
+        Args:
+            has: Whether the file at a path has a digest.
+        """
+        written = {p: e for p, e in self.unfinished.items() if has(p, e.sha256)}
+        return Manifest({**self.outputs, **written})
+
+    def render(self) -> str:
+        """Return the text of the file."""
+        parts = [
+            f'  "format": {FORMAT}',
+            f'  "tool": {_quoted(f"osc2tx {__version__}")}',
+            _table("outputs", self.outputs),
+        ]
+        if self.unfinished:
+            parts.append(_table("unfinished", self.unfinished))
+        return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+def read_manifest(out_dir: Path) -> Manifest:
+    """Return the manifest of a folder; an empty one if there is none.
+
+    Raises:
+        ManifestError: If it is damaged.
+    """
+    path = out_dir / MANIFEST_NAME
+    try:
+        if path.is_symlink():
+            raise ValueError("is a link")
+        document = json.loads(path.read_text(encoding="utf-8"))
+        return _manifest(document)
+    except (FileNotFoundError, NotADirectoryError):
+        return Manifest()
+    except OSError as error:
+        raise ManifestError(f"{path}: cannot be read: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ManifestError(
+            f"{path}: is damaged ({error}); restore it, or remove it: "
+            "outputs that are up to date are then entered again"
+        ) from None
+
+
+def _manifest(document: Mapping[str, object]) -> Manifest:
+    if document["format"] != FORMAT:
+        raise ValueError(f"form {document['format']!r} is not known to osc2tx {__version__}")
+    return Manifest(_entries(document["outputs"]), _entries(document.get("unfinished", {})))
+
+
+def _entries(table: object) -> dict[str, Entry]:
+    if not isinstance(table, dict):
+        raise ValueError("a table is missing")
+    return {
+        _checked(path): Entry(_text(entry["source"]), _text(entry["sha256"]))
+        for path, entry in table.items()
+    }
+
+
+def _checked(path: str) -> str:
+    """Return a path that stays in the folder, on any system.
+
+    Raises:
+        ValueError: If it does not.
+    """
+    parts = PurePosixPath(path).parts
+    windows = PureWindowsPath(path)
+    is_plain = "/".join(parts) == path and ".." not in parts and "\0" not in path
+    if not parts or not is_plain or path == MANIFEST_NAME:
+        raise ValueError(f"{path!r} is no path of an output")
+    if path.startswith("/") or windows.drive or windows.root or ".." in windows.parts:
+        raise ValueError(f"{path!r} leaves the folder")
+    return path
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"{value!r} is no text")
+    return value
+
+
+def _table(name: str, entries: Mapping[str, Entry]) -> str:
+    lines = ",\n".join(
+        f'    {_quoted(path)}: {{"source": {_quoted(entry.source)}, "sha256": "{entry.sha256}"}}'
+        for path, entry in sorted(entries.items())
+    )
+    return f'  "{name}": {{\n{lines}\n  }}' if lines else f'  "{name}": {{}}'
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)

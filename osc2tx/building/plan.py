@@ -1,0 +1,248 @@
+"""What a build has to do: outputs that sources make, against what the folder holds."""
+
+from __future__ import annotations
+
+import os
+import stat
+import unicodedata
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from enum import Enum
+from pathlib import Path
+
+from osc2tx.building.fingerprint import digest
+from osc2tx.building.manifest import Manifest
+from osc2tx.building.results import FileResult, Made
+from osc2tx.light_dataclass import dataclass
+from osc2tx.portable import is_portable
+
+
+class State(Enum):
+    """How an output stands; the value ends the sentence that begins with its path."""
+
+    CURRENT = "is current"
+    MISSING = "is missing"
+    STALE = "is stale"
+    EDITED = "was edited by hand"
+    FOREIGN = "was not made by osc2tx"
+    ORPHANED = "is orphaned"
+
+
+PROTECTED = (State.EDITED, State.FOREIGN)
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """An output that a source makes.
+
+    Attributes:
+        path: Where it goes, relative to the output folder, forward slashes.
+        result: What the source gave.
+        made: The output itself.
+    """
+
+    path: str
+    result: FileResult
+    made: Made
+
+
+@dataclass(frozen=True, slots=True)
+class Orphan:
+    """A file that osc2tx once wrote and that no source makes any more.
+
+    Attributes:
+        path: Where it is, relative to the output folder.
+        source: The source that made it.
+        is_untouched: Whether it still is as osc2tx wrote it.
+    """
+
+    path: str
+    source: str
+    is_untouched: bool
+
+
+class Folder:
+    """An output folder as it is; its outputs may be links into the rest of the world."""
+
+    def __init__(self, out_dir: Path) -> None:
+        """Take the folder."""
+        self._out_dir = out_dir
+        self._is_inside: dict[str, bool] = {}
+        self._digests: dict[str, str | None] = {}
+
+    def digest_of(self, path: str) -> str | None:
+        """Return the digest of a file, none if it is missing, an impossible one for a link.
+
+        Raises:
+            OSError: If it cannot be read, or lies behind a link.
+        """
+        if path not in self._digests:
+            self._digests[path] = self._read(path)
+        return self._digests[path]
+
+    def look_again(self) -> None:
+        """Forget what was read: time has passed."""
+        self._digests.clear()
+
+    def _read(self, path: str) -> str | None:
+        place = f"{self._out_dir}/{path}"
+        self.require_inside(path)
+        try:
+            mode = os.lstat(place).st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(0, "there is a folder of this name")
+        if not stat.S_ISREG(mode):
+            return ""
+        with open(place, "rb") as file:
+            return digest(file.read())
+
+    def require_inside(self, path: str) -> None:
+        """Refuse what lies behind a link.
+
+        Raises:
+            OSError: If a folder on the way is a link.
+        """
+        folder = path.rpartition("/")[0]
+        if folder not in self._is_inside:
+            steps = [self._out_dir / folder, *(self._out_dir / folder).parents]
+            steps = steps[: steps.index(self._out_dir)]
+            self._is_inside[folder] = not any(step.is_symlink() for step in steps)
+        if not self._is_inside[folder]:
+            raise OSError(0, "a folder on the way is a link")
+
+    def has(self, path: str, sha256: str) -> bool:
+        """Return whether a file has this digest."""
+        try:
+            return self.digest_of(path) == sha256
+        except OSError:
+            return False
+
+    def state_of(self, planned: Planned, manifest: Manifest) -> State:
+        """Return how an output stands.
+
+        Raises:
+            OSError: If it cannot be told.
+        """
+        present = self.digest_of(planned.path)
+        if present is None:
+            return State.MISSING
+        if present == planned.made.digest:
+            return State.CURRENT
+        entry = manifest.outputs.get(planned.path)
+        if entry is None:
+            return State.FOREIGN
+        return State.STALE if entry.sha256 == present else State.EDITED
+
+
+def place_outputs(results: Sequence[FileResult]) -> tuple[list[Planned], list[str]]:
+    """Return the outputs in order of path, and for those that have no place of their own, why.
+
+    Two outputs must differ on every system, so case and the ways to write an accent do not count.
+    """
+    rivals: dict[str, list[FileResult]] = defaultdict(list)
+    for result in results:
+        if result.outputs:
+            rivals[_folded(_path(result, ""))].append(result)
+    folders = {
+        _folded(parent): result
+        for result in results
+        if result.outputs
+        for parent in _parents(result.job.name)
+    }
+    placed: list[Planned] = []
+    problems = []
+    for group in rivals.values():
+        problem = _problem(group, folders)
+        if problem:
+            problems.append(problem)
+            continue
+        (result,) = group
+        placed += [Planned(_path(result, made.suffix), result, made) for made in result.outputs]
+    return sorted(placed, key=lambda planned: planned.path), sorted(problems)
+
+
+def find_orphans(
+    manifest: Manifest,
+    placed: Sequence[Planned],
+    results: Sequence[FileResult],
+    folders: Sequence[Path],
+    folder: Folder,
+) -> Iterator[Orphan]:
+    """Yield what the manifest lists and no source makes.
+
+    Args:
+        manifest: The manifest.
+        placed: What the sources make.
+        results: What became of the sources; those with errors keep their outputs.
+        folders: The folders of sources that were named; without any, nothing is known of sources
+            that are not among the results.
+        folder: The output folder.
+    """
+    made = {planned.path for planned in placed}
+    having = {planned.result.job.name for planned in placed}
+    failed = {
+        result.job.name
+        for result in results
+        if not result.is_complete or (result.outputs and result.job.name not in having)
+    }
+    compiled = {r.job.name for r in results} - failed
+    targets = {result.job.name: result.job.options.target for result in results}
+    for path, entry in sorted(manifest.outputs.items()):
+        if path in made or entry.source in failed:
+            continue
+        if targets.get(entry.source, "all") not in ("all", _target_of(path)):
+            continue  # nobody asked for such files today
+        is_gone = folders and not any(_is_source(each, entry.source) for each in folders)
+        if entry.source not in compiled and not is_gone:
+            continue
+        try:
+            present = folder.digest_of(path)
+        except OSError:
+            present = ""
+        if present is not None:
+            yield Orphan(path, entry.source, present == entry.sha256)
+
+
+def _target_of(path: str) -> str:
+    return "xosc" if path.endswith((".xosc", ".xosc.report.json")) else "py"
+
+
+def _is_source(folder: Path, name: str) -> bool:
+    return os.path.lexists(folder / name) if ".." not in name.split("/") else False
+
+
+def _problem(group: Sequence[FileResult], folders: dict[str, FileResult]) -> str | None:
+    first = group[0]
+    path = _path(first, first.outputs[0].suffix)
+    if len(group) > 1:
+        names = " and ".join(sorted(str(rival.job.path) for rival in group))
+        if len({_path(rival, "") for rival in group}) == 1:
+            return f"{path}: {names} make the same module; rename one of them"
+        return f"{path}: {names} make modules that not every system can tell apart; rename one"
+    odd = [part for part in first.job.name.split("/")[:-1] if not is_portable(part)]
+    if odd:
+        return f"{path}: not every system can have a folder {odd[0]!r}; rename it"
+    for made in first.outputs:
+        inner = folders.get(_folded(_path(first, made.suffix)))
+        if inner is not None:
+            return f"{path}: {inner.job.path} needs a folder of this name; rename it"
+    return None
+
+
+def _path(result: FileResult, suffix: str) -> str:
+    folder, slash, _ = result.job.name.rpartition("/")
+    return f"{folder}{slash}{result.stem}{suffix}"
+
+
+def _parents(name: str) -> Iterator[str]:
+    """Yield the folders above a file."""
+    while name := name.rpartition("/")[0]:
+        yield name
+
+
+def _folded(path: str) -> str:
+    if path.isascii():
+        return path.lower()
+    return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", path).casefold())

@@ -1,0 +1,144 @@
+"""What a compilation gave, as plain data: it travels between processes and lasts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from osc2tx.building.fingerprint import digest
+from osc2tx.building.jobs import Job, find_bug
+from osc2tx.diagnostics import Diagnostic, SourceFile, Span
+from osc2tx.diagnostics.report import ScenarioEntry
+from osc2tx.light_dataclass import dataclass
+from osc2tx.reported import LossEntry
+
+if TYPE_CHECKING:
+    from osc2tx.driver import Compilation, Output
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """An output as far as it is known.
+
+    Attributes:
+        suffix: What follows the stem of the source.
+        digest: Digest of the text.
+        text: The text; `None` if only an earlier build had it in hand.
+    """
+
+    suffix: str
+    digest: str
+    text: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Dependency:
+    """A place where an imported file was looked for.
+
+    Attributes:
+        asked: The place.
+        found: The same with links followed; empty if no file can have such a name.
+        digest: Digest of the text there; `None` if there was no file.
+    """
+
+    asked: str
+    found: str
+    digest: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class FileResult:
+    """What came of one source file.
+
+    Attributes:
+        job: What was to be done.
+        source: The text; `None` if it could not be read.
+        reports: What the stages had to say.
+        is_complete: Whether all stages that can report something ran and found no error.
+        scenarios: The scenarios, with how far each is worked out.
+        stem: What the names of the outputs begin with.
+        outputs: The files that the source makes.
+        losses: How the scenarios fared on their way to OpenSCENARIO XML.
+        dependencies: Where imports were looked for; `None` if the result depends on more than
+            that, so that it must not be used again.
+        bug: A mistake of osc2tx itself that came to light.
+    """
+
+    job: Job
+    source: SourceFile | None
+    reports: tuple[Diagnostic, ...]
+    is_complete: bool
+    scenarios: tuple[ScenarioEntry, ...]
+    stem: str
+    outputs: tuple[Made, ...]
+    losses: tuple[LossEntry, ...]
+    dependencies: tuple[Dependency, ...] | None
+    bug: str = ""
+
+    @property
+    def start(self) -> Span:
+        """The place of what concerns the file as a whole, even if there is no text."""
+        return Span(self.source or SourceFile(self.job.name, "", self.job.path), 0, 0)
+
+    @property
+    def has_texts(self) -> bool:
+        """Whether the texts of all outputs are at hand."""
+        return all(made.text is not None for made in self.outputs)
+
+
+def compile_job(job: Job) -> FileResult:
+    """Compile a file to its outputs."""
+    compilation = job.compilation()
+    outputs: list[Output] = []
+    bug = find_bug(compilation, lambda item: outputs.extend(item.outputs()))
+    return _result(job, compilation, bug, outputs=outputs, losses=() if bug else compilation.losses)
+
+
+def check_job(job: Job) -> FileResult:
+    """Run all stages on a file that can report something; it makes no outputs."""
+    compilation = job.compilation()
+    return _result(job, compilation, find_bug(compilation, lambda item: item.check()))
+
+
+def failed_job(job: Job, bug: str) -> FileResult:
+    """Return the result of a compilation that never came to its end."""
+    source = job.compilation().source
+    return FileResult(job, source, (), False, (), "", (), (), None, bug)
+
+
+def _result(
+    job: Job,
+    compilation: Compilation,
+    bug: str,
+    *,
+    outputs: Sequence[Output] = (),
+    losses: tuple[LossEntry, ...] = (),
+) -> FileResult:
+    return FileResult(
+        job=job,
+        source=compilation.source,
+        reports=compilation.reports,
+        is_complete=compilation.is_complete,
+        scenarios=compilation.scenarios,
+        stem=compilation.stem if outputs else "",
+        outputs=tuple(
+            Made(output.suffix, digest(output.text.encode()), output.text) for output in outputs
+        ),
+        losses=losses,
+        dependencies=None if bug else _dependencies(compilation),
+        bug=bug,
+    )
+
+
+def _dependencies(compilation: Compilation) -> tuple[Dependency, ...] | None:
+    lookups = compilation.lookups
+    if compilation.source is None or any(lookup.is_refused for lookup in lookups.values()):
+        return None
+    return tuple(
+        Dependency(
+            str(asked),
+            lookup.path,
+            None if lookup.text is None else digest(lookup.text.encode()),
+        )
+        for asked, lookup in lookups.items()
+    )

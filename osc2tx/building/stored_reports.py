@@ -1,0 +1,112 @@
+"""Diagnostics as plain lists, for `memory`; the texts that they point into are read again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, MutableMapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from osc2tx.building.fingerprint import digest
+from osc2tx.diagnostics import CODES, Diagnostic, Label, SourceFile, Span
+from osc2tx.diagnostics.report import ScenarioEntry
+
+
+class ReportWriter:
+    """Writes the reports of one source file; places are index of the text, start, end."""
+
+    def __init__(self, source: SourceFile, library: MutableMapping[str, str]) -> None:
+        """Begin with the file itself as text 0.
+
+        Args:
+            source: The file.
+            library: Takes the texts of the library that are pointed into, by digest.
+        """
+        self._sources = [source]
+        self._library = library
+
+    def report(self, report: Diagnostic) -> list[Any]:
+        """Return a diagnostic as a list."""
+        return [
+            report.code,
+            report.message,
+            self._place(report.primary) if report.primary else None,
+            [[self._place(label.span), label.message] for label in report.labels],
+            list(report.notes),
+            report.help,
+        ]
+
+    def scenario(self, entry: ScenarioEntry) -> list[Any]:
+        """Return an entry as a list."""
+        return [self._index(entry.source), entry.name, entry.level, list(entry.open), entry.summary]
+
+    def sources(self) -> list[Any]:
+        """Return the texts after the first: name, path, digest if it is one of the library."""
+        return [self._entry(source) for source in self._sources[1:]]
+
+    def _entry(self, source: SourceFile) -> list[Any]:
+        if source.path is not None:
+            return [source.name, str(source.path), None]
+        key = digest(source.text.encode())
+        self._library[key] = source.text
+        return [source.name, None, key]
+
+    def _place(self, span: Span) -> list[int]:
+        return [self._index(span.source), span.start, span.end]
+
+    def _index(self, source: SourceFile) -> int:
+        for index, known in enumerate(self._sources):
+            if known is source:
+                return index
+        self._sources.append(source)
+        return len(self._sources) - 1
+
+
+class ReportReader:
+    """Reads what `ReportWriter` wrote."""
+
+    def __init__(
+        self,
+        source: SourceFile,
+        others: Sequence[Sequence[Any]],
+        read: Callable[[str], bytes | None],
+        library: Mapping[str, str],
+    ) -> None:
+        """Take the texts.
+
+        Args:
+            source: The file itself.
+            others: The others, as written.
+            read: Returns the text of a file.
+            library: Texts of the library by digest.
+        """
+        self._sources = [source]
+        for name, path, key in others:
+            if path is None:
+                self._sources.append(SourceFile(name, library[key]))
+                continue
+            data = read(path)
+            if data is None:
+                raise ValueError(path)
+            self._sources.append(SourceFile(name, data.decode(), Path(path)))
+
+    def report(self, entry: Sequence[Any]) -> Diagnostic:
+        """Return a diagnostic."""
+        code, message, primary, labels, notes, help = entry
+        return Diagnostic(
+            code,
+            CODES[code].severity,
+            message,
+            self._span(primary) if primary else None,
+            tuple(Label(self._span(place), remark) for place, remark in labels),
+            tuple(notes),
+            help,
+        )
+
+    def scenario(self, entry: Sequence[Any]) -> ScenarioEntry:
+        """Return the level of a scenario."""
+        index, name, level, openings, summary = entry
+        return ScenarioEntry(self._sources[index], name, level, tuple(openings), summary)
+
+    def _span(self, place: Sequence[int]) -> Span:
+        index, start, end = place
+        return Span(self._sources[index], start, end)

@@ -1,0 +1,276 @@
+"""`osc2tx build`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from osc2tx.building.jobs import compile_all, run_all
+from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
+from osc2tx.cli.differences import print_diff, read_text
+from osc2tx.cli.options import compile_options, target_options
+from osc2tx.cli.progress import progress_bar
+from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
+from osc2tx.driver import Compilation
+from osc2tx.inputs import InputError
+from osc2tx.light_dataclass import dataclass
+from osc2tx.options import PRODUCT_NAMES, ProductName
+from osc2tx.reporting import Exit, Reporter, complain, count_of, found, report_options
+
+if TYPE_CHECKING:
+    from osc2tx.building.build import BuildOptions, BuildResult, Change
+    from osc2tx.building.results import FileResult
+
+POLL_SECONDS = 0.3  # between two looks of --watch
+
+
+@dataclass(frozen=True, slots=True)
+class _Task:
+    """What the command line and the settings ask for."""
+
+    paths: tuple[str, ...]
+    out_dir: Path
+    given: GivenOptions
+    reporter: Reporter
+    workers: int
+    force: bool
+    prune: bool
+
+
+@click.command()
+@click.argument("paths", metavar="[PATH...]", nargs=-1, type=click.Path())
+@click.option("-o", "--out", "out_dir", type=click.Path(path_type=Path), help="Output folder.")
+@compile_options
+@target_options
+@click.option(
+    "--emit",
+    type=click.Choice(PRODUCT_NAMES),
+    help="Print this product of the compiler and write nothing.",
+)
+@click.option(
+    "--check",
+    "check_only",
+    is_flag=True,
+    help="Write nothing; fail if an output is stale, missing, edited by hand or orphaned.",
+)
+@click.option("--diff", is_flag=True, help="Write nothing; print what would change.")
+@click.option(
+    "--diff-against",
+    metavar="GIT_REV",
+    help="Print what changed since the sources of a revision, both built by this osc2tx.",
+)
+@click.option("--watch", is_flag=True, help="Go on and build again when a source changes.")
+@click.option("--force", is_flag=True, help="Write also over what was edited by hand.")
+@click.option("--prune", is_flag=True, help="Remove outputs that no source makes any more.")
+@click.option(
+    "-j",
+    "--jobs",
+    "workers",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Compile in N processes.  [default: one for each processor]",
+)
+@report_options
+def build(
+    paths: tuple[str, ...],
+    out_dir: Path | None,
+    given: GivenOptions,
+    emit: ProductName | None,
+    check_only: bool,
+    diff: bool,
+    diff_against: str | None,
+    watch: bool,
+    force: bool,
+    prune: bool,
+    workers: int | None,
+    reporter: Reporter,
+) -> Exit:
+    """Write a py_trees module for every scenario file, and OpenSCENARIO XML where it is exact.
+
+    Without PATH and --out, `sources` and `out` of the settings file count.
+    """
+    reads_only = check_only or diff or diff_against is not None
+    if emit is not None:
+        if out_dir is not None or reads_only or watch or force or prune:
+            raise click.UsageError("--emit prints to the terminal: give it only paths")
+        if reporter.form != "text":
+            raise click.UsageError("--emit and --output-format both print to standard output")
+        return _print_product(paths, given, emit, reporter)
+    if (reads_only and (watch or force or prune)) or (diff_against and (check_only or diff)):
+        raise click.UsageError(
+            "of --check/--diff, --diff-against, --watch choose one; "
+            "--force and --prune are for builds that write"
+        )
+    if (diff or diff_against) and reporter.form != "text":
+        raise click.UsageError("--diff and --output-format both print to standard output")
+    from osc2tx.building.workers import processors
+
+    task = _Task(*_places(paths, out_dir), given, reporter, workers or processors(), force, prune)
+    try:
+        if diff_against is not None:
+            return _diff_against(task, diff_against)
+        if reads_only:
+            return _compare(task, check=check_only, diff=diff)
+        return _watch(task) if watch else _write(task)[0]
+    except ManifestError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def _places(paths: tuple[str, ...], out_dir: Path | None) -> tuple[tuple[str, ...], Path]:
+    """Return sources and output folder, from the settings of this folder where none are given."""
+    if paths and out_dir is not None:
+        return paths, out_dir
+    here = Path.cwd()
+    project = ConfigFiles().for_folder(here)
+    sources = paths or tuple(str(_relative(path, here)) for path in project.sources)
+    if not sources:
+        raise click.UsageError("say what to build: name a file or folder, or set `sources`")
+    if out_dir is None and project.out is None:
+        raise click.UsageError("say where the modules go, as in `-o generated`, or set `out`")
+    return sources, out_dir or _relative(project.out or here, here)
+
+
+def _relative(path: Path, folder: Path) -> Path:
+    """Return a path as somebody who works in a folder would write it."""
+    path = Path(os.path.normpath(path))
+    return path.relative_to(folder) if path.is_relative_to(folder) else path
+
+
+def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
+    """Build, report what the sources have to say; return the exit code for that, and a summary."""
+    from osc2tx.building.build import build as build_files
+
+    configs = ConfigFiles()
+    with progress_bar("compiling") as progress:
+        result = build_files(
+            task.paths, task.out_dir, task.given, options, configs=configs, progress=progress
+        )
+    code, report = task.reporter.report(result.results, result.bugs)
+    if any(Path(path).is_dir() for path in task.paths):
+        code = max(code, task.reporter.warn(configs.unmatched_tables()))
+    for problem in (*result.collisions, *result.failures):
+        complain(problem)
+    if result.collisions:
+        code = max(code, Exit.USAGE)
+    if result.failures:
+        code = max(code, Exit.UNREADABLE)
+    return result, code, found(report)
+
+
+def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
+    from osc2tx.building.build import BuildOptions
+    from osc2tx.building.plan import PROTECTED, State
+
+    options = BuildOptions(force=task.force, prune=task.prune, workers=task.workers)
+    result, code, counts = _run(task, options)
+    for change in result.remaining():
+        if change.state in PROTECTED:
+            complain(f"{change.path}: {change.state.value}; --force overwrites it")
+            code = max(code, Exit.STALE)
+        elif change.state is State.ORPHANED:
+            remedy = "--prune" if change.is_untouched else "it was edited; --prune --force"
+            complain(f"{change.path}: {_orphaned(change)}; {remedy} removes it")
+    removed = [c for c in result.changes if c.state is State.ORPHANED and c.path in result.written]
+    done = f"{count_of(len(result.written) - len(removed), 'file')} written"
+    done += f", {len(removed)} removed" if removed else ""
+    _say_losses(task.reporter, result.results)
+    made = count_of(result.modules, "source" if task.given.target == "xosc" else "module")
+    task.reporter.say(f"{made} in {task.out_dir}: {done}; {counts}")
+    return code, result.results
+
+
+def _say_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
+    """Sum up what became of scenarios as XML; one line each where nothing but XML is wanted."""
+    losses = [(result, loss) for result in results for loss in result.losses]
+    for result, loss in losses:
+        if result.job.options.target == "xosc":
+            reporter.say(f"{result.job.name}: {loss.scenario}: {loss.summary}")
+    others = [loss for result, loss in losses if result.job.options.target != "xosc"]
+    written = sum(loss.is_written for loss in others)
+    if written < len(others):
+        scenarios = count_of(len(others), "scenario")
+        reporter.say(f"XML for {written} of {scenarios}; the reports say why")
+
+
+def _compare(task: _Task, *, check: bool, diff: bool) -> Exit:
+    from osc2tx.building.build import BuildOptions
+    from osc2tx.building.plan import State
+
+    options = BuildOptions(check_only=True, want_texts=diff, workers=task.workers)
+    result, code, counts = _run(task, options)
+    for change in result.changes:
+        fault = _orphaned(change) if change.state is State.ORPHANED else change.state.value
+        task.reporter.find_fault(change.path, fault)
+        if diff and change.text is not None:
+            print_diff(str(change.path), read_text(change.path), change.text)
+    changed = [change for change in result.changes if change.path.name != MANIFEST_NAME]
+    summary = f"{count_of(result.modules, 'module')} in {task.out_dir}: "
+    summary += f"{count_of(len(changed), 'file')} would change; {counts}"
+    (complain if diff else task.reporter.say)(summary)
+    return max(code, Exit.STALE) if check and result.changes else code
+
+
+def _orphaned(change: Change) -> str:
+    return f"{change.state.value}: {change.origin} makes no such file"
+
+
+def _diff_against(task: _Task, revision: str) -> Exit:
+    """Print what the sources of today make, against what those of a revision would."""
+    from osc2tx.building.compare import compare_with
+
+    with progress_bar("compiling") as progress:
+        comparison = compare_with(
+            revision, task.paths, task.given, workers=task.workers, progress=progress
+        )
+    code, report = task.reporter.report(comparison.results)
+    for problem in comparison.problems:
+        complain(problem)
+    for difference in comparison.differences:
+        print_diff(str(task.out_dir / difference.path), difference.old, difference.new)
+    changed = count_of(len(comparison.differences), "file")
+    complain(f"{changed} changed since {revision}; {found(report)}")
+    return max(code, Exit.BUG) if comparison.bugs else code
+
+
+def _watch(task: _Task) -> Exit:
+    """Build again and again, until somebody interrupts it."""
+    from time import sleep
+
+    from osc2tx.building.watch import files_read, rounds
+
+    files: set[str] = set()
+    for _ in rounds(task.paths, files.copy, lambda: sleep(POLL_SECONDS)):
+        try:
+            files |= files_read(_write(task)[1])
+        except (ConfigError, InputError, ManifestError) as error:
+            complain(f"osc2tx: error: {error}")
+    return Exit.OK
+
+
+def _print_product(
+    paths: Sequence[str], given: GivenOptions, emit: ProductName, reporter: Reporter
+) -> Exit:
+    if not paths:
+        raise click.UsageError("say what to compile: name a file or folder")
+    if emit == "xosc" and given.target is None:
+        given = replace(given, target="xosc")
+    compilations = compile_all(paths, given)
+
+    texts: list[str] = []
+
+    def dump(compilation: Compilation) -> None:
+        if emit == "xosc":
+            compilation.check()
+        text = compilation.dump(emit)
+        if text is not None:
+            texts.append(f"# {compilation.path}\n{text}" if len(compilations) > 1 else text)
+
+    bugs = run_all(compilations, dump)
+    for text in texts:
+        click.echo(text, nl=not text.endswith("\n"))
+    return reporter.report(compilations, bugs)[0]

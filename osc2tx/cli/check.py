@@ -1,0 +1,33 @@
+"""`osc2tx check`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from osc2tx.building.checks import check_jobs
+from osc2tx.building.jobs import find_jobs
+from osc2tx.cli.options import compile_options, target_options
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.reporting import Exit, Reporter, count_of, found, report_options
+
+
+@click.command()
+@click.argument("paths", metavar="PATH...", nargs=-1, required=True, type=click.Path())
+@compile_options
+@target_options
+@click.option("--no-cache", is_flag=True, help="Check also what is as it was at the last check.")
+@report_options
+def check(paths: tuple[str, ...], given: GivenOptions, no_cache: bool, reporter: Reporter) -> Exit:
+    """Report what is wrong with scenario files; folders are searched for .osc files."""
+    configs = ConfigFiles()
+    results = check_jobs(find_jobs(paths, given, configs), remember=not no_cache)
+    code, report = reporter.report(results, [result.bug for result in results if result.bug])
+    for result in results:
+        for entry in result.scenarios:
+            reporter.say(f"{result.job.name}: {entry.summary}")
+    reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
+    if any(Path(path).is_dir() for path in paths):
+        code = max(code, reporter.warn(configs.unmatched_tables()))
+    return code

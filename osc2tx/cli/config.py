@@ -1,0 +1,37 @@
+"""`osc2tx config`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+from osc2tx.cli.options import compile_options, target_options
+from osc2tx.config import ConfigFiles, GivenOptions, Origin
+
+
+@click.command()
+@click.argument("path", metavar="[PATH]", default=".", type=click.Path(path_type=Path))
+@compile_options
+@target_options
+def config(path: Path, given: GivenOptions) -> None:
+    """Show the settings in force for a scenario file or a folder, and where each is from."""
+    configs = ConfigFiles()
+    found = configs.for_folder(path) if path.is_dir() else configs.for_source(path)
+    rows = [
+        (f"{entry.name} = {json.dumps(entry.value, ensure_ascii=False)}", _shown(entry.origin))
+        for entry in found.settings_in_force(None if path.is_dir() else path, given)
+    ]
+    width = max(len(setting) for setting, _ in rows)
+    for setting, origin in rows:
+        click.echo(f"{setting:{width}}  # {origin}")
+
+
+def _shown(origin: Origin) -> str:
+    if origin.path is None:
+        return origin.place
+    path = origin.path.resolve()
+    here = Path.cwd()
+    name = path.relative_to(here).as_posix() if path.is_relative_to(here) else str(path)
+    return f"{name}, [{origin.place}]" if origin.place else name

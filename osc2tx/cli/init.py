@@ -1,0 +1,53 @@
+"""`osc2tx init`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import click
+
+from osc2tx.reporting import Exit, complain
+from osc2tx.resources import resource_dir
+
+# Place in the new project -> what is written there, from templates/project.
+FILES: Mapping[str, str] = {
+    "osc2tx.toml": "settings.toml",
+    "scenarios/slow_down.osc": "scenario.osc",
+    "tests/test_scenarios.py": "test_scenarios.py",
+    ".pre-commit-config.yaml": "pre-commit-config.yaml",
+    ".github/workflows/scenarios.yml": "workflow.yml",
+}
+NEXT_STEPS = """
+Next:
+  osc2tx build                            # writes generated/
+  osc2tx run scenarios/slow_down.osc --report slow_down.html
+  pytest                                  # generated files are fresh, the scenario runs
+Commit generated/ with the scenarios: reviewers read both."""
+
+
+@click.command()
+@click.argument("folder", default=".", type=click.Path(path_type=Path, file_okay=False))
+def init(folder: Path) -> Exit:
+    """Start a project: a scenario, settings, a test, a pre-commit hook and a CI workflow.
+
+    Files that exist already are left as they are.
+    """
+    templates = resource_dir("templates") / "project"
+    for name, template in FILES.items():
+        place = folder / name
+        try:
+            place.parent.mkdir(parents=True, exist_ok=True)
+            with place.open("x", encoding="utf-8", newline="\n") as file:
+                file.write((templates / template).read_text(encoding="utf-8"))
+        except FileExistsError:
+            complain(f"{place}: exists, left as it is")
+        except OSError as error:
+            complain(f"{place}: cannot be written: {error.strerror}")
+            return Exit.UNREADABLE
+        else:
+            click.echo(f"{place}: written")
+    if folder != Path():
+        click.echo(f"\n  cd {folder}", nl=False)
+    click.echo(NEXT_STEPS)
+    return Exit.OK

@@ -1,0 +1,113 @@
+"""Options that several commands have."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import wraps
+from typing import Any
+
+import click
+
+from osc2tx.config import GivenOptions
+from osc2tx.options import (
+    DIALECTS,
+    ONE_OF_POLICIES,
+    STANDARDS,
+    TARGETS,
+    XML_PROFILES,
+    XML_VERSIONS,
+)
+
+
+def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that say how to compile; the command gets them as `given`."""
+
+    @wraps(command)
+    def with_given(
+        *args: Any, std: str | None, dialect: str | None, one_of: str | None, **more: Any
+    ) -> Any:
+        return command(*args, given=GivenOptions(std, dialect, one_of), **more)
+
+    options = (
+        click.option("--std", type=click.Choice(STANDARDS), help="Version of the standard."),
+        click.option("--dialect", type=click.Choice(DIALECTS), help="Dialect of the sources."),
+        click.option("--one-of", type=click.Choice(ONE_OF_POLICIES), help="Meaning of `one_of`."),
+    )
+    for option in reversed(options):
+        with_given = option(with_given)
+    return with_given
+
+
+def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that say what to make; they become part of `given`."""
+
+    @wraps(command)
+    def with_target(
+        *args: Any,
+        given: GivenOptions,
+        target: str | None,
+        xml_version: str | None,
+        xml_profile: str | None,
+        allow_approx: bool,
+        signal: tuple[str, ...],
+        spawn: tuple[str, ...],
+        map_path: tuple[str, ...],
+        **more: Any,
+    ) -> Any:
+        stated = replace(
+            given,
+            target=target,
+            xml_version=xml_version,
+            xml_profile=xml_profile,
+            allow_approx=allow_approx or None,
+            signal=signal or None,
+            spawn=spawn or None,
+            map_path=map_path or None,
+        )
+        return command(*args, given=stated, **more)
+
+    options = (
+        click.option(
+            "--target",
+            type=click.Choice(TARGETS),
+            help="What to make: `xosc` reports what OpenSCENARIO XML cannot say as errors, `all`"
+            " leaves such XML out.  [default: all]",
+        ),
+        click.option(
+            "--xml-version",
+            type=click.Choice(XML_VERSIONS),
+            help="Version of OpenSCENARIO XML.  [default: 1.3]",
+        ),
+        click.option(
+            "--xml-profile",
+            type=click.Choice(XML_PROFILES),
+            help="Tool that is to read the XML.  [default: generic]",
+        ),
+        click.option(
+            "--allow-approx",
+            is_flag=True,
+            help="Write XML also where it means only nearly the same.",
+        ),
+        click.option(
+            "--signal",
+            metavar="NAME@SECONDS",
+            multiple=True,
+            help="For XML: when an event from outside comes.",
+        ),
+        click.option(
+            "--spawn",
+            metavar="ACTOR=ROAD,LANE,S",
+            multiple=True,
+            help="For XML: where an actor starts that the scenario does not place.",
+        ),
+        click.option(
+            "--map-path",
+            type=click.Path(exists=True),
+            multiple=True,
+            help="For XML: folder with maps, or the map itself.",
+        ),
+    )
+    for option in reversed(options):
+        with_target = option(with_target)
+    return with_target

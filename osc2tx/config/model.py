@@ -1,0 +1,161 @@
+"""What a settings file says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+from pathlib import Path
+from typing import Any
+
+from osc2tx.config.settings import COMPILE_SETTINGS
+from osc2tx.light_dataclass import dataclass
+from osc2tx.options import ONLY_VERSIONS, CompileOptions, XmlOptions
+
+
+class ConfigError(Exception):
+    """A settings file that cannot be used; the message names file and key."""
+
+
+@dataclass(frozen=True, slots=True)
+class GivenOptions:
+    """Compile options as far as one place states them; `None` leaves the choice to others.
+
+    `signal`, `spawn` and `map_path` are run options; OpenSCENARIO XML holds what they say.
+    """
+
+    std: str | None = None
+    dialect: str | None = None
+    one_of: str | None = None
+    target: str | None = None
+    xml_version: str | None = None
+    xml_profile: str | None = None
+    allow_approx: bool | None = None
+    signal: tuple[str, ...] | None = None
+    spawn: tuple[str, ...] | None = None
+    map_path: tuple[str, ...] | None = None
+
+    def over(self, other: GivenOptions) -> GivenOptions:
+        """Return these options, with those of `other` where nothing is stated here."""
+        stated = {name: getattr(self, name) for name in (*_COMPILE, *_XML)}
+        chosen = {
+            name: getattr(other, name) if value is None else value for name, value in stated.items()
+        }
+        return GivenOptions(**chosen)
+
+    def complete(self) -> CompileOptions:
+        """Return the options with the defaults for what nobody stated."""
+        xml = self._stated(_XML)
+        only = ONLY_VERSIONS.get(self.xml_profile or "")
+        if only is not None:
+            xml.setdefault("version", only)
+        return CompileOptions(**self._stated(_COMPILE), xml=XmlOptions(**xml))
+
+    def _stated(self, names: Mapping[str, str]) -> dict[str, Any]:
+        values = {option: getattr(self, name) for name, option in names.items()}
+        return {option: value for option, value in values.items() if value is not None}
+
+
+# Field of `GivenOptions` -> field of `CompileOptions`, and of `XmlOptions`.
+_COMPILE = {"std": "standard", "dialect": "dialect", "one_of": "one_of", "target": "target"}
+_XML = {
+    "xml_version": "version",
+    "xml_profile": "profile",
+    "allow_approx": "allow_approx",
+    "signal": "signals",
+    "spawn": "spawns",
+    "map_path": "map_path",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ScenarioConfig:
+    """The table of one scenario file.
+
+    Attributes:
+        options: Compile options of this file.
+        run: Run option to what is written for it, in the syntax of the command line.
+    """
+
+    options: GivenOptions = GivenOptions()
+    run: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where a setting is from: a table of a file, or without file the command line or a default."""
+
+    place: str
+    path: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class InForce:
+    """A setting that counts, as one would write it, and where it is from."""
+
+    name: str
+    value: str | bool | list[str]
+    origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """What a settings file says.
+
+    Attributes:
+        path: The file; `None` if there is none and all is default.
+        prefix: The table of the file that is ours; empty if all of it is.
+        options: Compile options for all files.
+        scenarios: Tables of single files, by the stem of the file name.
+        sources: What to build if nobody says.
+        out: Where to.
+    """
+
+    path: Path | None = None
+    prefix: str = ""
+    options: GivenOptions = GivenOptions()
+    scenarios: Mapping[str, ScenarioConfig] = field(default_factory=dict)
+    sources: tuple[Path, ...] = ()
+    out: Path | None = None
+
+    @property
+    def roots(self) -> tuple[Path, ...]:
+        """The folder that the file stands for: all in it belongs to one project."""
+        return (self.path.parent,) if self.path else ()
+
+    def options_for(self, source: Path, given: GivenOptions) -> CompileOptions:
+        """Return the options for a file: the command line, then its table, then the file's."""
+        table = self.scenarios.get(source.stem, ScenarioConfig())
+        of_run = GivenOptions(
+            signal=table.run.get("signal"),
+            spawn=table.run.get("spawn"),
+            map_path=table.run.get("map-path"),
+        )
+        return given.over(table.options).over(of_run).over(self.options).complete()
+
+    def run_settings(self, source: Path) -> Mapping[str, tuple[str, ...]]:
+        """Return the run options of a file."""
+        return self.scenarios.get(source.stem, ScenarioConfig()).run
+
+    def settings_in_force(self, source: Path | None, given: GivenOptions) -> Iterator[InForce]:
+        """Yield what counts for a file, or for a folder, with where it is from."""
+        table = self.scenarios.get(source.stem, ScenarioConfig()) if source else ScenarioConfig()
+        section = f"scenarios.{source.stem}" if source else ""
+        layers = (
+            (given, Origin("command line")),
+            (table.options, self._origin(section)),
+            (self.options, self._origin("")),
+        )
+        for setting in COMPILE_SETTINGS:
+            stated = ((getattr(layer, setting.key), origin) for layer, origin in layers)
+            default = (False if setting.is_flag else setting.choices[0], Origin("default"))
+            value, origin = next((pair for pair in stated if pair[0] is not None), default)
+            yield InForce(setting.key, value, origin)
+        if self.sources:
+            yield InForce("sources", [str(path) for path in self.sources], self._origin(""))
+        if self.out is not None:
+            yield InForce("out", str(self.out), self._origin(""))
+        for key, texts in table.run.items():
+            yield InForce(f"run.{key}", list(texts), self._origin(f"{section}.run"))
+
+    def _origin(self, table: str) -> Origin:
+        return Origin(".".join(part for part in (self.prefix, table) if part), self.path)

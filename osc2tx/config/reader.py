@@ -1,0 +1,145 @@
+"""Reads settings files, and takes nothing that it does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from osc2tx.config.model import Config, ConfigError, GivenOptions, ScenarioConfig
+from osc2tx.config.settings import (
+    COMPILE_SETTINGS,
+    PROJECT_SETTINGS,
+    RUN_SETTINGS,
+    TABLES,
+    Setting,
+)
+from osc2tx.diagnostics.nearest import did_you_mean
+
+
+def read_folder(folder: Path) -> Config | None:
+    """Return what the settings file of a folder says; `None` if there is none.
+
+    Raises:
+        ConfigError: If it is unreadable or says something unknown.
+    """
+    own, project = folder / "osc2tx.toml", folder / "pyproject.toml"
+    if own.is_file():
+        return _Reader(own, "").config(_read_toml(own))
+    if project.is_file():
+        tool = _read_toml(project).get("tool", {})
+        if isinstance(tool, dict) and "osc2tx" in tool:
+            return _Reader(project, "tool.osc2tx").config(tool["osc2tx"])
+    return None
+
+
+def _read_toml(path: Path) -> dict[str, Any]:
+    import tomllib  # few folders have a file
+
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ConfigError(f"{path}: is not UTF-8 text") from None
+    except tomllib.TOMLDecodeError as error:
+        raise ConfigError(f"{path}: is not valid TOML: {error}") from None
+
+
+class _Reader:
+    """Turns the tables of one file into a `Config`, checking every key and value."""
+
+    def __init__(self, path: Path, prefix: str) -> None:
+        self.path = path
+        self.prefix = prefix
+
+    def config(self, table: object) -> Config:
+        keys = [setting.key for setting in (*COMPILE_SETTINGS, *PROJECT_SETTINGS)]
+        checked = self._table(table, (), (*keys, *TABLES))
+        scenarios = self._table(checked.get("scenarios", {}), ("scenarios",), None)
+        project = self._texts(checked, PROJECT_SETTINGS, ())
+        return Config(
+            path=self.path,
+            prefix=self.prefix,
+            options=self._options(checked, ()),
+            scenarios={name: self._scenario(name, value) for name, value in scenarios.items()},
+            sources=tuple(map(Path, project.get("sources", ()))),
+            out=Path(project["out"][0]) if "out" in project else None,
+        )
+
+    def _scenario(self, name: str, table: object) -> ScenarioConfig:
+        where = ("scenarios", name)
+        keys = [setting.key for setting in COMPILE_SETTINGS]
+        checked = self._table(table, where, (*keys, "run"))
+        inner = (*where, "run")
+        run = self._table(checked.get("run", {}), inner, [item.key for item in RUN_SETTINGS])
+        texts = self._texts(run, RUN_SETTINGS, inner)
+        return ScenarioConfig(self._options(checked, where), {key: texts[key] for key in run})
+
+    def _options(self, table: Mapping[str, object], where: tuple[str, ...]) -> GivenOptions:
+        found: dict[str, Any] = {}
+        for setting in COMPILE_SETTINGS:
+            if setting.key not in table:
+                continue
+            value = table[setting.key]
+            if setting.is_flag:
+                if not isinstance(value, bool):
+                    problem = f"`{setting.key}` is {_shown(value)}: write true or false"
+                    raise self._error(where, problem)
+                found[setting.key] = value
+                continue
+            if value not in setting.choices:
+                problem = f"`{setting.key}` is {_shown(value)}: write {_any_of(setting.choices)}"
+                raise self._error(where, problem)
+            found[setting.key] = str(value)
+        return GivenOptions(**found)
+
+    def _texts(
+        self, table: Mapping[str, object], settings: Sequence[Setting], where: tuple[str, ...]
+    ) -> dict[str, tuple[str, ...]]:
+        """Return the values of those settings that are there, as texts of the command line."""
+        return {
+            setting.key: self._text(setting, table[setting.key], where)
+            for setting in settings
+            if setting.key in table
+        }
+
+    def _text(self, setting: Setting, value: object, where: tuple[str, ...]) -> tuple[str, ...]:
+        if setting.is_number:
+            if isinstance(value, (str, int, float)) and not isinstance(value, bool):
+                return (str(value),)
+            raise self._error(where, f"`{setting.key}` is {_shown(value)}: write one number")
+        written = value if isinstance(value, list) and setting.is_list else [value]
+        items = [item for item in written if isinstance(item, str)]
+        if len(items) < len(written):
+            wanted = "a list of strings" if setting.is_list else "one string"
+            raise self._error(where, f"`{setting.key}` is {_shown(value)}: write {wanted}")
+        if setting.is_path:  # relative to the file, wherever osc2tx is started
+            return tuple(str(self.path.parent / item) for item in items)
+        return tuple(items)
+
+    def _table(
+        self, value: object, where: tuple[str, ...], keys: Sequence[str] | None
+    ) -> dict[str, Any]:
+        """Return a table whose keys are all among the given ones, if any are given."""
+        if not isinstance(value, dict):
+            raise self._error(where[:-1], f"`{(where or ('osc2tx',))[-1]}` is not a table")
+        for key in value:
+            if keys is not None and key not in keys:
+                meant = did_you_mean(key.replace("_", "-"), keys)
+                meant = meant or did_you_mean(key.replace("-", "_"), keys)
+                remedy = meant or f"known keys: {', '.join(keys)}"
+                raise self._error(where, f"unknown key `{key}`; {remedy}")
+        return value
+
+    def _error(self, where: tuple[str, ...], message: str) -> ConfigError:
+        table = ".".join(part for part in (self.prefix, *where) if part)
+        return ConfigError(f"{self.path}: " + (f"in [{table}]: " if table else "") + message)
+
+
+def _shown(value: object) -> str:
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+def _any_of(values: Sequence[str]) -> str:
+    return " or ".join(f'"{value}"' for value in values)

@@ -1,0 +1,65 @@
+"""The keys of a settings file, as tables; `docs/config.md` is made from them."""
+
+from __future__ import annotations
+
+from osc2tx.light_dataclass import dataclass
+from osc2tx.options import (
+    DIALECTS,
+    ONE_OF_POLICIES,
+    STANDARDS,
+    TARGETS,
+    XML_PROFILES,
+    XML_VERSIONS,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A key of a settings file.
+
+    Attributes:
+        key: How it is written.
+        help: What it says, for the reference; the runtime has that of its own options.
+        choices: The values it can have, if they are few; then the first is the default.
+        is_list: Whether it is a list of texts.
+        is_path: Whether its texts are paths, relative to the settings file.
+        is_number: Whether it is one number, or a text that says one.
+        is_flag: Whether it is `true` or `false`, which is the default.
+    """
+
+    key: str
+    help: str = ""
+    choices: tuple[str, ...] = ()
+    is_list: bool = False
+    is_path: bool = False
+    is_number: bool = False
+    is_flag: bool = False
+
+
+# For all files, or in the table of one.
+COMPILE_SETTINGS = (
+    Setting("std", "Version of the standard.", STANDARDS),
+    Setting("dialect", "Dialect of the sources.", DIALECTS),
+    Setting("one_of", "Meaning of `one_of`.", ONE_OF_POLICIES),
+    Setting("target", "What to make; `all`: modules, and XML where it is exact.", TARGETS),
+    Setting("xml_version", "Version of OpenSCENARIO XML.", tuple(reversed(XML_VERSIONS))),
+    Setting("xml_profile", "Tool that is to read the XML.", XML_PROFILES),
+    Setting("allow_approx", "Write XML also where it means only nearly the same.", is_flag=True),
+)
+# For `osc2tx build` started in the folder of the file or below.
+PROJECT_SETTINGS = (
+    Setting("sources", "Files and folders to build.", is_list=True, is_path=True),
+    Setting("out", "Folder of the outputs.", is_path=True),
+)
+# Options of `osc2tx run` for one file, by their names on the command line.
+RUN_SETTINGS = (
+    Setting("map-path", is_list=True, is_path=True),
+    Setting("signal", is_list=True),
+    Setting("spawn", is_list=True),
+    Setting("destination", is_list=True),
+    Setting("set", is_list=True),
+    Setting("seed", is_number=True),
+    Setting("dt", is_number=True),
+    Setting("max-time", is_number=True),
+)
+TABLES = ("scenarios",)  # of tables, one for each scenario file

@@ -1,0 +1,48 @@
+"""Coverage items of the IR (§7.5)."""
+
+from __future__ import annotations
+
+from osc2tx.diagnostics import Span
+from osc2tx.ir.behaviors import EventRef, Moment
+from osc2tx.ir.expressions import Expression
+from osc2tx.ir.values import Unit
+from osc2tx.light_dataclass import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Coverage:
+    """`cover` or `record`, overrides merged.
+
+    Attributes:
+        kind: `cover` or `record`.
+        name: The item.
+        span: Its declaration.
+        expression: What is sampled; `None` for a cross of other items.
+        items: The items of a cross.
+        event: When it is sampled: an event, or the start or end of the scenario.
+        unit: The unit of values and slices.
+        within: Values of interest, in the unit.
+        every: Width of a slice, in the unit.
+        buckets: Boundaries between slices, in the unit.
+        ignore: What does not count: a condition over the element of depth 0.
+        illegal: What must not be, likewise.
+        target: Hits that each slice should have.
+        text: What it is about.
+        comments: The comment lines above it.
+    """
+
+    kind: str
+    name: str
+    span: Span
+    expression: Expression | None
+    items: tuple[str, ...] = ()
+    event: EventRef | Moment = Moment.END
+    unit: Unit | None = None
+    within: tuple[float, float] | None = None
+    every: float | None = None
+    buckets: tuple[float, ...] = ()
+    ignore: Expression | None = None
+    illegal: Expression | None = None
+    target: int | None = None
+    text: str = ""
+    comments: tuple[str, ...] = ()

@@ -1,0 +1,25 @@
+"""Text of the source as people read it in trees, timelines and traces."""
+
+from __future__ import annotations
+
+import re
+
+from osc2tx.diagnostics import Span
+
+MAX_LENGTH = 90
+
+
+def condensed(text: str) -> str:
+    """Return text on one line: blanks for white space, none where a bracket was broken."""
+    joined = re.sub(r"(?<=[(\[])\s*\n\s*|\s*\n\s*(?=[)\]])", "", text)
+    return re.sub(r"\s+", " ", joined)
+
+
+def shorten(text: str) -> str:
+    """Cut a name that would be too long for a tree or a timeline."""
+    return text if len(text) <= MAX_LENGTH else f"{text[: MAX_LENGTH - 1]}…"
+
+
+def statement_name(span: Span) -> str:
+    """Return the text of a statement on one line."""
+    return shorten(condensed(span.text))

@@ -1,0 +1,60 @@
+"""What every expression of the IR has: a type, with the unit of physical values."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from osc2tx.diagnostics import Span
+from osc2tx.light_dataclass import dataclass
+
+
+class Kind(Enum):
+    """What sort of value an expression has."""
+
+    BOOL = "bool"
+    INTEGER = "int"
+    FLOAT = "float"
+    STRING = "string"
+    QUANTITY = "quantity"
+    ENUM = "enum"
+    ACTOR = "actor"
+    STRUCT = "struct"
+    LIST = "list"
+    RANGE = "range"
+
+
+@dataclass(frozen=True, slots=True)
+class ValueType:
+    """The type of a value.
+
+    Attributes:
+        kind: What sort of value it is.
+        name: The declared name (`speed`, `vehicle`, `color`, …).
+        element: For a list or range the type of what is in it.
+    """
+
+    kind: Kind
+    name: str
+    element: ValueType | None = None
+
+    def __str__(self) -> str:
+        """The declared name."""
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit: `si = value * factor + offset`; `is_standard` if the library declares it."""
+
+    name: str
+    factor: float
+    offset: float
+    is_standard: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExpressionBase:
+    """What all expressions have: a type and the place they come from."""
+
+    span: Span
+    type: ValueType

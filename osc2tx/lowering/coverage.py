@@ -1,0 +1,181 @@
+"""Coverage and recording (§7.5): overrides are merged, slices become numbers in the item's unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx import ir
+from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.expressions import lower_expression, lower_type, lower_unit
+from osc2tx.lowering.triggers import declares_event
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import to_si
+from osc2tx.semantics.coverage_items import Item, all_items_of, text_of
+from osc2tx.semantics.scope import supertypes
+from osc2tx.syntax import ast
+
+MOMENTS = {"start": ir.Moment.START, "end": ir.Moment.END, "fail": ir.Moment.FAIL}
+
+
+def lower_coverage(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[ir.Coverage, ...]:
+    """Return the items of a scenario, inherited ones included, that are not switched off."""
+    overrides = dict(_overrides(scenario))
+    lowered = []
+    for item in all_items_of(scenario):
+        arguments = {**item.arguments, **overrides.get(item.name, {})}
+        if _is_true(arguments.get("disable")):
+            continue
+        coverage = _lower(ctx, scenario, item, arguments)
+        if coverage is not None:
+            lowered.append(coverage)
+    return tuple(lowered)
+
+
+def _overrides(
+    scenario: sym.ScenarioSymbol,
+) -> Iterator[tuple[str, dict[str, ast.Expression]]]:
+    """Yield what overrides say, by item; the last word on an argument counts (§7.5.6)."""
+    merged: dict[str, dict[str, ast.Expression]] = {}
+    for ancestor in reversed(list(supertypes(scenario))):
+        for statement in ancestor.statements:
+            if isinstance(statement, ast.CoverageDeclaration):
+                given = {a.name.text: a.value for a in statement.arguments if a.name is not None}
+                name = text_of(given.pop("override", None))
+                if name is not None:
+                    merged.setdefault(name, {}).update(given)
+    yield from merged.items()
+
+
+def _lower(
+    ctx: LoweringContext,
+    scenario: sym.ScenarioSymbol,
+    item: Item,
+    arguments: dict[str, ast.Expression],
+) -> ir.Coverage | None:
+    node, source = item.node, item.expression
+    crossed = arguments.get("items")
+    elements = crossed.elements if isinstance(crossed, ast.ListLiteral) else ()
+    items = tuple(name for e in elements if (name := text_of(e)) is not None)
+    # One event samples all items of a cross (§7.5.4).
+    group = [i.arguments.get("event") for i in all_items_of(scenario) if i.name in items]
+    event = _event(ctx, arguments.get("event", group[0] if group else None))
+    expression = None
+    if source is not None:
+        inner = _it_of(ctx, scenario, item)
+        expression = lower_expression(inner, source)
+    if event is None or (source is not None and expression is None):
+        return None
+    unit = ctx.model.symbol_of(arguments["unit"]) if "unit" in arguments else None
+    unit = unit if isinstance(unit, sym.UnitSymbol) else None
+    number = _Numbers(ctx, unit)
+    target = number.of(arguments.get("target"))
+    return ir.Coverage(
+        kind=node.kind,
+        name=item.name,
+        span=node.span,
+        expression=expression,
+        items=items,
+        event=event,
+        unit=None if unit is None else lower_unit(unit),
+        within=number.range_of(arguments.get("range")),
+        every=number.of(arguments.get("every")),
+        buckets=number.list_of(arguments.get("buckets")),
+        ignore=_filter(ctx, item, expression, arguments.get("ignore")),
+        illegal=_filter(ctx, item, expression, arguments.get("illegal")),
+        target=None if target is None else int(target),
+        text=_text(arguments.get("text")),
+        comments=statement_comments(node),
+    )
+
+
+def _it_of(ctx: LoweringContext, scenario: sym.ScenarioSymbol, item: Item) -> LoweringContext:
+    """Return the context of an item in the `with` of a field: `it` is the field."""
+    for ancestor in supertypes(scenario):
+        field = ancestor.members.get(item.name)
+        if not isinstance(field, sym.FieldSymbol):
+            continue
+        node = field.node
+        if isinstance(node, ast.ParameterDeclaration) and item.node in node.constraints:
+            span, type_ = item.node.span, lower_type(field.type)
+            return ctx.with_it(ir.FieldRef(span=span, type=type_, name=field.name))
+    return ctx
+
+
+def _event(ctx: LoweringContext, event: ast.Expression | None) -> ir.EventRef | ir.Moment | None:
+    if event is None:
+        return ir.Moment.END
+    symbol = ctx.model.symbol_of(event)
+    if isinstance(symbol, sym.EventSymbol) and declares_event(symbol):
+        return ir.EventRef(span=event.span, name=symbol.name)
+    if symbol is not None and symbol.name in MOMENTS and symbol.name != "fail":
+        return MOMENTS[symbol.name]
+    ctx.unsupported("OSC501", event.span, f"`{event.span.text}` cannot sample an item yet")
+    return None
+
+
+def _filter(
+    ctx: LoweringContext,
+    item: Item,
+    sampled: ir.Expression | None,
+    condition: ast.Expression | None,
+) -> ir.Expression | None:
+    """Lower a condition over an item; its name and `it` are its value."""
+    if condition is None or sampled is None:
+        return None
+    element = ir.Element(span=condition.span, type=sampled.type, depth=0)
+    return lower_expression(ctx.with_it(element).with_local(item.name, element), condition)
+
+
+def _is_true(expression: ast.Expression | None) -> bool:
+    return isinstance(expression, ast.BoolLiteral) and expression.value
+
+
+def _text(expression: ast.Expression | None) -> str:
+    return expression.value if isinstance(expression, ast.StringLiteral) else ""
+
+
+class _Numbers:
+    """Reads the numbers of slices: plain ones count in the unit, others are converted to it."""
+
+    def __init__(self, ctx: LoweringContext, unit: sym.UnitSymbol | None) -> None:
+        self._ctx = ctx
+        self._unit = unit
+
+    def of(self, node: ast.Expression | None) -> float | None:
+        """Return a number; what is none when compiling is refused."""
+        match node:
+            case None:
+                return None
+            case ast.IntegerLiteral(value=value) | ast.FloatLiteral(value=value):
+                return value
+            case ast.Unary(operator=ast.UnaryOperator.NEGATE, operand=operand):
+                number = self.of(operand)
+                return None if number is None else -number
+            case ast.PhysicalLiteral(value=value):
+                si = to_si(float(value), self._ctx.model.units[node])
+                if self._unit is None:
+                    return si
+                return float(f"{(si - self._unit.offset) / self._unit.factor:.10g}")
+            case _:
+                self._ctx.unsupported(
+                    "OSC501", node.span, "slices of an item take plain numbers only"
+                )
+                return None
+
+    def range_of(self, node: ast.Expression | None) -> tuple[float, float] | None:
+        """Return a range."""
+        if not isinstance(node, ast.RangeLiteral):
+            self.of(node)
+            return None
+        lower, upper = self.of(node.lower), self.of(node.upper)
+        if lower is None or upper is None:
+            return None
+        return min(lower, upper), max(lower, upper)
+
+    def list_of(self, node: ast.Expression | None) -> tuple[float, ...]:
+        """Return the numbers of a list."""
+        if not isinstance(node, ast.ListLiteral):
+            self.of(node)
+            return ()
+        numbers = (self.of(element) for element in node.elements)
+        return tuple(number for number in numbers if number is not None)

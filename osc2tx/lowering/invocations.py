@@ -1,0 +1,197 @@
+"""Invocations of actions and scenarios."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.analysis.tape import Key
+from osc2tx.ir.text import statement_name
+from osc2tx.lowering.constraints import ConstraintLowering, Setting
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.expressions import lower_arguments, lower_expression, lower_type
+from osc2tx.lowering.modifiers import draw_ranges, is_override
+from osc2tx.lowering.names import invocation_name
+from osc2tx.lowering.own_actions import default_arguments, is_own
+from osc2tx.lowering.own_modifiers import ModifierLowering
+from osc2tx.lowering.paths import start_on_path
+from osc2tx.lowering.triggers import lower_until
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.model import Binding
+from osc2tx.syntax import ast
+
+
+class InvocationLowering:
+    """Lowers the invocations of one scenario."""
+
+    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
+        """Take the checked program, and what the constraints of the scenario say."""
+        self._ctx = ctx
+        self._constraints = constraints
+
+    def lower(
+        self, node: ast.Invocation, comments: tuple[str, ...]
+    ) -> ir.Invoke | ir.InvokeScenario | None:
+        """Lower an invocation; `None` if it was refused."""
+        binding = self._ctx.model.binding_of(node)
+        callee = binding.callee
+        actor = self._actor(node, binding)
+        if isinstance(callee, sym.ScenarioSymbol):
+            return self._scenario(node, callee, actor, comments)
+        if not isinstance(callee, sym.ActionSymbol) or callee.actor is None or actor is None:
+            self._ctx.unsupported(
+                "OSC504", node.span, "an action without actor is not supported yet"
+            )
+            return None
+        self._ctx.actions.append(callee)
+        arguments = self._arguments(node)
+        if is_own(callee):
+            arguments += default_arguments(self._ctx, callee, arguments, actor, node)
+        written = [member for member in node.with_members if not _is_until(member)]
+        invocation = ir.Invoke(
+            span=node.span,
+            label=label_of(node),
+            name=invocation_name(
+                actor.name if isinstance(actor, ir.FieldRef) else actor.span.text,
+                callee.name,
+                [*(a.span.text for a in node.arguments), *(m.span.text for m in written)],
+            ),
+            comments=comments,
+            actor=actor,
+            owner=callee.actor.name,
+            action=callee.name,
+            arguments=tuple(a for a in arguments if a.parameter != "duration"),
+            modifiers=self._modifiers(node, actor),
+            duration=next((a.value for a in arguments if a.parameter == "duration"), None),
+            until=lower_until(self._ctx, node.with_members),
+            is_own=is_own(callee),
+        )
+        return start_on_path(invocation)
+
+    def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
+        """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        if binding.receiver is not None:
+            return lower_expression(self._ctx, binding.receiver)
+        callee = binding.callee
+        if not isinstance(callee, sym.ScenarioSymbol | sym.ActionSymbol) or callee.actor is None:
+            return None
+        type_ = ir.ValueType(ir.Kind.ACTOR, callee.actor.name)
+        return ir.FieldRef(span=node.span, type=type_, name="actor")
+
+    def _scenario(
+        self,
+        node: ast.Invocation,
+        callee: sym.ScenarioSymbol,
+        actor: ir.Expression | None,
+        comments: tuple[str, ...],
+    ) -> ir.InvokeScenario | None:
+        if not has_behavior(callee):
+            self._ctx.unsupported(
+                "OSC504", node.span, f"scenario `{callee.qualified_name}` has no `do`"
+            )
+            return None
+        self._ctx.invoked.append(callee)
+        arguments = self._arguments(node)
+        for member in node.with_members:
+            if isinstance(member, ast.ModifierApplication) and not is_override(self._ctx, member):
+                self._ctx.unsupported(
+                    "OSC508", member.span, f"modifier `{member.modifier}` of an invoked scenario"
+                )
+        span = callee.node.name.span
+        return ir.InvokeScenario(
+            span=node.span,
+            label=label_of(node),
+            name=statement_name(node.span),
+            comments=comments,
+            scenario=callee.qualified_name,
+            key=f"{span.source.name}:{span.start}",
+            actor=actor,
+            arguments=tuple(a for a in arguments if a.parameter != "duration"),
+            duration=next((a.value for a in arguments if a.parameter == "duration"), None),
+            until=lower_until(self._ctx, node.with_members),
+        )
+
+    def _arguments(self, node: ast.Invocation) -> tuple[ir.Argument, ...]:
+        """Return the arguments, and what `keep(it.parameter …)` says: the same thing (§6)."""
+        binding = self._ctx.model.binding_of(node)
+        arguments = lower_arguments(self._ctx, binding, node.arguments)
+        if isinstance(binding.callee, sym.ActionSymbol):
+            arguments = draw_ranges(self._ctx, binding, arguments, name_of_member(node))
+        fields = {parameter.name: parameter for parameter, _ in binding.arguments}
+        for argument in arguments:
+            key: Key = (node, fields[argument.parameter])
+            if not isinstance(argument.value, ir.RangeValue):
+                self._ctx.given.setdefault(key, argument.value)
+        return arguments + self.kept_arguments(node)
+
+    def kept_arguments(self, node: ast.Invocation | ast.Composition) -> tuple[ir.Argument, ...]:
+        """Return what constraints say of the parameters that have no argument."""
+        binding = self._ctx.model.bindings.get(node)
+        is_scenario = binding is not None and isinstance(binding.callee, sym.ScenarioSymbol)
+        arguments = []
+        for parameter, setting in self._constraints.of_instance(node):
+            value = setting.value or setting.domain
+            if value is None:
+                continue
+            is_time = parameter.name == "duration" and not isinstance(setting.domain, ir.Choices)
+            if setting.value is None and not is_scenario and not is_time:
+                value = self._drawn(node, parameter, setting)
+            if value is None:
+                continue
+            if value is not setting.domain:
+                self._ctx.given[node, parameter] = value
+            arguments.append(
+                ir.Argument(
+                    parameter=parameter.name, value=value, is_positional=False, span=value.span
+                )
+            )
+        return tuple(arguments)
+
+    def _drawn(
+        self, node: ast.Invocation | ast.Composition, parameter: sym.FieldSymbol, setting: Setting
+    ) -> ir.FieldRef | None:
+        assert setting.domain is not None
+        name = f"{name_of_member(node)}.{parameter.name}"
+        return self._ctx.draw(name, setting.domain, lower_type(parameter.type))
+
+    def _modifiers(
+        self, node: ast.Invocation, actor: ir.Expression | None
+    ) -> tuple[ir.ModifierCall, ...]:
+        action = self._ctx.model.binding_of(node).callee
+        assert isinstance(action, sym.BehaviorSymbol)
+        lowering = ModifierLowering(
+            self._ctx, self._constraints, name_of_member(node), actor, action
+        )
+        modifiers: list[ir.ModifierCall] = []
+        for member in node.with_members:
+            match member:
+                case ast.ModifierApplication():
+                    if not is_override(self._ctx, member):
+                        modifiers += lowering.lower(member)
+                case ast.KeepConstraint() | ast.RemoveDefault() | ast.UntilDirective():
+                    pass
+        return tuple(modifiers)
+
+
+def has_behavior(scenario: sym.ScenarioSymbol) -> bool:
+    """Whether a scenario or one of its bases has a `do`."""
+    current: sym.ScenarioSymbol | None = scenario
+    while current is not None:
+        if any(isinstance(statement, ast.DoDirective) for statement in current.statements):
+            return True
+        current = current.base
+    return False
+
+
+def name_of_member(node: ast.Invocation | ast.Composition) -> str:
+    """Return what to call values that belong to a member of the tree."""
+    if node.label is not None:
+        return node.label.text
+    return node.behavior.text if isinstance(node, ast.Invocation) else node.operator.value
+
+
+def label_of(node: ast.BehaviorMember) -> str | None:
+    """Return the label of a member of the tree."""
+    return None if node.label is None else node.label.text
+
+
+def _is_until(member: ast.WithMember) -> bool:
+    return isinstance(member, ast.UntilDirective)

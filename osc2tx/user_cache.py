@@ -1,0 +1,79 @@
+"""Files of osc2tx in the user's cache folder: read only if nobody else can have written them.
+
+What is read there decides what osc2tx makes, so a folder or a file that belongs to somebody else,
+or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor writes any.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+# No link is followed, and a pipe in place of the file does not block.
+_READ_FLAGS = os.O_RDONLY
+for _flag in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"):
+    _READ_FLAGS |= getattr(os, _flag, 0)
+
+
+def cache_folder() -> Path | None:
+    """Return the folder of osc2tx in the user's cache, as the platform has it.
+
+    `platformdirs` would say the same, and takes longer to import than a snapshot to load.
+    """
+    if os.environ.get("OSC2TX_NO_CACHE"):
+        return None
+    home = os.path.expanduser("~")
+    if sys.platform == "win32":
+        base = os.environ.get("LOCALAPPDATA", "")
+    elif sys.platform == "darwin":
+        base = os.path.join(home, "Library", "Caches")
+    else:
+        base = os.environ.get("XDG_CACHE_HOME", "")
+        base = base if os.path.isabs(base) else os.path.join(home, ".cache")
+    return Path(base, "osc2tx") if os.path.isabs(base) else None
+
+
+def read_own(path: Path) -> bytes | None:
+    """Return the bytes of a file if file and folder are the user's own; `None` if not."""
+    try:
+        if not _is_ours(os.lstat(path.parent), stat.S_ISDIR):
+            return None
+        descriptor = os.open(path, _READ_FLAGS)
+        with os.fdopen(descriptor, "rb") as stream:
+            return stream.read() if _is_ours(os.fstat(descriptor), stat.S_ISREG) else None
+    except OSError:
+        return None
+
+
+def write_own(path: Path, data: bytes) -> bool:
+    """Put a file in place in one step; return whether that was possible."""
+    from tempfile import mkstemp  # rarely needed
+
+    folder = path.parent
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not _is_ours(os.lstat(folder), stat.S_ISDIR):
+            return False
+        descriptor, temporary = mkstemp(dir=folder, prefix=f".{path.name}.")
+    except OSError:
+        return False
+    try:
+        with os.fdopen(descriptor, "wb") as stream:
+            stream.write(data)
+        os.replace(temporary, path)
+    except OSError:
+        Path(temporary).unlink(missing_ok=True)
+        return False
+    return True
+
+
+def _is_ours(status: os.stat_result, is_kind: Callable[[int], bool]) -> bool:
+    """Whether a file or folder is of a kind, belongs to the user, and nobody else may write it."""
+    if not is_kind(status.st_mode):
+        return False
+    if sys.platform == "win32":
+        return True  # the profile of a user is closed to others
+    return status.st_uid == os.geteuid() and not status.st_mode & 0o022

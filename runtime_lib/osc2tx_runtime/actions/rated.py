@@ -1,0 +1,66 @@
+"""What actions have in common that change a quantity with a profile and a peak of its rate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Unpack
+
+from osc2tx_runtime.action import ActionOptions
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import Modifier, Value
+from osc2tx_runtime.world.profiles import PROFILES, DynamicProfile
+
+from .groups import SIDE_FREE
+from .shaped import ShapedAction
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.actors import MovableObject
+
+__all__ = ["RatedChange", "check_profile"]
+
+
+def check_profile(name: str, profile: str) -> None:
+    """Refuses a profile that does not exist."""
+    if profile not in PROFILES:
+        raise ScenarioError(f"{name}: rate_profile `{profile}` is none of {', '.join(PROFILES)}")
+
+
+class RatedChange(ShapedAction):
+    """Reaches a target in the speed slot.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the lane.
+        target: What is reached, in SI units.
+        rate_profile: Course of the first derivative.
+        rate_peak: Its peak; default: the duration, else the limits of the actor.
+        **options: Duration and label.
+    """
+
+    accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        target: Value,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: float | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        check_profile(self.action_name, rate_profile)
+        self.target = target
+        self.rate_profile: DynamicProfile = rate_profile
+        self.rate_peak = rate_peak
+
+    def takes_too_long(self, peak: str, own: float) -> str | None:
+        """Why peak and duration contradict each other; None if they fit, or there is no duration.
+
+        Args:
+            peak: The peak with its unit.
+            own: Seconds that the change takes with it.
+        """
+        duration = self.fixed_duration()
+        if duration is None or abs(own - duration) <= self.context.dt:
+            return None
+        return f"with rate_peak {peak} it takes {own:.2f} s, not {duration:g} s"

@@ -1,0 +1,65 @@
+"""External methods (§7.3.7): functions of the user's own Python code, run only if allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+from osc2tx_runtime.behaviour.directives import CALL_ERRORS
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+
+__all__ = ["external_function"]
+
+
+def external_function(
+    path: str, kind: type | None, allowed: tuple[str, ...], source: str
+) -> Callable[..., Any]:
+    """Return a function of the user that raises nothing but errors of the scenario.
+
+    Args:
+        path: `module.function`.
+        kind: Type of its result; None if that does not matter.
+        allowed: What `--allow-external` names.
+        source: Place of the method in the scenario.
+
+    Raises:
+        SettingsError: If it is not allowed. Nothing is imported then.
+        ScenarioError: If it cannot be found.
+    """
+    if path not in allowed:
+        raise SettingsError(
+            f"the scenario calls code from outside, {path}: allow it, --allow-external {path}",
+            source,
+        )
+    module, _, name = path.rpartition(".")
+    try:
+        function = getattr(import_module(module), name)
+    except (ImportError, AttributeError) as error:
+        raise ScenarioError(f"no function {path}: {error}", source) from error
+    if not callable(function):
+        raise ScenarioError(f"{path} is no function", source)
+
+    def call(*arguments: Any) -> Any:
+        try:
+            result = function(*arguments)
+        except CALL_ERRORS as error:
+            raise ScenarioError(f"{path}: {type(error).__name__}: {error}", source) from error
+        return result if kind is None else as_kind(result, kind, path, source)
+
+    call.__name__ = name
+    return call
+
+
+def as_kind(result: Any, kind: type, path: str, source: str) -> Any:
+    """Return a result as what the scenario declares.
+
+    Raises:
+        ScenarioError: If it is something else.
+    """
+    if kind is float and isinstance(result, int) and not isinstance(result, bool):
+        return float(result)
+    if not isinstance(result, kind) or (kind is int and isinstance(result, bool)):
+        found = type(result).__name__
+        raise ScenarioError(f"{path} returns a {found}, not a {kind.__name__}", source)
+    return result

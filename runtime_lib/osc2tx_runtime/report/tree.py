@@ -1,0 +1,170 @@
+"""Pictures of a behavior tree: text for terminals, SVG for documents."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from xml.etree import ElementTree
+
+from osc2tx_runtime.action import Action
+from osc2tx_runtime.behaviour import Behaviour, OneOf, Parallel, Serial
+
+__all__ = ["tree_svg", "tree_text"]
+
+ROW = 26
+STEP = 28
+MARGIN = 16
+CHARACTER = 7.3  # width of one in the font below, as far as it is known
+COLORS = {
+    "serial": "#2463c9",
+    "parallel": "#8e3fb8",
+    "one_of": "#b8860b",
+    "action": "#12805c",
+    "until": "#d9480f",
+    "wait": "#d9480f",
+    "emit": "#c2255c",
+}
+OTHER_COLOR = "#5c6470"
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A node as one line: what leads to it from the left, and what it is.
+
+    Attributes:
+        last: For each level from the root down, whether the branch ends there.
+        kind: `serial`, `action`, …
+        text: What the node is called or does.
+        source: Where the scenario says so; empty if nothing is known.
+    """
+
+    last: tuple[bool, ...]
+    kind: str
+    text: str
+    source: str
+
+
+def tree_text(root: Behaviour) -> str:
+    """Return the tree as lines of text, with the lines of the scenario in a column of their own.
+
+    Args:
+        root: What `create_root` of a generated module returns.
+    """
+    rows = list(_rows(root))
+    lines = [f"{_branches(row.last)}{_words(row)}" for row in rows]
+    width = max(map(len, lines))
+    numbered = zip(lines, rows, strict=True)
+    return "".join(f"{line:<{width}}  {row.source}".rstrip() + "\n" for line, row in numbered)
+
+
+def tree_svg(root: Behaviour) -> str:
+    """Return the tree as an SVG document; the same tree gives the same text.
+
+    Args:
+        root: What `create_root` of a generated module returns.
+    """
+    rows = list(_rows(root))
+    column = max(
+        len(row.last) * STEP + _chip_width(row) + len(row.text) * CHARACTER for row in rows
+    )
+    places = column + 2 * MARGIN
+    width = places + max(len(row.source) for row in rows) * CHARACTER + MARGIN
+    height = 2 * MARGIN + ROW * len(rows)
+    svg = ElementTree.Element("svg", xmlns="http://www.w3.org/2000/svg")
+    svg.set("width", _number(width))
+    svg.set("height", _number(height))
+    svg.set("viewBox", f"0 0 {_number(width)} {_number(height)}")
+    svg.set("font-family", "ui-monospace, 'DejaVu Sans Mono', Menlo, monospace")
+    svg.set("font-size", "12")
+    ElementTree.SubElement(svg, "title").text = root.name
+    ElementTree.SubElement(svg, "rect", width="100%", height="100%", fill="#ffffff")
+    _draw_branches(svg, rows)
+    for index, row in enumerate(rows):
+        _draw_row(svg, row, MARGIN + ROW * index, places)
+    ElementTree.indent(svg)
+    return ElementTree.tostring(svg, encoding="unicode") + "\n"
+
+
+def _rows(root: Behaviour) -> Iterator[_Row]:
+    """Every node from the top down, in the order of the scenario."""
+    pending: list[tuple[Behaviour, tuple[bool, ...]]] = [(root, ())]
+    while pending:
+        node, last = pending.pop()
+        yield _Row(last, _kind(node), _text(node), getattr(node, "source", ""))
+        children = list(node.children)
+        shown = [(child, (*last, child is children[-1])) for child in children]
+        pending += reversed(shown)
+
+
+def _kind(node: Behaviour) -> str:
+    for kind, name in ((Serial, "serial"), (Parallel, "parallel"), (OneOf, "one_of")):
+        if isinstance(node, kind):
+            return name
+    return "action" if isinstance(node, Action) else type(node).__name__.lower()
+
+
+def _text(node: Behaviour) -> str:
+    """The name, without what the kind says already."""
+    kind = _kind(node)
+    name = node.name.removeprefix(kind).lstrip(" ,")
+    return "" if name == kind else name
+
+
+def _words(row: _Row) -> str:
+    return row.text if row.kind == "action" else f"{row.kind} {row.text}".rstrip()
+
+
+def _branches(last: tuple[bool, ...]) -> str:
+    if not last:
+        return ""
+    above = "".join("   " if ended else "│  " for ended in last[:-1])
+    return above + ("└─ " if last[-1] else "├─ ")
+
+
+# --- SVG --------------------------------------------------------------------------------------
+
+
+def _draw_branches(svg: ElementTree.Element, rows: list[_Row]) -> None:
+    """Draw a line from each node to those below it."""
+    parents: dict[int, int] = {}  # depth to the row of the last node there
+    path = []
+    for index, row in enumerate(rows):
+        depth = len(row.last)
+        parents[depth] = index
+        if depth:
+            x = MARGIN + STEP * (depth - 1) + STEP / 3
+            top = MARGIN + ROW * parents[depth - 1] + ROW * 0.85
+            middle = MARGIN + ROW * index + ROW / 2
+            right = MARGIN + STEP * depth
+            path.append(f"M{_number(x)} {_number(top)}V{_number(middle)}H{_number(right)}")
+    ElementTree.SubElement(svg, "path", d="".join(path), fill="none", stroke="#c5ccd6")
+
+
+def _draw_row(svg: ElementTree.Element, row: _Row, top: float, places: float) -> None:
+    left = MARGIN + STEP * len(row.last)
+    baseline = _number(top + ROW / 2 + 4)
+    chip = _chip_width(row)
+    ElementTree.SubElement(
+        svg,
+        "rect",
+        x=_number(left),
+        y=_number(top + 4),
+        width=_number(chip),
+        height=_number(ROW - 8),
+        rx="4",
+        fill=COLORS.get(row.kind, OTHER_COLOR),
+    )
+    kind = {"x": _number(left + chip / 2), "y": baseline, "fill": "#ffffff"}
+    ElementTree.SubElement(svg, "text", {**kind, "text-anchor": "middle"}).text = row.kind
+    words = {"x": _number(left + chip + 8), "y": baseline, "fill": "#1d2430"}
+    ElementTree.SubElement(svg, "text", words).text = row.text
+    place = {"x": _number(places), "y": baseline, "fill": "#8993a2"}
+    ElementTree.SubElement(svg, "text", place).text = row.source
+
+
+def _chip_width(row: _Row) -> float:
+    return len(row.kind) * CHARACTER + 12
+
+
+def _number(value: float) -> str:
+    return f"{value:.1f}".removesuffix(".0")

@@ -1,0 +1,83 @@
+"""What wheels can transmit to the road, by the weather.
+
+The accelerations of a vehicle stay within the friction circle: the sum of the squares of the one
+along its way and of the one across it is at most (mu g)^2.
+
+Coefficients are the peak values of road adhesion in J. Y. Wong, Theory of Ground Vehicles, table
+"average values of coefficient of road adhesion" (after Taborek, Mechanics of Vehicles); the middle
+where it gives a range. On a dry road the limits of the vehicles themselves are stricter, so
+nothing is taken from them there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Literal
+
+from .catalogue import RATE_CAP, Limits
+
+__all__ = [
+    "ADHESION",
+    "GRAVITY",
+    "RoadCondition",
+    "along_limit",
+    "grip",
+    "held_by",
+    "road_condition",
+]
+
+GRAVITY = 9.80665
+"""m/s^2"""
+
+RoadCondition = Literal["dry", "wet", "snow", "ice"]
+
+ADHESION: Mapping[RoadCondition, float] = {"wet": 0.6, "snow": 0.2, "ice": 0.1}
+"""Coefficient of friction of asphalt: wet, under packed snow, under ice."""
+
+_FREEZING = 273.15  # K
+
+_WORDS: Mapping[RoadCondition, str] = {
+    "dry": "",
+    "wet": " on a wet road",
+    "snow": " on snow",
+    "ice": " on ice",
+}
+
+
+def road_condition(environment: Mapping[str, float]) -> RoadCondition:
+    """How the roads are while the weather is so: rain on them freezes below 0 degrees Celsius.
+
+    Roads are wet or white exactly while it rains or snows.
+    """
+    if environment.get("snow_intensity", 0.0) > 0.0:
+        return "snow"
+    if environment.get("rain_intensity", 0.0) > 0.0:
+        return "ice" if environment.get("temperature", _FREEZING) < _FREEZING else "wet"
+    return "dry"
+
+
+def grip(condition: RoadCondition) -> float:
+    """Largest acceleration (m/s^2) in any direction."""
+    adhesion = ADHESION.get(condition)
+    return RATE_CAP if adhesion is None else adhesion * GRAVITY
+
+
+def held_by(limits: Limits, condition: RoadCondition) -> Limits:
+    """What is left of the limits of a vehicle on a road in this condition."""
+    most = grip(condition)
+    if most >= max(limits.acceleration, limits.deceleration, limits.lateral):
+        return limits
+    return Limits(
+        min(limits.acceleration, most),
+        min(limits.deceleration, most),
+        limits.jerk,
+        min(limits.lateral, most),
+        _WORDS[condition],
+    )
+
+
+def along_limit(grip: float, across: float) -> float | None:
+    """Acceleration (m/s^2) that is left along the way beside one across it; None: it slides."""
+    left = grip * grip - across * across
+    return math.sqrt(left) if left >= 0.0 else None

@@ -1,0 +1,47 @@
+"""The acceleration that brings something to a place, and to a speed there, after so many steps.
+
+It is the first of those accelerations, one per step and constant in it, that get there with the
+least sum of squares. Taken anew in each step they fall linearly in time while nothing disturbs
+them; this is the course of least effort, whatever the length of the steps.
+"""
+
+from __future__ import annotations
+
+__all__ = ["mean_rate_to_place", "rate_to_place", "rate_to_place_and_speed"]
+
+
+def rate_to_place(steps: int, dt: float, missing: float) -> float:
+    """Acceleration (m/s^2) of this step, with any speed at the end.
+
+    Args:
+        steps: Steps that are left, at least 1.
+        dt: Their length (s).
+        missing: Metres by which the place would be missed without any acceleration.
+    """
+    _, second = _sums(steps, dt)
+    return missing * (steps - 0.5) / second
+
+
+def mean_rate_to_place(steps: int, dt: float, missing: float) -> float:
+    """Mean of all those accelerations (m/s^2)."""
+    first, second = _sums(steps, dt)
+    return missing * first / (dt * second * steps)
+
+
+def rate_to_place_and_speed(steps: int, dt: float, missing: float, change: float) -> float:
+    """Acceleration (m/s^2) of this step, with a change of speed (m/s) until the end.
+
+    In the last step the speed counts: the place has been settled before.
+    """
+    if steps == 1:
+        return change / dt
+    first, second = _sums(steps, dt)
+    determinant = steps * second - first * first
+    slope = (steps * missing - first * change) / (dt * determinant)
+    base = (second * change - first * missing) / (dt * determinant)
+    return base + slope * (steps - 0.5) * dt
+
+
+def _sums(steps: int, dt: float) -> tuple[float, float]:
+    """Sums over the steps of the time left after the middle of each, and of its square."""
+    return 0.5 * steps * steps * dt, dt * dt * (steps**3 / 3.0 - steps / 12.0)

@@ -1,0 +1,95 @@
+"""Lamps of traffic lights and what they tell drivers, as data (DSL 8.15.2, 8.15.3).
+
+OpenDRIVE names a box by its type only; `BOXES` says which lamps it has. A scenario may list the
+lamps of a box itself (`traffic_light.bulbs`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal, NamedTuple
+
+__all__ = [
+    "BOXES",
+    "MEANINGS",
+    "BulbColor",
+    "BulbState",
+    "Lamp",
+    "Meaning",
+    "lamps_that_mean",
+    "meaning_of",
+]
+
+BulbColor = Literal["unknown", "red", "yellow", "green", "blue", "white"]
+BulbState = Literal["unknown", "is_off", "is_on", "is_flashing"]
+Meaning = Literal[
+    "off", "stop", "attention", "caution", "stop_attention", "go", "go_exclusive", "non_functional"
+]
+
+
+class Lamp(NamedTuple):
+    """A lamp of a box.
+
+    Attributes:
+        color: Its color.
+        icon: Symbol on it, a `bulb_icon` of the DSL.
+    """
+
+    color: BulbColor
+    icon: str
+
+    @property
+    def is_arrow(self) -> bool:
+        """True if it speaks to one direction only."""
+        return self.icon.startswith("arrow")
+
+    @property
+    def for_pedestrians(self) -> bool:
+        """True if vehicles need not look at it."""
+        return self.icon.startswith(("pedestrian", "txt_"))
+
+
+BOXES: Mapping[str, tuple[Lamp, ...]] = {
+    "1000001": (Lamp("red", "circle"), Lamp("yellow", "circle"), Lamp("green", "circle")),
+    "1000002": (Lamp("red", "pedestrian_standing"), Lamp("green", "pedestrian_walking")),
+}
+"""Lamps by type of the signal in the catalogue `OpenDRIVE`, top to bottom."""
+
+# Meaning -> color, whether the lamp must (not) be an arrow, and how it is lit; what is not named
+# is off. The order decides where two meanings light the same lamps.
+MEANINGS: Mapping[Meaning, tuple[tuple[BulbColor, bool | None, BulbState], ...]] = {
+    "off": (),
+    "stop": (("red", None, "is_on"),),
+    "attention": (("red", None, "is_on"), ("yellow", None, "is_on")),
+    "stop_attention": (("yellow", None, "is_on"),),
+    "caution": (("yellow", None, "is_flashing"),),
+    "go": (("green", False, "is_on"),),
+    "go_exclusive": (("green", True, "is_on"),),
+}
+"""How a box says what (the lights of most of Europe)."""
+
+
+def lamps_that_mean(lamps: Sequence[Lamp], meaning: Meaning) -> tuple[BulbState, ...] | None:
+    """States of the lamps for a meaning; None if the box has no lamps for it."""
+    broken = meaning == "non_functional"
+    states: list[BulbState] = ["unknown" if broken else "is_off" for _ in lamps]
+    for color, arrow, state in MEANINGS.get(meaning, ()):
+        found = [
+            i
+            for i, lamp in enumerate(lamps)
+            if lamp.color == color and (arrow is None or lamp.is_arrow == arrow)
+        ]
+        if not found:
+            return None
+        for i in found:
+            states[i] = state
+    return tuple(states)
+
+
+def meaning_of(lamps: Sequence[Lamp], states: Sequence[BulbState]) -> Meaning:
+    """What a box says; `non_functional` where no rule of traffic covers what it shows."""
+    shown = tuple(states)
+    for meaning in MEANINGS:
+        if lamps_that_mean(lamps, meaning) == shown:
+            return meaning
+    return "non_functional"

@@ -1,0 +1,134 @@
+"""Coverage items are sampled at their events, in their units and slices."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx_runtime import Scenario
+from tests.end_to_end.harness import Trace, asam, run
+
+Load = Callable[[GeneratedModule], type[Scenario]]
+
+HEAD = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario sampled:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    event tick is every(500ms, offset: 500ms)
+    event twice(v: speed)
+"""
+BODY = """    do ego.change_speed(target: 36kph, rate_profile: constant, duration: 2s) with:
+        speed(0kph, at: start)
+"""
+
+
+@pytest.fixture
+def sampled(load: Load, tmp_path: Path) -> Callable[..., Trace]:
+    def run_one(items: str, body: str = BODY) -> Trace:
+        lines = "".join(f"    {line}\n" for line in items.strip().splitlines())
+        return run(load(emit(asam(HEAD + lines + body, tmp_path))))
+
+    return run_one
+
+
+def rows(trace: Trace, kind: str = "cover") -> list[tuple[float, object, object]]:
+    return [(line["t"], line["value"], line.get("bucket")) for line in trace.of_kind(kind)]
+
+
+def test_at_an_event_in_slices_of_the_unit(sampled: Callable[..., Trace]) -> None:
+    """The speed grows linearly from 0 to 36 km/h in 2 s."""
+    trace = sampled("cover(v, expression: ego.speed, unit: kph, event: tick, every: 10)")
+    assert rows(trace) == [
+        (0.5, pytest.approx(9.0), [0, 10]),
+        (1.0, pytest.approx(18.0), [10, 20]),
+        (1.5, pytest.approx(27.0), [20, 30]),
+        (2.0, pytest.approx(36.0), [30, 40]),
+    ]
+    assert {line["unit"] for line in trace.of_kind("cover")} == {"kph"}
+
+
+def test_range_and_buckets(sampled: Callable[..., Trace]) -> None:
+    trace = sampled(
+        "cover(a, expression: ego.speed, unit: mps, event: tick, range: [4..10], every: 2.5)\n"
+        "cover(b, expression: ego.speed, unit: kph, event: tick, buckets: [18kph, 27kph, 36kph])"
+    )
+    found = {name: [] for name in "ab"}  # type: dict[str, list[object]]
+    for line in trace.of_kind("cover"):
+        found[line["name"]].append(line["bucket"])
+    assert found["a"] == [None, [4.0, 6.5], [6.5, 9.0], [9.0, 10]]
+    assert found["b"] == [None, [18, 27], [27, 36], [27, 36]]
+
+
+def test_start_and_end(sampled: Callable[..., Trace]) -> None:
+    trace = sampled(
+        "record(first, expression: ego.speed, unit: mps, event: start)\n"
+        "record(last, expression: ego.speed, unit: mps)"
+    )
+    assert rows(trace, "record") == [(0.0, 0.0, None), (2.0, pytest.approx(10.0), None)]
+
+
+def test_a_scenario_that_fails_has_no_end(sampled: Callable[..., Trace]) -> None:
+    body = "    do serial(duration: 1s):\n        wait ego.speed > 100kph\n"
+    trace = sampled("record(last, expression: ego.speed, unit: mps)", body)
+    assert trace.status == "failure"
+    assert trace.of_kind("record") == []
+
+
+def test_filters_and_crosses(sampled: Callable[..., Trace]) -> None:
+    trace = sampled(
+        "cover(v, expression: ego.speed, unit: kph, event: tick, every: 20, ignore: v < 10kph,\n"
+        "    illegal: it > 30kph)\n"
+        "cover(late, expression: ego.speed > 6mps, event: tick)\n"
+        "cover(both, items: [v, late])\n"
+        "cover(off, expression: ego.speed, unit: kph, disable: true)"
+    )
+    lines = [line for line in trace.of_kind("cover") if line["name"] == "v"]
+    assert [(line["t"], line.get("illegal", False)) for line in lines] == [
+        (1.0, False),
+        (1.5, False),
+        (2.0, True),
+    ]
+    crosses = [line for line in trace.of_kind("cover") if line["name"] == "both"]
+    assert [line["value"]["late"] for line in crosses] == [False, True, True]
+    assert {line["name"] for line in trace.of_kind("cover")} == {"v", "late", "both"}
+
+
+def test_an_override_refines_an_item(sampled: Callable[..., Trace]) -> None:
+    trace = sampled(
+        "cover(v, expression: ego.speed, unit: kph, event: tick, every: 10)\n"
+        'cover(override: v, every: 100, target: 3, text: "coarse")'
+    )
+    assert {
+        (tuple(line["bucket"]), line["target"], line["text"]) for line in trace.of_kind("cover")
+    } == {((0.0, 100.0), 3, "coarse")}
+
+
+def test_items_of_an_invoked_scenario_have_its_path(load: Load, tmp_path: Path) -> None:
+    text = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario vehicle.step:
+    v: speed = 20kph
+    cover(v, unit: kph)
+    do drive(duration: 1s)
+
+scenario sampled:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    do serial:
+        one: ego.step(v: 10kph)
+        two: ego.step(v: 30kph)
+"""
+    trace = run(load(emit(asam(text, tmp_path))))
+    assert [(line["t"], line["name"], line["value"]) for line in trace.of_kind("cover")] == [
+        (1.0, "one.v", pytest.approx(10.0)),
+        (2.0, "two.v", pytest.approx(30.0)),
+    ]

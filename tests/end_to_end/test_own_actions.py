@@ -1,0 +1,162 @@
+"""Own actions from declaration to run: the files of docs/extending.md, as a user has them."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from osc2tx.driver import Compilation
+from osc2tx.options import CompileOptions
+
+ROOT = Path(__file__).parents[2]
+ENTRY_POINTS = "[osc2tx.methods]\nmy_actions = my_actions\n"
+Golden = Callable[[str, Path], None]
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A folder with the scenario files of the document."""
+    text = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+    for name, content in re.findall(r"^```\n# (\w+\.osc)\n(.*?)^```$", text, re.M | re.S):
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    return tmp_path
+
+
+def install(folder: Path) -> None:
+    """Put the package of the document into a folder, with the metadata that an installer writes."""
+    text = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+    (folder / "my_actions.py").write_text("\n".join(blocks), encoding="utf-8")
+    info = folder / "my_actions-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: my-actions\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(ENTRY_POINTS)
+
+
+def run(project: Path, *packages: Path) -> subprocess.CompletedProcess[str]:
+    """Build slow.osc and run its module, with folders of packages on the path."""
+    compilation = Compilation(project / "slow.osc", "slow.osc", CompileOptions())
+    generated = compilation.module
+    assert generated is not None, compilation.diagnostics
+    module = project / "slow.py"
+    module.write_text(generated.python, encoding="utf-8")
+    module.with_suffix(".map.json").write_text(generated.source_map, encoding="utf-8")
+    path = os.pathsep.join(map(str, [ROOT / "runtime_lib", *packages]))
+    return subprocess.run(
+        [sys.executable, str(module), "--trace", str(project / "t.jsonl")],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**os.environ, "PYTHONPATH": path},
+        check=False,
+    )
+
+
+def change(project: Path, old: str, new: str, file: str = "slow.osc") -> None:
+    """Edit a scenario file."""
+    scenario = project / file
+    text = scenario.read_text(encoding="utf-8")
+    assert old in text
+    scenario.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def test_the_example_of_the_document_runs(
+    project: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    packages = tmp_path_factory.mktemp("site")
+    install(packages)
+    done = run(project, packages)
+    assert done.returncode == 0, done.stderr
+    module = (project / "slow.py").read_text(encoding="utf-8")
+    assert "self.ego.creep(v=1.5 * mps, duration=2 * s)," in module
+    assert "my_actions" not in module
+    lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
+    ends = [(e["t"], e["source"]) for e in lines if e["kind"] == "action" and e["status"] == "end"]
+    # From 2 m/s the car is at 1.5 m/s within 2 s, then rolls out at 0.5 m/s2: 1.5 / 0.5 = 3 s.
+    assert ends == [(2.0, "slow.osc:16"), (5.0, "slow.osc:17")]
+    speeds = {line["t"]: line["v"] for line in lines if line["kind"] == "state"}
+    assert (speeds[2.0], speeds[4.0], speeds[5.0]) == pytest.approx((1.5, 0.5, 0.0), abs=1e-6)
+
+
+def test_without_the_package_the_run_is_refused_at_its_line(project: Path) -> None:
+    done = run(project)
+    assert done.returncode == 5
+    assert done.stderr == (
+        "slow.osc:16: error: vehicle has no action `creep`, and no installed package brings one by"
+        " the entry point group osc2tx.methods\n"
+    )
+    assert not (project / "t.jsonl").exists()
+
+
+def test_a_class_that_does_not_fit_its_declaration_is_named(
+    project: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    packages = tmp_path_factory.mktemp("site")
+    install(packages)
+    change(project, "    v: speed = 1.5mps", "    w: speed = 1.5mps", "my_actions.osc")
+    done = run(project, packages)
+    assert done.returncode == 5
+    assert done.stderr == (
+        "slow.osc:16: error: ego creep: unknown argument 'w'; it is creep(v: float = 1.5,"
+        " **options: Any)\n"
+    )
+
+
+def test_wrong_arguments_are_found_without_the_package(project: Path) -> None:
+    change(project, "ego.creep(duration: 2s)", "ego.creep(w: 2mps, v: 3m)")
+    compilation = Compilation(project / "slow.osc", "slow.osc", CompileOptions())
+    assert not compilation.check()
+    found = [(d.code, d.primary.text) for d in compilation.diagnostics if d.primary is not None]
+    assert found == [("OSC402", "w"), ("OSC302", "3m")]
+
+
+def test_two_actions_on_one_slot_are_reported(
+    project: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    packages = tmp_path_factory.mktemp("site")
+    install(packages)
+    change(
+        project,
+        "        ego.creep(duration: 2s)\n        ego.roll_out()\n",
+        "        parallel:\n            ego.creep()\n            ego.change_speed(5mps)\n",
+    )
+    done = run(project, packages)
+    assert done.returncode == 5
+    assert done.stderr == (
+        "slow.osc:18: error: ego.creep (slow.osc:17) and ego.change_speed: 5mps (slow.osc:18)"
+        " control the longitudinal slot of ego at the same time; let them run one after the"
+        " other\n"
+    )
+
+
+def test_an_action_of_an_own_actor(project: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    packages = tmp_path_factory.mktemp("site")
+    install(packages)
+    package = packages / "my_actions.py"
+    text = package.read_text(encoding="utf-8")
+    package.write_text(text.replace('@action("vehicle", "creep"', '@action("slow_car", "creep"'))
+    change(
+        project,
+        "action vehicle.creep:",
+        "actor slow_car inherits vehicle:\n    pace: speed = 1mps\n\naction slow_car.creep:",
+        "my_actions.osc",
+    )
+    change(project, "ego: vehicle", "ego: slow_car with:\n        keep(it.pace == 1.25mps)")
+    change(project, "ego.creep(duration", "ego.creep(v: ego.pace, duration")
+    done = run(project, packages)
+    assert done.returncode == 0, done.stderr
+    module = (project / "slow.py").read_text(encoding="utf-8")
+    assert "self.ego = SlowCar(pace=1.25 * mps)" in module
+    assert "self.ego.creep(v=self.ego.pace, duration=2 * s)," in module
+    lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
+    assert lines[0]["actors"]["ego"]["length"] == 4.6  # a car, as any vehicle without a category
+    speeds = {line["t"]: line["v"] for line in lines if line["kind"] == "state"}
+    assert speeds[2.0] == pytest.approx(1.25)
+    assert max(speeds) == pytest.approx(2.0 + 1.25 / 0.5)  # rolls out at 0.5 m/s2

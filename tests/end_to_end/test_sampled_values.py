@@ -1,0 +1,45 @@
+"""A trace has the first value of a sampled variable, and each one that is not as before."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx_runtime import Scenario
+from tests.end_to_end.harness import asam, run
+
+TEXT = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario sampled:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    event tick
+    var seen: speed = sample(ego.speed, @tick, 5mps)
+    do serial:
+        ego.drive(duration: 1s) with:
+            lane(2, at: start)
+            position(50m, at: start)
+            speed(5mps)
+        emit tick
+        ego.keep_speed(duration: 1s)
+        emit tick
+        ego.assign_speed(8mps)
+        emit tick
+        ego.keep_speed(duration: 1s)
+        emit tick
+        wait elapsed(1s)
+"""
+
+
+def test_only_new_values_are_traced(
+    load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
+) -> None:
+    trace = run(load(emit(asam(TEXT, tmp_path))))
+    lines = trace.of_kind("variable")
+    assert len([line for line in trace.of_kind("event") if line["name"] == "tick"]) == 4
+    assert [line["value"] for line in lines] == pytest.approx([5.0, 8.0])

@@ -1,0 +1,92 @@
+"""Scenario `calls`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Call,
+    Emit,
+    Event,
+    Map,
+    On,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import kph, s
+
+require_api(1)
+
+
+class Calls(Scenario):
+    """Scenario `calls` (input.osc:14)."""
+
+    name = "calls"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        # Code of the user: runs only with --allow-external
+        self.note = self.external("own_code.note")
+        self.doubled = self.external("own_code.twice", float)
+        self.ego = Vehicle()
+        self.road = Map(map_file="highway.xodr")
+        self.reached = self.parameter("reached", False)
+        self.passed = Event()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, speed(self.half(self.limit())))
+
+    # What the base leaves open
+    def limit(self) -> float:  # input.osc:21
+        return 30 * kph
+
+    def half(self, v: float) -> float:  # input.osc:12
+        return v / 2.0
+
+    # A method of a type: its object comes first.
+    def vehicle_is_faster_than(self, vehicle: Vehicle, limit: float) -> bool:  # input.osc:7
+        return vehicle.speed > limit
+
+    def behavior(self) -> Behaviour:  # input.osc:29
+        return Parallel(
+            "calls",
+            self.do_serial(),
+            On(
+                self.passed,
+                Call(lambda: self.note(self.ego.speed, "passed")),
+            ),
+        )
+
+    def do_serial(self) -> Behaviour:  # input.osc:29
+        return Serial(
+            "do serial",
+            Until(
+                self.ego.drive(speed(self.half(self.limit()))),
+                elapsed(1 * s),
+            ),
+            Emit(self.passed),
+            Call(lambda: self.note(self.limit(), "there"), label="now"),
+            Wait(
+                lambda: self.vehicle_is_faster_than(self.ego, 1 * kph) and self.doubled(2.0) == 4.0
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Calls().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Calls))

@@ -1,0 +1,84 @@
+"""Scenario `top`.
+
+A road asked for by a `Path`, as ScenarioRunner has it.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect carla; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Person,
+    RoadPath,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, on_path, position, speed
+from osc2tx_runtime.units import kph, m, rad, s
+
+require_api(1)
+
+
+class Top(Scenario):
+    """Scenario `top` (input.osc:4)."""
+
+    name = "top"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.town = self.parameter("town", "highway")
+
+        # the map
+        self.path_map = Map(map_file=self.town)
+
+        # where to drive
+        self.path = RoadPath(
+            # at least three lanes
+            min_lanes=3,
+            min_length=200 * m,
+        )
+        self.ego_vehicle = Vehicle(model="vehicle.tesla.model3")
+        self.npc = Vehicle(model="vehicle.jeep.wrangler_rubicon")
+        self.guest = Person(model="walker.pedestrian.0002")
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.guest, position(x=205 * m, y=-3 * m, z=0 * m, h=1.5 * rad, frame="carla"))
+        self.place(self.npc, on_path(self.path), speed(30 * kph), lane(2, from_="left"))
+        self.place(
+            self.ego_vehicle,
+            on_path(self.path),
+            speed(30 * kph),
+            lane(same_as=self.npc),
+            position(15 * m, behind=self.npc),
+        )
+
+    def behavior(self) -> Behaviour:  # input.osc:15
+        return Parallel(
+            "top",
+            self.npc.drive(speed(30 * kph)),
+            self.ego_vehicle_serial(),
+            duration=20 * s,
+        )
+
+    def ego_vehicle_serial(self) -> Behaviour:  # input.osc:19
+        return Serial(
+            "ego_vehicle: serial",
+            self.ego_vehicle.drive(speed(30 * kph), duration=5 * s, label="behind"),
+            self.ego_vehicle.drive(lane(side_of=self.npc, side="left", at="end")),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Top().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Top))

@@ -1,0 +1,83 @@
+"""Scenario `demo`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+    within,
+)
+from osc2tx_runtime.modifiers import keep_lane, lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+class Demo(Scenario):
+    """Scenario `demo` (input.osc:29)."""
+
+    name = "demo"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.slow_easy_side = self.parameter("slow.easy.side", within(1, 2))
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, speed(10 * mps), lane(2), position(50 * m))
+
+    def behavior(self) -> Behaviour:  # input.osc:33
+        self.override("slow", "quick")
+        return Serial(
+            "demo",
+            self.ego.drive(speed(10 * mps), duration=2 * s, label="a"),
+            self.ego.drive(speed(8 * mps), duration=2 * s, label="b"),
+            self.ego.drive(speed(7 * mps), duration=2 * s, label="c"),
+            self.ego.drive(speed(6 * mps), duration=2 * s, label="d"),
+            self.ego_parallel(),
+        )
+
+    # all at once
+    def ego_parallel(self) -> Behaviour:  # input.osc:45
+        return Parallel(
+            "ego: parallel",
+            self.ego.drive(
+                # easily
+                # as it was
+                keep_lane(),
+                speed(8 * mps + 1 * mps),
+                lane(self.slow_easy_side, at="start"),
+                duration=3 * s,
+                label="slow",
+            ),
+            self.w(),
+        )
+
+    def w(self) -> Behaviour:  # input.osc:49
+        return Serial(
+            "w",
+            Wait(elapsed(1 * s)),
+            self.ego.change_speed(target=10 * mps, label="quick"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Demo().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Demo))

@@ -1,0 +1,116 @@
+"""Scenario `own_types`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Person,
+    Point,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrivingStyle:
+    """Struct `driving_style` (input.osc:6).
+
+    How a test car is driven.
+    """
+
+    v: float = 10 * mps
+    # To whoever is in front
+    gap: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalmStyle(DrivingStyle):
+    """Struct `calm_style` (input.osc:12)."""
+
+    patience: float = 5 * s
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waypoint(Point):
+    """Struct `waypoint` (input.osc:15)."""
+
+    title: str = "nowhere"
+
+
+class TestCar(Vehicle):
+    """Actor `test_car` (input.osc:18)."""
+
+    kinds = ("test_car", *Vehicle.kinds)
+
+    def __init__(self, *, seats: int = 5, number: int, **fields: Any) -> None:
+        super().__init__(**fields)
+        self.seats = seats
+        # Painted on the door
+        self.number = number
+
+
+class LongCar(TestCar):
+    """Actor `long_car` (input.osc:23)."""
+
+    kinds = ("long_car", *TestCar.kinds)
+
+    def __init__(self, *, doors: int, **fields: Any) -> None:
+        super().__init__(**fields)
+        self.doors = doors
+
+
+class Child(Person):
+    """Actor `child` (input.osc:27)."""
+
+    kinds = ("child", *Person.kinds)
+
+
+class OwnTypes(Scenario):
+    """Scenario `own_types` (input.osc:29)."""
+
+    name = "own_types"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.style = CalmStyle(gap=12 * m)
+        self.start = Waypoint(x=100 * m, y=-8.75 * m, title="lane 2")
+        self.ego = TestCar(number=7, vehicle_category="truck")
+        self.coach = LongCar(vehicle_category="bus", doors=3, number=self.ego.number + 1)
+        self.kid = Child()
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, position(at_point=self.start), speed(self.style.v))
+
+    def behavior(self) -> Behaviour:  # input.osc:45
+        return Serial(
+            "own_types",
+            self.ego.assign_position(position(at_point=self.start), speed(self.style.v)),
+            self.ego.drive(speed(self.coach.number * (1 * mps)), duration=self.style.patience),
+            Wait(lambda: self.ego.number > self.ego.seats or self.start.title == "nowhere"),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return OwnTypes().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(OwnTypes))

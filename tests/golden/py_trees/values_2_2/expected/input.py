@@ -1,0 +1,74 @@
+"""Scenario `values`.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.2, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+    within,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import kph, s
+
+require_api(1)
+
+
+class Values(Scenario):
+    """Scenario `values` (input.osc:8)."""
+
+    name = "values"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.cruise = within(20 * kph, 40 * kph)
+        self.exact = within(30 * kph, 30 * kph)
+        self.steps = [within(1.0, 2.0), within(2.0, 3.0)]
+        self.text = self.parameter("text", "fast,faster")
+        self.words = self.text.split(",")
+        self.joined = self.parameter("joined", "-".join(self.words))
+        self.factor = self.parameter("factor", 1.5)
+
+        self.keep(self.exact in self.cruise and self.steps[1].low == 2.0)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, speed(self.cruise.low))
+
+    def float_doubled(self, value: float) -> float:  # input.osc:6
+        return value * 2.0
+
+    def behavior(self) -> Behaviour:  # input.osc:21
+        return Serial(
+            "values",
+            self.ego.drive(speed(self.cruise.low), duration=1 * s),
+            Wait(lambda: self.ego.speed in self.cruise and self.float_doubled(self.factor) == 3.0),
+            Wait(
+                lambda: self.joined == "fast-faster"
+                and "fast" in self.text
+                and len(self.text) == 11
+            ),
+            Wait(
+                lambda: self.text[0:4] == "fast"
+                and self.text.replace("a", "e").strip() == "fest,fester"
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Values().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Values))

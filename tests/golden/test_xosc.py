@@ -1,0 +1,163 @@
+"""Golden documents: each `xosc/NAME.osc` is one construct, `NAME.xosc` what becomes of it in 1.3.
+
+Beside it stand the loss report and, for open ranges, the document with their values. `versions.txt`
+says for all cases which versions can say them, and what the others lack. A first line
+`# osc2tx: …` of a case names options: `one_of=first`, `profile=esmini`, `signal=go@1s`,
+`allow_approx`.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.config import GivenOptions
+from osc2tx.driver import Compilation
+from osc2tx.options import XML_VERSIONS, XmlVersion
+from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems
+
+HERE = Path(__file__).parent / "xosc"
+CASES = sorted(HERE.glob("*.osc"))
+SUFFIXES = (".osc", ".xosc", ".params.xosc", ".report.json")
+OVERVIEW = HERE / "versions.txt"
+MARK = "# osc2tx: "
+Golden = Callable[[str, Path], None]
+
+
+def given(text: str) -> GivenOptions:
+    """Return the options that the first line of a case names."""
+    first = text.partition("\n")[0]
+    words = first.removeprefix(MARK).split() if first.startswith(MARK) else []
+    pairs = dict(word.partition("=")[::2] for word in words)
+    return GivenOptions(
+        one_of=pairs.get("one_of"),
+        xml_profile=pairs.get("profile"),
+        allow_approx=True if "allow_approx" in pairs else None,
+        signal=(pairs["signal"],) if "signal" in pairs else None,
+    )
+
+
+@cache
+def written(path: Path, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
+    """Return the document of the last scenario of a case."""
+    options = given(path.read_text(encoding="utf-8"))
+    asked = GivenOptions(
+        target="xosc", xml_version=version, allow_approx=allow_approx or None
+    ).over(options)
+    compilation = Compilation(path, path.name, asked.complete())
+    assert compilation.ir is not None, compilation.diagnostics
+    return compilation.xml[-1]
+
+
+def overview() -> Iterator[str]:
+    """Yield for each case which versions can say it, and the first reason of each other one."""
+    for case in CASES:
+        yield case.stem
+        for version in XML_VERSIONS:
+            found = written(case, version)
+            if found.xml is not None:
+                yield f"  {version}  exact"
+                continue
+            obstacle = found.report.obstacles[0]
+            yield f"  {version}  {obstacle.grade.value}: {obstacle.message}"
+
+
+def name(path: Path) -> str:
+    return path.stem
+
+
+def test_there_are_cases() -> None:
+    assert len(CASES) >= 40
+
+
+def test_no_golden_is_left_over() -> None:
+    stems = {case.stem for case in CASES}
+    files = [path for path in HERE.iterdir() if path != OVERVIEW]
+    assert all(path.name.endswith(SUFFIXES) for path in files)
+    assert {path.name.partition(".")[0] for path in files} == stems
+
+
+@pytest.mark.parametrize("case", CASES, ids=name)
+def test_the_document(case: Path, golden: Golden) -> None:
+    found = written(case, "1.3")
+    texts = {
+        ".xosc": found.xml,
+        ".params.xosc": found.parameters,
+        ".report.json": found.report_json,
+    }
+    for suffix, text in texts.items():
+        expected = case.with_suffix(suffix)
+        if text is None:
+            assert not expected.exists(), f"{expected} is left over"
+        else:
+            golden(text, expected)
+
+
+def test_which_version_can_say_what(golden: Golden) -> None:
+    golden("\n".join(overview()) + "\n", OVERVIEW)
+
+
+@pytest.mark.parametrize("version", XML_VERSIONS)
+@pytest.mark.parametrize("case", CASES, ids=name)
+def test_documents_are_valid_and_can_end(case: Path, version: XmlVersion) -> None:
+    found = written(case, version, allow_approx=True)
+    assert (found.xml is None) == bool(found.report.obstacles)
+    if found.xml is not None:
+        assert schema_errors(found.xml, version) == []
+        assert story_problems(found.xml) == []
+    if found.parameters is not None:
+        assert schema_errors(found.parameters, version) == []
+
+
+@pytest.mark.parametrize("version", XML_VERSIONS)
+@pytest.mark.parametrize("case", CASES, ids=name)
+def test_the_quality_checker_has_no_objection(
+    case: Path, version: XmlVersion, tmp_path: Path
+) -> None:
+    found = written(case, version, allow_approx=True)
+    for text in (found.xml, found.parameters):
+        if text is not None:
+            assert checker_issues(text, tmp_path) == []
+
+
+@pytest.mark.slow
+def test_the_same_bytes_in_every_process() -> None:
+    """Neither the seed of hashes nor the folder count."""
+    program = (
+        "import sys, hashlib; from tests.golden.test_xosc import CASES, written\n"
+        "for case in CASES:\n"
+        "    made = written(case, '1.3', allow_approx=True)\n"
+        "    print(case.stem, hashlib.sha256(repr((made.xml, made.parameters, made.report_json))"
+        ".encode()).hexdigest())\n"
+    )
+    root = Path(__file__).parents[2]
+    outputs = [
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(root)},
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed, folder in (("0", root), ("1", HERE))
+    ]
+    assert outputs[0] == outputs[1]
+    assert outputs[0].count("\n") == len(CASES)
+
+
+@pytest.mark.parametrize("case", CASES, ids=name)
+def test_reports_say_where(case: Path) -> None:
+    """Every entry stands in the source, and only exact ones need no reason."""
+    lines = case.read_text(encoding="utf-8").splitlines()
+    report = json.loads(written(case, "1.3").report_json)
+    for entry in report["constructs"]:
+        assert 1 <= entry["line"] <= entry["end_line"] <= len(lines)
+        assert entry["grade"] == "exact" or entry["reason"]
+        assert entry["grade"] != "approximated" or entry["bound"]

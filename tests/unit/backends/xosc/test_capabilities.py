@@ -1,0 +1,70 @@
+"""The scenarios of the capabilities: which version can say them, each document sound."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.xosc import XmlScenario, emit
+from osc2tx.driver import Compilation
+from osc2tx.options import XML_VERSIONS, CompileOptions, XmlOptions, XmlVersion
+from tests.unit.backends.xosc.checks import schema_errors, story_problems
+
+SCENARIOS = sorted((Path(__file__).parents[4] / "scenarios" / "capabilities").glob("*.osc"))
+
+NOTHING: tuple[XmlVersion, ...] = ()
+LIMITS: dict[str, tuple[XmlVersion, ...]] = {
+    "C01_action_lifecycle": NOTHING,  # it asks for a lane that the map does not have
+    "C04_duration": NOTHING,  # a content that takes longer than its composition may
+    "C05_towing": ("1.3",),
+    "C05_trailer": ("1.3",),
+    "C07_acceleration_control": ("1.2", "1.3"),  # a course of the speed
+    "C14_space_gap": ("1.1", "1.2", "1.3"),  # the side of a gap
+    "C16_weather": NOTHING,  # humidity
+    "C17_traffic_signals": NOTHING,  # care for others
+    "C18_road_conditions": ("1.1", "1.2", "1.3"),  # units of rain
+    "C20_acceleration_shape": ("1.2", "1.3"),
+    "C21_position_modifier": ("1.2", "1.3"),
+    "C27_world_coordinates": NOTHING,  # where a walker comes to a stand
+    "C28_relative_coordinates": NOTHING,  # the sign of a distance across
+    "C29_abstract_route": NOTHING,  # a route that is searched for
+    "C29_route_coordinates": NOTHING,  # a condition on s
+    "C29_route_points": ("1.1", "1.2", "1.3"),  # `<=`
+    "C32_conditional_triggers": ("1.2", "1.3"),  # the sign of a distance along
+    "C32_measures": ("1.2", "1.3"),
+    "C33_custom_action": NOTHING,  # an action of its own without a known end
+    "C34_override": NOTHING,
+    "C35_semantic_validation": ("1.2", "1.3"),  # a parameter in a variable
+    "C38_fall": ("1.2", "1.3"),
+}
+"""Versions that say a scenario exactly; all of them where it is not named."""
+
+
+@cache
+def written(path: Path, version: XmlVersion, *, allow_approx: bool) -> tuple[XmlScenario, ...]:
+    module = Compilation(path, path.name, CompileOptions()).ir
+    assert module is not None
+    return emit(module, XmlOptions(version=version, allow_approx=allow_approx), path.parent)
+
+
+def stem(path: Path) -> str:
+    return path.stem
+
+
+@pytest.mark.parametrize("path", SCENARIOS, ids=stem)
+def test_which_versions_are_exact(path: Path) -> None:
+    exact = tuple(
+        version
+        for version in XML_VERSIONS
+        if all(each.xml is not None for each in written(path, version, allow_approx=False))
+    )
+    assert exact == LIMITS.get(path.stem, XML_VERSIONS)
+
+
+@pytest.mark.parametrize("version", XML_VERSIONS)
+@pytest.mark.parametrize("path", SCENARIOS, ids=stem)
+def test_documents_are_sound(path: Path, version: XmlVersion) -> None:
+    for each in written(path, version, allow_approx=True):
+        if each.xml is not None:
+            assert schema_errors(each.xml, version) == []
+            assert story_problems(each.xml) == []

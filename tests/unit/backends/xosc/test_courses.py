@@ -1,0 +1,67 @@
+"""Courses of the speed that the XML draws, against their closed forms."""
+
+import pytest
+
+from osc2tx.backends.xosc.facts import Linear, Quintic, Waypoint, drawn
+from osc2tx.backends.xosc.places import Arrival
+from osc2tx.backends.xosc.rates import Ramp
+from osc2tx.backends.xosc.report import Inexpressible
+
+
+def way(course: Arrival | Ramp, pieces: int = 1000) -> float:
+    """Return the way (m) by the midpoint rule."""
+    step = course.duration / pieces
+    return sum(course.value((index + 0.5) * step) * step for index in range(pieces))
+
+
+@pytest.mark.parametrize("time", [0.5, 1.0, 2.0, 3.5])
+def test_an_acceleration_that_builds_up(time: float) -> None:
+    ramp = Ramp(10.0, Linear(0.0, 1.5, 2.0), 3.5)  # jerk 0.75 m/s^3 for 2 s, then 1.5 m/s^2
+    expected = 10.0 + 0.375 * time**2 if time <= 2.0 else 11.5 + 1.5 * (time - 2.0)
+    assert ramp.value(time) == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_smooth_change_of_the_acceleration_has_the_mean_of_both() -> None:
+    ramp = Ramp(10.0, Quintic(-1.0, 2.0, 4.0), 4.0)
+    assert ramp.value(4.0) == pytest.approx(12.0, abs=1e-6)
+
+
+def test_who_brakes_comes_to_a_stand() -> None:
+    assert Ramp(1.0, Linear(-2.0, -2.0, 1.0), 1.0).value(1.0) == 0.0
+
+
+@pytest.mark.parametrize("missing", [-20.0, 30.0])
+def test_who_has_to_arrive_covers_the_way(missing: float) -> None:
+    arrival = Arrival(15.0, missing, 6.0)
+    assert way(arrival) == pytest.approx(90.0 + missing, abs=1e-4)
+    assert arrival.value(6.0) == pytest.approx(15.0 + 1.5 * missing / 6.0)
+
+
+POINTS = (
+    Waypoint(0.0, 0.0, 0.0, 0.0),
+    Waypoint(2.0, 30.0, 0.0, 0.0),
+    Waypoint(5.0, 30.0, 40.0, 0.0),
+)
+
+
+def test_offsets_cut_a_path() -> None:
+    line = drawn(POINTS, is_timed=False, is_smooth=False, offsets=(10.0, 15.0))
+    assert [(p.x, p.y) for p in line] == [(10.0, 0.0), (30.0, 0.0), (30.0, 25.0)]
+    assert {p.h for p in line} == {None}  # at a corner the way has two headings
+
+
+def test_times_of_a_trajectory_stay() -> None:
+    line = drawn(POINTS, is_timed=True, is_smooth=False, offsets=(0.0, 0.0))
+    assert [p.time for p in line] == [0.0, 2.0, 5.0]
+
+
+def test_a_smooth_path_goes_through_its_points() -> None:
+    line = drawn(POINTS, is_timed=False, is_smooth=True, offsets=(0.0, 0.0))
+    assert len(line) > 20
+    assert min((p.x - 30.0) ** 2 + p.y**2 for p in line) < 1e-12
+    assert all(p.h is not None for p in line)
+
+
+def test_offsets_that_leave_nothing_are_refused() -> None:
+    with pytest.raises(Inexpressible, match="leave nothing"):
+        drawn(POINTS, is_timed=False, is_smooth=False, offsets=(40.0, 40.0))

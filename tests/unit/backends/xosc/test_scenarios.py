@@ -1,0 +1,56 @@
+"""The repository's own scenarios: valid in every version that can say them, and able to end."""
+
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.xosc import XmlScenario, emit
+from osc2tx.driver import Compilation
+from osc2tx.options import XML_VERSIONS, CompileOptions, XmlOptions, XmlVersion
+from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems
+
+SCENARIOS = Path(__file__).parents[4] / "scenarios"
+EXACT = {
+    "cut_in": ("1.2", "1.3"),
+    "cut_in_and_evade": ("1.2", "1.3"),
+    "follow_leader": XML_VERSIONS,
+    "pedestrian_crossing": XML_VERSIONS,
+    "hello_world": ("1.3",),
+}
+APPROXIMATED = {
+    "cut_in": XML_VERSIONS,
+    "cut_in_and_evade": XML_VERSIONS,
+    "follow_leader": XML_VERSIONS,
+    "pedestrian_crossing": XML_VERSIONS,
+    "hello_world": ("1.3",),
+}
+OUTSIDE = {"hello_world": {"signals": ("go_signal@1s",), "spawns": ("hero=16,-3,5",)}}
+
+
+def written(name: str, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
+    dialect = "carla" if name == "hello_world" else "asam"
+    path = SCENARIOS / f"{name}.osc"
+    module = Compilation(path, path.name, CompileOptions(dialect=dialect)).ir
+    assert module is not None
+    options = XmlOptions(version=version, allow_approx=allow_approx, **OUTSIDE.get(name, {}))
+    (scenario,) = emit(module, options, path.parent)
+    return scenario
+
+
+@pytest.mark.parametrize("name", EXACT)
+@pytest.mark.parametrize("version", XML_VERSIONS)
+def test_versions_that_can_say_it(name: str, version: XmlVersion) -> None:
+    assert (written(name, version).xml is not None) is (version in EXACT[name])
+    loose = written(name, version, allow_approx=True)
+    assert (loose.xml is not None) is (version in APPROXIMATED[name]), loose.report.obstacles
+
+
+@pytest.mark.parametrize("name", EXACT)
+@pytest.mark.parametrize("version", XML_VERSIONS)
+def test_documents_are_sound(name: str, version: XmlVersion, tmp_path: Path) -> None:
+    xml = written(name, version, allow_approx=True).xml
+    if xml is None:
+        return
+    assert schema_errors(xml, version) == []
+    assert story_problems(xml) == []
+    assert checker_issues(xml, tmp_path) == []

@@ -1,0 +1,116 @@
+"""The table of the schemas is what the schemas say, and documents are held against it."""
+
+import json
+import runpy
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from osc2tx.backends.xosc.schema import element_type, has_attribute, has_child, literals
+from osc2tx.backends.xosc.tree import element, number_text, serialize
+from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.options import XML_VERSIONS, XmlVersion
+
+TOOL = Path(__file__).parents[4] / "tools" / "make_xosc_schema.py"
+XSD = "{http://www.w3.org/2001/XMLSchema}"
+SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
+
+
+def test_the_table_is_up_to_date() -> None:
+    made = runpy.run_path(str(TOOL))["make"]()
+    shipped = (files("osc2tx.backends.xosc") / "schema.json").read_text(encoding="utf-8")
+    assert json.loads(shipped) == json.loads(made)
+    assert shipped == made
+
+
+@pytest.mark.parametrize("version", XML_VERSIONS)
+def test_every_part_of_a_schema_is_in_the_table(version: XmlVersion) -> None:
+    """Counted with plain XPath, not with the code that makes the table."""
+    folder = files("qc_openscenario") / "schema" / SCHEMAS[version]
+    root = etree.fromstring((folder / "OpenSCENARIO.xsd").read_bytes())
+    checked = 0
+    for type_ in root.iter(f"{XSD}complexType"):
+        name = type_.get("name")
+        for attribute in type_.iter(f"{XSD}attribute"):
+            assert has_attribute(name, attribute.get("name"), version)
+            checked += 1
+        for child in type_.iter(f"{XSD}element"):
+            assert has_child(name, child.get("name"), version)
+        named = {a.get("name") for a in type_.iter(f"{XSD}attribute")}
+        table = element_type(name).attributes
+        assert named == {each for each in table if has_attribute(name, each, version)}
+    assert checked > 200
+
+
+@pytest.mark.parametrize(
+    ("version", "priority"), [("1.0", "overwrite"), ("1.1", "overwrite"), ("1.2", "override")]
+)
+def test_literals_know_their_versions(version: XmlVersion, priority: str) -> None:
+    known = literals("Priority", version)
+    assert known is not None and priority in known
+    assert ("override" in known) is (version >= "1.2")
+    assert literals("Double", version) is None
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (70 / 3.6, "19.4444444444"),
+        (0.0, "0"),
+        (-0.0, "0"),
+        (5.0, "5"),
+        (0.1 + 0.2, "0.3"),
+        (5.56e-7, "0.000000556"),
+        (-1e-5, "-0.00001"),
+        (3600.0, "3600"),
+        (1e15, "1000000000000000"),
+    ],
+)
+def test_numbers_are_short_and_plain(value: float, text: str) -> None:
+    assert number_text(value) == text
+    assert float(text) == pytest.approx(value, rel=1e-11)
+
+
+HEADER = element(
+    "FileHeader", revMajor=1, revMinor=0, date="2000-01-01T00:00:00", description="x", author="y"
+)
+
+
+def test_parts_come_in_the_order_of_the_schema() -> None:
+    tree = element(
+        "OpenSCENARIO",
+        element("Storyboard", element("Init", element("Actions"))),
+        element("Entities"),
+        element("RoadNetwork"),
+        HEADER,
+        element("CatalogLocations"),
+    )
+    text = serialize(tree, "1.3")
+    order = ["FileHeader", "CatalogLocations", "RoadNetwork", "Entities", "Storyboard"]
+    assert [child.tag for child in etree.fromstring(text.encode())] == order
+
+
+@pytest.mark.parametrize(
+    ("child", "version"),
+    [
+        (element("VariableDeclarations"), "1.1"),  # not yet
+        (element("Nonsense"), "1.3"),  # never
+        (element("CatalogLocations", colour="red"), "1.3"),  # an attribute nobody knows
+        (element("Storyboard", element("Init", element("Actions"))), "1.0"),  # no StopTrigger
+    ],
+)
+def test_what_a_version_has_not_is_a_bug(child: object, version: XmlVersion) -> None:
+    with pytest.raises(InternalCompilerError, match=f"OpenSCENARIO XML {version}"):
+        serialize(element("OpenSCENARIO", HEADER, child), version)  # type: ignore[arg-type]
+
+
+def test_comments_cannot_end_themselves() -> None:
+    tree = element("OpenSCENARIO", element("FileHeader", comment="a -- b --> c\x07-"))
+    with pytest.raises(InternalCompilerError):
+        serialize(tree, "1.3")
+    whole = element("OpenSCENARIO", *(HEADER,), element("Entities", comment="a --> \x07 b -"))
+    text = serialize(whole, "1.3")
+    assert "<!-- a - -> " in text
+    assert etree.fromstring(text.encode()).tag == "OpenSCENARIO"

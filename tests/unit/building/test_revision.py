@@ -1,0 +1,126 @@
+"""Diffs against a revision: what the change of the sources did, and nothing else."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from osc2tx.building.compare import Comparison, compare_with
+from osc2tx.config import GivenOptions
+from osc2tx.inputs import InputError
+from tests.unit.building.projects import Project, contents, write
+
+
+def git(folder: Path, *arguments: str) -> str:
+    identity = ["-c", "user.name=x", "-c", "user.email=x@y", "-c", "commit.gpgsign=false"]
+    ended = subprocess.run(
+        ["git", *identity, *arguments], cwd=folder, check=True, capture_output=True, text=True
+    )
+    return ended.stdout
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    project = Project(tmp_path / "re po")
+    project.drive("a.osc")
+    project.drive("sub/b c.osc", head='import "../lib.osc"\n')
+    project.drive("old.osc")
+    write(project.sources / "lib.osc", "enum color: [red]\n")
+    write(project.folder / "osc2tx.toml", '[scenarios.a]\none_of = "first"\n')
+    git(project.folder, "init", "-q")
+    git(project.folder, "add", ".")
+    git(project.folder, "commit", "-qm", "one")
+    return project
+
+
+def compared(project: Project, *paths: Path, revision: str = "HEAD") -> Comparison:
+    return compare_with(revision, paths or [project.sources], GivenOptions(), workers=1)
+
+
+def test_without_a_change_there_is_no_difference(project: Project) -> None:
+    project.build()
+    write(project.out / "a.py", "edited, of no interest here")
+    assert compared(project).differences == ()
+    assert compared(project).problems == ()
+
+
+def test_what_changed(project: Project) -> None:
+    before = git(project.folder, "status", "--porcelain")
+    project.drive("a.osc", speed=31)
+    project.drive("new.osc")
+    (project.sources / "old.osc").unlink()
+    found = {d.path: (d.old is not None, d.new is not None) for d in compared(project).differences}
+    assert {path: sides for path, sides in found.items() if path.endswith(".py")} == {
+        "a.py": (True, True),
+        "new.py": (False, True),
+        "old.py": (True, False),
+    }
+    assert before == ""
+    assert not project.out.exists()
+
+
+def test_settings_of_the_revision_count_for_it(project: Project) -> None:
+    write(project.folder / "osc2tx.toml", "")
+    (difference,) = compared(project).differences
+    assert difference.old is not None and "takes its first member" in difference.old
+    assert difference.new is not None and "is a race" in difference.new
+
+
+def test_imports_of_the_revision_count_for_it(project: Project) -> None:
+    write(project.sources / "lib.osc", "enum color: [red, blue]\n")
+    assert compared(project).differences == ()
+    write(project.sources / "lib.osc", "scenario\n")
+    paths = [d.path for d in compared(project).differences]
+    assert paths == [
+        f"sub/b_c.{suffix}" for suffix in ("map.json", "py", "xosc", "xosc.report.json")
+    ]
+
+
+def test_a_source_with_errors_then_is_told(project: Project) -> None:
+    write(project.sources / "a.osc", "scenario\n")
+    git(project.folder, "commit", "-qam", "broken")
+    project.drive("a.osc")
+    found = compared(project)
+    assert found.problems == ("HEAD: a.osc has errors and makes nothing",)
+    assert [d.old for d in found.differences] == [None] * 4
+
+
+def test_a_single_file_and_a_relative_path(
+    project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project.drive("a.osc", speed=31)
+    project.drive("old.osc", speed=31)
+    monkeypatch.chdir(project.sources)
+    found = compared(project, Path("a.osc"))
+    assert [d.path for d in found.differences] == ["a.map.json", "a.py", "a.xosc"]
+    assert len(compared(project, Path(".")).differences) == 6
+
+
+def test_links_are_as_in_the_repository(project: Project) -> None:
+    (project.sources / "linked.osc").symlink_to("a.osc")
+    (project.sources / "out.osc").symlink_to("/etc/hostname")
+    git(project.folder, "add", ".")
+    git(project.folder, "commit", "-qm", "links")
+    assert compared(project).differences == ()
+
+
+@pytest.mark.parametrize("revision", ["nothing", "--help", "HEAD:in", "", "-q"])
+def test_what_is_no_revision(project: Project, revision: str) -> None:
+    with pytest.raises(InputError, match="git knows no revision"):
+        compared(project, revision=revision)
+
+
+def test_outside_of_a_repository(tmp_path: Path, project: Project) -> None:
+    other = Project(tmp_path / "other")
+    path = other.drive("a.osc")
+    with pytest.raises(InputError, match="is in no git repository"):
+        compared(other)
+    with pytest.raises(InputError, match="is not in the repository"):
+        compared(project, project.sources, path)
+
+
+def test_the_repository_is_left_as_it_was(project: Project) -> None:
+    project.drive("a.osc", speed=31)
+    before = contents(project.folder)
+    compared(project)
+    assert contents(project.folder) == before

@@ -1,0 +1,78 @@
+"""`osc2tx tree`: the behavior tree in words and as a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from lxml import etree
+
+from osc2tx.cli import cli
+from osc2tx.reporting import Session
+
+SOURCE = """
+import osc.standard
+
+scenario two_steps:
+    ego: vehicle
+    event ready
+
+    do parallel:
+        steps: serial:
+            ego.drive(duration: 3s) with:
+                speed(10mps)
+            wait @ready
+        emit ready
+"""
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    path = tmp_path / "two_steps.osc"
+    path.write_text(SOURCE)
+    return path
+
+
+def tree(*arguments: str | Path) -> Result:
+    words = ["tree", *map(str, arguments)]
+    return CliRunner().invoke(cli, words, standalone_mode=False, obj=Session())
+
+
+def test_text(source: Path) -> None:
+    assert tree(source).output == (
+        "parallel two_steps                           two_steps.osc:8\n"
+        "├─ serial steps                              two_steps.osc:9\n"
+        "│  ├─ ego.drive: duration: 3s, speed(10mps)  two_steps.osc:10\n"
+        "│  └─ wait @ready                            two_steps.osc:12\n"
+        "└─ emit ready                                two_steps.osc:13\n"
+    )
+
+
+def test_picture(source: Path) -> None:
+    """Well-formed, a row for each node, nothing outside of the page."""
+    output = tree(source, "--form", "svg").output
+    root = etree.fromstring(output.encode())
+    width, height = float(root.get("width", "")), float(root.get("height", ""))
+    texts = [text for text in root.iterfind("{*}text") if text.text]
+    assert [t.text for t in texts if t.text and ".osc:" in t.text] == [
+        f"two_steps.osc:{line}" for line in (8, 9, 10, 12, 13)
+    ]
+    assert all(0 < float(t.get("x", "")) < width for t in texts)
+    assert all(0 < float(t.get("y", "")) < height for t in texts)
+    assert output == tree(source, "--form", "svg").output
+
+
+def test_strings_cannot_leave_the_picture(source: Path) -> None:
+    source.write_text(SOURCE.replace("steps: serial", "|</text><script>|: serial"))
+    root = etree.fromstring(tree(source, "--form", "svg").output.encode())
+    assert not root.findall(".//{*}script")
+
+
+def test_errors_are_reported(source: Path) -> None:
+    source.write_text(SOURCE.replace("@ready", "@redy"))
+    result = tree(source)
+    assert result.return_value == 3
+    assert "redy" in result.output
+    source.write_text("struct s\n")
+    assert "declares no scenario" in str(tree(source).exception)

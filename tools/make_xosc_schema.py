@@ -1,0 +1,110 @@
+"""Writes `osc2tx/backends/xosc/schema.json`: what each version of OpenSCENARIO XML has.
+
+Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`). One type a line:
+
+    "Event": {"attributes": {NAME: [TYPE, SINCE, UNTIL, REQUIRED]}, "children": {…}}
+
+REQUIRED lists the versions in which it cannot be left out. Children stand in the order of the
+schema. `enums` holds the literals of each enumeration with the versions that have them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+TARGET = Path(__file__).parents[1] / "osc2tx" / "backends" / "xosc" / "schema.json"
+SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
+VERSIONS = tuple(SCHEMAS)
+XSD = "{http://www.w3.org/2001/XMLSchema}"
+ROOT = "OpenSCENARIO"
+
+
+def schema_of(version: str) -> Any:
+    """Return the root of the schema of a version."""
+    folder = files("qc_openscenario") / "schema" / SCHEMAS[version]
+    return etree.fromstring((folder / f"{ROOT}.xsd").read_bytes())
+
+
+def _particles(node: Any, groups: dict[str, Any], *, optional: bool) -> Iterator[tuple[Any, bool]]:
+    """Yield the elements of a content model in order, and whether each may be missing."""
+    for part in node:
+        if part.tag == f"{XSD}element":
+            yield part, optional or part.get("minOccurs") == "0"
+        elif part.tag in (f"{XSD}sequence", f"{XSD}all", f"{XSD}choice"):
+            may_miss = optional or part.tag == f"{XSD}choice" or part.get("minOccurs") == "0"
+            yield from _particles(part, groups, optional=may_miss)
+        elif part.tag == f"{XSD}group":
+            may_miss = optional or part.get("minOccurs") == "0"
+            yield from _particles(groups[part.get("ref")], groups, optional=may_miss)
+
+
+def _add(table: dict[str, list[Any]], name: str, type_: str, version: str, required: bool) -> None:
+    entry = table.setdefault(name, [type_, version, version, []])
+    entry[0], entry[2] = type_, version
+    if required:
+        entry[3].append(version)
+
+
+def _in_order(orders: list[list[str]]) -> list[str]:
+    """Merge the orders of the versions; the newest goes first, others keep their neighbours."""
+    merged = list(orders[-1])
+    for order in reversed(orders[:-1]):
+        for index, name in enumerate(order):
+            if name not in merged:
+                before = merged.index(order[index - 1]) + 1 if index else 0
+                merged.insert(before, name)
+    return merged
+
+
+def make() -> str:
+    """Return the text of the table."""
+    types: dict[str, dict[str, dict[str, list[Any]]]] = {}
+    orders: dict[str, list[list[str]]] = {}
+    enums: dict[str, dict[str, list[str]]] = {}
+    for version in VERSIONS:
+        root = schema_of(version)
+        groups = {group.get("name"): group for group in root.findall(f"{XSD}group")}
+        for simple in root.findall(f"{XSD}simpleType"):
+            for literal in simple.iter(f"{XSD}enumeration"):
+                span = enums.setdefault(simple.get("name"), {}).setdefault(
+                    literal.get("value"), [version, version]
+                )
+                span[1] = version
+        for complex_ in root.findall(f"{XSD}complexType"):
+            name = complex_.get("name")
+            entry = types.setdefault(name, {"attributes": {}, "children": {}})
+            for attribute in complex_.iter(f"{XSD}attribute"):
+                required = attribute.get("use") == "required"
+                type_ = attribute.get("type")
+                _add(entry["attributes"], attribute.get("name"), type_, version, required)
+            order: list[str] = []
+            for element, optional in _particles(complex_, groups, optional=False):
+                order.append(element.get("name"))
+                type_ = element.get("type")
+                _add(entry["children"], element.get("name"), type_, version, not optional)
+            orders.setdefault(name, []).append(order)
+        (element,) = (e for e in root.findall(f"{XSD}element") if e.get("name") == ROOT)
+        types.setdefault("", {"attributes": {}, "children": {ROOT: ["", "1.0", "1.3", []]}})
+        types[""]["children"][ROOT][0] = element.get("type")
+    for name, found in orders.items():
+        children = types[name]["children"]
+        types[name]["children"] = {child: children[child] for child in _in_order(found)}
+    return _text(types, enums)
+
+
+def _text(types: dict[str, Any], enums: dict[str, Any]) -> str:
+    lines = ["{", '"versions": ' + json.dumps(VERSIONS) + ",", '"types": {']
+    lines.append(",\n".join(f"{json.dumps(n)}: {json.dumps(types[n])}" for n in sorted(types)))
+    lines += ["},", '"enums": {']
+    lines.append(",\n".join(f"{json.dumps(n)}: {json.dumps(enums[n])}" for n in sorted(enums)))
+    return "\n".join([*lines, "}", "}", ""])
+
+
+if __name__ == "__main__":
+    TARGET.write_text(make(), encoding="utf-8")
