@@ -23,8 +23,9 @@ def early_triggers(body: ir.Behavior) -> frozenset[int]:
     found = set()
     for node in nodes:
         for trigger in triggers_of(node):
-            sites = [site for site in nodes if _may_occur(trigger.event, site)]
-            if all(_is_before(places[id(node)], places[id(site)]) for site in sites):
+            sites = [places[id(site)] for site in nodes if _may_occur(trigger.event, site)]
+            # What no member makes comes from outside: at any time from the start on.
+            if all(_is_before(places[id(node)], site) for site in sites or [()]):
                 found.add(id(trigger))
     return frozenset(found)
 
@@ -43,7 +44,7 @@ def triggers_of(node: ir.Behavior) -> tuple[ir.Trigger, ...]:
 def _may_occur(
     event: ir.EventRef | ir.LabelEvent | ir.InnerEvent | None, site: ir.Behavior
 ) -> bool:
-    """Whether an event occurs at a member; one from outside occurs anywhere, from the start on."""
+    """Whether a member makes an event occur."""
     match event, site:
         case ir.EventRef(name=name), ir.Emit(event=emitted):
             return emitted.name == name
