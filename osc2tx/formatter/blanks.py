@@ -25,7 +25,7 @@ def join_lines(lines: Sequence[LogicalLine]) -> str:
         starts_block = before is None or before.opens_block
         apart = before is not None and line.depth == 0 and line.opens_block
         for comment in line.above:
-            least = (wants_blank and comment.depth == 0) or (apart and comment.depth == 0)
+            least = (wants_blank or apart) and comment.depth == 0
             _add_blanks(text, comment.comment.blank_lines, comment.depth, least, starts_block)
             text.append(_indented(comment.comment.text, comment.depth))
             starts_block = False

@@ -3,7 +3,6 @@
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from osc2tx import ir
 from osc2tx.backends.py_trees import emit
@@ -11,44 +10,26 @@ from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
+from osc2tx.testing import Run
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
 
 REPOSITORY = Path(__file__).parent.parent.parent
 SCENARIOS = REPOSITORY / "scenarios"
 
-Line = dict[str, Any]
 
+@dataclass(frozen=True)
+class Trace(Run):
+    """What we offer to tests of scenarios, and what only ours ask.
 
-@dataclass
-class Trace:
-    """A trace, with the questions that tests ask."""
+    Attributes:
+        text: The trace as it is written to a file.
+    """
 
     text: str
-    status: str
-
-    @property
-    def lines(self) -> list[Line]:
-        return [json.loads(line) for line in self.text.splitlines()]
-
-    def of_kind(self, kind: str) -> list[Line]:
-        return [line for line in self.lines if line["kind"] == kind]
-
-    def states(self, actor: str) -> list[Line]:
-        return [line for line in self.of_kind("state") if line["actor"] == actor]
-
-    def state(self, actor: str, t: float) -> Line:
-        return min(self.states(actor), key=lambda line: abs(line["t"] - t))
-
-    def event(self, name: str) -> float:
-        (time,) = [line["t"] for line in self.of_kind("event") if line["name"] == name]
-        return float(time)
 
     def action(self, source: str, status: str) -> float:
-        (time,) = [
-            line["t"]
-            for line in self.of_kind("action")
-            if line["source"] == source and line["status"] == status
-        ]
+        """Return when the action of a source line has a status; it has it once."""
+        (time,) = self.actions(source, status)
         return float(time)
 
 
@@ -61,7 +42,9 @@ def compile_scenario(path: Path) -> ir.Module:
 
 def run(scenario: type[Scenario], settings: RunSettings | None = None) -> Trace:
     result = run_scenario(scenario, settings or RunSettings())
-    return Trace("\n".join(result.trace_lines) + "\n", result.status)
+    text = "\n".join(result.trace_lines) + "\n"
+    lines = tuple(json.loads(line) for line in result.trace_lines)
+    return Trace(result.status, result.reason, result.time, lines, text)
 
 
 def permuted(node: ir.Behavior) -> ir.Behavior:
