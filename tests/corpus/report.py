@@ -264,7 +264,10 @@ def main() -> int:
     parser.add_argument("--update", action="store_true", help="pin the numbers if none fell")
     parser.add_argument("--lower", action="store_true", help="with --update: even if some fell")
     options = parser.parse_args()
-    results = compile_corpus(Path(os.environ["OSC2TX_TEST_DATA"]) / "corpus")
+    data = os.environ.get("OSC2TX_TEST_DATA")
+    if data is None:
+        parser.error("set OSC2TX_TEST_DATA to the folder that holds `corpus`")
+    results = compile_corpus(Path(data) / "corpus")
     print(render(results, verbose=options.verbose), end="")
     if options.files:
         print("", "refused:", *_refused(results), sep="\n")

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx import cli
-from tests.unit.test_cli import DRIVE, Ended, Shell
+from tests.unit.cli.shell import DRIVE, Ended, Shell
 
 EVENT = "import osc.standard\n\nscenario top:\n    do serial:\n        wait @go{}\n"
 BAD = "scenario top:\n  hero: vehicel\n"

@@ -1,4 +1,7 @@
-"""A cache of the tests' own: they remember builds of theirs, whoever edits osc2tx meanwhile."""
+"""What tests of the build have: a project, and a cache of their own.
+
+With that they remember builds of theirs, whoever edits osc2tx meanwhile.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -6,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.building import memory
+from tests.unit.building.projects import Project
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -17,3 +21,8 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
             patch.setenv(name, str(folder))
         patch.setattr(memory, "tool_stamp", lambda: "this osc2tx")
         yield folder
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project(tmp_path)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.unit.building.test_revision import git
-from tests.unit.test_cli import DRIVE, Shell
+from tests.unit.cli.shell import DRIVE, Shell
 
 
 @pytest.fixture

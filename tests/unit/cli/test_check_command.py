@@ -1,226 +1,100 @@
-"""The command `check` remembers: what it recalls, what it does not, and that nobody can tell."""
-
-import json
-import os
-import subprocess
-import sys
-from pathlib import Path
+"""The command `check`: what it prints and returns."""
 
 import pytest
 
-from osc2tx.building import checks, fingerprint, memory
-from osc2tx.building.jobs import Job
-from osc2tx.building.results import FileResult, check_job
-from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.driver import Compilation
-from tests.unit.test_cli import DRIVE, Shell
+from osc2tx import reporting
+from tests.unit.cli.shell import DRIVE, Ended, Shell
 
-ROOT = Path(__file__).parents[3]
-LIBRARY = "import osc.standard\nscenario base:\n  do serial:\n    wait @gone\n"
-SOURCES = {
-    "good.osc": DRIVE.format(name="top"),
-    "lib.osc": LIBRARY,
-    "importing.osc": 'import "lib.osc"\n' + DRIVE.format(name="other"),
-    "bad.osc": "scenario top:\n  x: vehicel\n  x: int\n",
-    "syntax.osc": "scenario top:\n  do serial\n",
-    "kept.osc": "use std.stdtypes  #! allow OSC601: old\nuse std.stdtypes\n",
-    "unused.osc": "#! allow OSC601: none here\n" + DRIVE.format(name="third"),
-}
+LEVEL = "scenario top: abstract (open: map file; place of ego)"
 
 
-@pytest.fixture
-def shell(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("OSC2TX_NO_CACHE", raising=False)
-    for name in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
-        monkeypatch.setenv(name, str(tmp_path / ".cache"))
-    monkeypatch.setattr(memory, "tool_stamp", lambda: "this osc2tx")
-    return Shell(capsys, tmp_path)
-
-
-@pytest.fixture
-def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The files that are really checked."""
-    names: list[str] = []
-
-    def check(job: Job) -> FileResult:
-        names.append(job.name)
-        return check_job(job)
-
-    monkeypatch.setattr(checks, "check_job", check)
-    return names
-
-
-def write_all(shell: Shell) -> None:
-    for name, text in SOURCES.items():
-        shell.write(f"in/{name}", text)
-
-
-@pytest.mark.parametrize("form", ["text", "json", "sarif", "github"])
-def test_what_is_recalled_reads_as_at_the_first_time(
-    shell: Shell, checked: list[str], form: str
-) -> None:
-    write_all(shell)
-    arguments = ("check", "in", "--dialect", "carla", "--output-format", form)
-    first = shell(*arguments)
-    assert sorted(checked) == sorted(SOURCES)
-    checked.clear()
-    assert shell(*arguments) == first
-    assert checked == []
-    assert first.code == 3
-    levels = (first.out if form == "text" else first.err).count(": scenario ")
-    assert levels == 4  # of the files without errors
-
-
-def test_a_recalled_report_does_not_depend_on_its_form(shell: Shell, checked: list[str]) -> None:
-    write_all(shell)
-    fresh = shell("check", "in", "--no-cache", "--output-format", "json")
-    shell("check", "in")
-    checked.clear()
-    assert shell("check", "in", "--output-format", "json") == fresh
-    assert checked == []
-
-
-def test_only_what_changed_is_checked_again(shell: Shell, checked: list[str]) -> None:
-    write_all(shell)
-    shell("check", "in")
-    shell.write("in/lib.osc", LIBRARY.replace("@gone", "elapsed(1s)"))
-    checked.clear()
-    shell("check", "in")
-    assert sorted(checked) == ["importing.osc", "lib.osc"]
-
-
-def test_a_mistake_in_an_import_is_reported_for_the_file_that_did_not_change(shell: Shell) -> None:
-    shell.write("lib.osc", "enum color: [red]\n")
-    shell.write("a.osc", 'import "lib.osc"\n' + DRIVE.format(name="top"))
-    assert shell("check", "a.osc").code == 0
-    shell.write("lib.osc", "enum color: [red, red]\n")
+def test_check_of_a_good_file(shell: Shell) -> None:
+    shell.drive("a.osc")
     ended = shell("check", "a.osc")
+    level = f"a.osc: {LEVEL}\n"
+    assert ended == Ended(0, f"{level}checked 1 file: 0 errors, 0 warnings\n", "")
+
+
+def test_check_shows_errors_where_the_reader_is(shell: Shell) -> None:
+    shell.write("sub/a.osc", "scenario top:\n  hero: vehicel\n")
+    shell.drive("sub/b.osc")
+    ended = shell("check", "sub")
     assert ended.code == 3
-    assert "lib.osc:1" in ended.err
-    (shell.folder / "lib.osc").unlink()
-    assert "lib.osc" in shell("check", "a.osc").err
+    assert ended.out == f"b.osc: {LEVEL}\nchecked 2 files: 1 error, 0 warnings\n"
+    assert ended.err.startswith("sub/a.osc:2:9: error[OSC202]: ")
+    assert ended.err.endswith("\n\n`osc2tx explain OSC202` says more about a code.\n")
 
 
-def test_options_count(shell: Shell, checked: list[str]) -> None:
-    shell.write("a.osc", "use std.stdtypes\n")
-    assert shell("check", "--dialect", "carla", "a.osc").code == 0
-    assert shell("check", "a.osc").code == 3
-    assert checked == ["a.osc", "a.osc"]
+def test_warnings_do_not_fail(shell: Shell) -> None:
+    shell.write("a.osc", DRIVE.format(name="top").replace("\n\n", "\nuse std.stdtypes\n"))
+    ended = shell("check", "--dialect", "carla", "a.osc")
+    assert ended.code == 0, ended.err
+    assert "warning[OSC601]" in ended.err
 
 
-def test_strictness_and_limits_are_not_remembered(shell: Shell, checked: list[str]) -> None:
-    waits = "".join(f"    wait @event_{n}\n" for n in range(3))
-    shell.write("a.osc", f"scenario top:\n  do serial:\n{waits}")
-    carla = ("check", "--dialect", "carla", "a.osc")
-    assert shell(*carla).code == 0
-    assert shell(*carla, "--strict").code == 1
-    assert "2 more not shown" in shell(*carla, "--max-diagnostics", "1").err
-    assert checked == ["a.osc"]
+def test_an_avalanche_is_cut(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reporting, "MOST_SHOWN", 2)
+    fields = "".join(f"  a{number}: nothing{number}\n" for number in range(5))
+    shell.write("a.osc", "scenario top:\n" + fields)
+    ended = shell("check", "a.osc")
+    assert ended.err.count("error[") == 2
+    assert "\na.osc: 3 more not shown\n" in ended.err
 
 
-@pytest.mark.parametrize("variable", ["", "1"])
-def test_without_cache_all_is_checked_and_nothing_kept(
-    shell: Shell, checked: list[str], monkeypatch: pytest.MonkeyPatch, variable: str
-) -> None:
-    monkeypatch.setenv("OSC2TX_NO_CACHE", variable)
-    arguments = ("check", "a.osc") if variable else ("check", "a.osc", "--no-cache")
-    shell.drive("a.osc")
-    assert shell(*arguments) == shell(*arguments)
-    assert checked == ["a.osc", "a.osc"]
-    assert not (shell.folder / ".cache/osc2tx/checks").exists()
+def test_a_mistake_in_an_imported_file_counts_once(shell: Shell) -> None:
+    shell.write("lib.osc", "struct place:\n  x: nothing\n")
+    for name in ("a.osc", "b.osc"):
+        shell.write(name, 'import "lib.osc"\n')
+    ended = shell("check", ".")
+    assert ended.code == 3
+    assert ended.out == "checked 3 files: 1 error, 0 warnings\n"
+    assert ended.err.count("error[OSC202]") == 1
 
 
-def test_a_bug_is_not_remembered(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(self: Compilation) -> bool:
-        raise InternalCompilerError("lost")
-
-    shell.drive("a.osc")
-    with monkeypatch.context() as patch:
-        patch.setattr(Compilation, "check", fail)
-        assert shell("check", "a.osc").code == 70
-    assert shell("check", "a.osc").code == 0
-
-
-@pytest.mark.parametrize("damaged", [{}, [], {"job": 1}, "a.osc"])
-def test_a_damaged_memory_is_none(shell: Shell, checked: list[str], damaged: object) -> None:
-    shell.drive("a.osc")
-    first = shell("check", "a.osc")
-    (kept,) = (shell.folder / ".cache/osc2tx/checks").iterdir()
-    document = json.loads(kept.read_text())
-    (name,) = document["results"]
-    for change in ({"results": {name: damaged}}, {"results": damaged}, {"library": damaged}):
-        kept.write_text(json.dumps(document | change))
-        assert shell("check", "a.osc") == first
-    half = document["results"][name] | {"scenarios": [damaged]}
-    kept.write_text(json.dumps(document | {"results": {name: half}}))
-    assert shell("check", "a.osc") == first
-    assert len(checked) >= 4
-
-
-def test_the_memory_of_somebody_else_is_not_read(shell: Shell, checked: list[str]) -> None:
-    shell.drive("a.osc")
-    shell("check", "a.osc")
-    (kept,) = (shell.folder / ".cache/osc2tx/checks").iterdir()
-    kept.chmod(0o666)
-    shell("check", "a.osc")
-    assert checked == ["a.osc", "a.osc"]
-
-
-def test_nothing_is_kept_once_osc2tx_itself_has_changed(
-    shell: Shell, checked: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(fingerprint, "_STARTED", 0)
-    monkeypatch.setattr(memory, "tool_stamp", fingerprint.tool_stamp)
-    shell.drive("a.osc")
-    shell("check", "a.osc")
-    shell("check", "a.osc")
-    assert checked == ["a.osc", "a.osc"]
-
-
-def test_the_stamp_tells_one_osc2tx_from_another(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(fingerprint, "_PACKAGE", tmp_path)
-    (tmp_path / "semantics").mkdir()
-    module = tmp_path / "semantics" / "model.py"
-    module.write_text("a = 1\n")
-    os.utime(module, ns=(0, 0))
-    before = fingerprint.tool_stamp()
-    assert before == fingerprint.tool_stamp() is not None
-    os.utime(module, ns=(0, 1))
-    assert fingerprint.tool_stamp() not in (before, None)
-    os.utime(module, ns=(0, 0))
-    assert fingerprint.tool_stamp() == before
-    module.write_text("a = 10\n")
-    os.utime(module, ns=(0, 0))
-    assert fingerprint.tool_stamp() not in (before, None)
-
-
-def test_what_is_recalled_needs_no_stage(tmp_path: Path) -> None:
-    (tmp_path / "a.osc").write_text(DRIVE.format(name="top"))
-    stages = ("antlr4", "osc2tx.driver", "osc2tx.syntax", "osc2tx.semantics", "osc2tx.ir")
-    program = (
-        "import sys, atexit\n"
-        f"atexit.register(lambda: print([m for m in {stages!r} if m in sys.modules]))\n"
-        "from osc2tx.cli import main\n"
-        "main(['check', 'a.osc'])\n"
+def test_missing_folder_and_file(shell: Shell) -> None:
+    (shell.folder / "empty").mkdir()
+    assert shell("check", "no.osc") == Ended(
+        4, "", "osc2tx: error: no.osc: no such file or folder\n"
     )
-    folders = os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")])
-    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": folders}
-    environment.pop("OSC2TX_NO_CACHE", None)
-    ended = [
-        subprocess.run(
-            [sys.executable, "-c", program],
-            cwd=tmp_path,
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout.splitlines()
-        for _ in range(2)
-    ]
-    assert ended[0][-1] == repr(list(stages))
-    assert ended[1] == [*ended[0][:-1], "[]"]
+    assert shell("check", "empty").code == 2
+
+
+def test_binary_file(shell: Shell) -> None:
+    (shell.folder / "a.osc").write_bytes(b"\x00\xff")
+    ended = shell("check", "a.osc")
+    assert ended.code == 4
+    assert "error[OSC101]: cannot read `a.osc`" in ended.err
+
+
+def test_wrong_settings_file(shell: Shell) -> None:
+    shell.drive("a.osc")
+    shell.write("osc2tx.toml", 'dialct = "carla"\n')
+    ended = shell("check", "a.osc")
+    assert ended.code == 2
+    assert ended.err.endswith("osc2tx.toml: unknown key `dialct`; did you mean `dialect`?\n")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["check"],
+        ["chek", "a.osc"],
+        ["check", "--std", "3.0", "a.osc"],
+        ["build", "a.osc"],
+        ["build", "a.osc", "-o", "out", "--emit", "ast"],
+        ["build", "a.osc", "-o", "out", "--target", "xml"],
+        ["run"],
+        ["run", "a.osc", "--seed", "x"],
+        ["run", "a.osc", "--signal", "go"],
+        ["run", "a.osc", "--dt", "-1"],
+        ["run", "a.osc", "--scenario", "nobody"],
+        ["run", "a.osc", "--set", "nobody=1"],
+        ["explain", "OSC999"],
+    ],
+)
+def test_wrong_usage(shell: Shell, arguments: list[str]) -> None:
+    shell.drive("a.osc")
+    ended = shell(*arguments)
+    assert ended.code == 2
+    assert ended.err

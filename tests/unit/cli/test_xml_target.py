@@ -9,7 +9,7 @@ import pytest
 from osc2tx.building.manifest import MANIFEST_NAME
 from osc2tx_runtime.map_search import DEFAULT_MAP, SHIPPED
 from tests.unit.building.projects import listing
-from tests.unit.test_cli import Shell
+from tests.unit.cli.shell import Shell
 
 HEAD = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
 DRIVE = """scenario {name}:

@@ -15,7 +15,7 @@ from osc2tx.cli import cli
 from osc2tx.cli.init import FILES
 from osc2tx.reporting import Session
 
-REPOSITORY = Path(__file__).parents[2]
+REPOSITORY = Path(__file__).parents[3]
 
 
 def command(*words: str | Path) -> Result:

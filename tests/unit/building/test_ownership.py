@@ -1,0 +1,166 @@
+"""Whose a file of the output folder is: edited, foreign, orphaned; the manifest that says it."""
+
+import pytest
+
+from osc2tx.building.manifest import MANIFEST_NAME, ManifestError, read_manifest
+from tests.unit.building.projects import Project, contents, listing, write
+
+# --- edited, foreign, orphaned ---
+
+
+def test_what_was_edited_by_hand_is_kept_without_force(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    made = (project.out / "a.py").read_text()
+    (project.out / "a.py").write_text("edited")
+    project.drive("b.osc")
+    assert project.check() == ["a.py was edited by hand", "b.py is missing"]
+    result = project.build()
+    assert [change.path.name for change in result.remaining()] == ["a.py"]
+    assert (project.out / "a.py").read_text() == "edited"
+    assert (project.out / "b.py").exists()
+    project.build(force=True)
+    assert (project.out / "a.py").read_text() == made
+    assert project.check() == []
+
+
+def test_an_edited_output_of_a_changed_source_is_kept_too(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    (project.out / "a.py").write_text("edited")
+    project.drive("a.osc", speed=31)
+    project.build()
+    assert (project.out / "a.py").read_text() == "edited"
+    assert project.check() == ["a.py was edited by hand"]
+
+
+def test_foreign_files_are_never_touched(project: Project) -> None:
+    project.drive("a.osc")
+    project.drive("sub/b.osc")
+    for name in ("a.py", "notes.txt", "sub/other.py", "empty/x"):
+        write(project.out / name, "mine")
+    assert "a.py was not made by osc2tx" in project.check()
+    project.build(prune=True)
+    for path in project.sources.rglob("*.osc"):
+        path.unlink()
+    project.drive("c.osc")
+    project.build(prune=True)
+    mine = {name for name, data in contents(project.out).items() if data == b"mine"}
+    assert mine == {"a.py", "notes.txt", "sub/other.py", "empty/x"}
+    assert listing(project.out) == sorted([*mine, "c.map.json", "c.py"])
+
+
+def test_orphans_are_reported_and_removed_on_request(project: Project) -> None:
+    project.drive("a.osc")
+    project.drive("deep/er/b.osc")
+    project.build()
+    (project.sources / "deep/er/b.osc").unlink()
+    assert project.check() == ["deep/er/b.py is orphaned"]
+    result = project.build()
+    assert [change.origin for change in result.remaining()] == ["deep/er/b.osc"] * 2
+    assert (project.out / "deep/er/b.py").exists()
+    project.build(prune=True)
+    assert listing(project.out) == ["a.map.json", "a.py"]
+    assert not (project.out / "deep").exists()
+    assert set(read_manifest(project.out).outputs) == {"a.map.json", "a.py"}
+
+
+def test_an_edited_orphan_is_only_removed_by_force(project: Project) -> None:
+    project.drive("a.osc")
+    project.drive("b.osc")
+    project.build()
+    (project.sources / "b.osc").unlink()
+    (project.out / "b.py").write_text("edited")
+    project.build(prune=True)
+    assert listing(project.out) == ["a.map.json", "a.py", "b.py"]
+    project.build(prune=True, force=True)
+    assert listing(project.out) == ["a.map.json", "a.py"]
+
+
+def test_a_source_that_became_a_library_leaves_an_orphan(project: Project) -> None:
+    project.drive("a.osc")
+    project.drive("b.osc")
+    project.build()
+    write(project.sources / "b.osc", "enum color: [red]\n")
+    assert project.check() == ["b.py is orphaned"]
+
+
+def test_building_a_single_file_says_nothing_of_the_others(project: Project) -> None:
+    single = project.drive("a.osc")
+    project.drive("b.osc")
+    project.build()
+    assert project.build(single, prune=True).changes == ()
+    assert listing(project.out) == ["a.map.json", "a.py", "b.map.json", "b.py"]
+    assert set(read_manifest(project.out).outputs) == set(listing(project.out))
+
+
+# --- the manifest ---
+
+
+def test_without_manifest_what_is_current_is_entered_again(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    manifest = project.out / MANIFEST_NAME
+    text = manifest.read_text()
+    manifest.unlink()
+    assert project.check() == [f"{MANIFEST_NAME} is stale"]
+    assert project.build().written == ()
+    assert manifest.read_text() == text
+    assert project.check() == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "<<<<<<< HEAD\n",
+        '{"format": 2, "outputs": {}}',
+        '{"format": 1}',
+        '{"format": 1, "outputs": []}',
+        '{"format": 1, "outputs": {"a.py": 3}}',
+        '{"format": 1, "outputs": {"a.py": {"source": "a.osc"}}}',
+        '{"format": 1, "outputs": {}, "unfinished": 3}',
+    ],
+)
+def test_a_damaged_manifest_stops_the_build(project: Project, text: str) -> None:
+    project.drive("a.osc")
+    write(project.out / MANIFEST_NAME, text)
+    with pytest.raises(ManifestError, match="is damaged"):
+        project.build()
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["../x", "/x", "a/../../x", "./x", "a//x", "", "..", "c:/x", "\\x", "a\\..\\..\\x", "x\0"],
+)
+def test_a_manifest_cannot_name_what_lies_elsewhere(project: Project, path: str) -> None:
+    import json
+
+    project.drive("a.osc")
+    entry = {"source": "gone.osc", "sha256": "0" * 64}
+    write(project.out / MANIFEST_NAME, json.dumps({"format": 1, "outputs": {path: entry}}))
+    with pytest.raises(ManifestError):
+        project.build(prune=True, force=True)
+
+
+def test_a_manifest_cannot_reach_through_a_link(project: Project) -> None:
+    import hashlib
+    import json
+
+    project.drive("a.osc")
+    outside = write(project.folder / "elsewhere/file", "precious")
+    project.out.mkdir()
+    (project.out / "link").symlink_to(outside.parent)
+    entry = {"source": "gone.osc", "sha256": hashlib.sha256(b"precious").hexdigest()}
+    write(project.out / MANIFEST_NAME, json.dumps({"format": 1, "outputs": {"link/file": entry}}))
+    project.build(prune=True, force=True)
+    assert outside.read_text() == "precious"
+
+
+def test_the_manifest_names_no_machine(project: Project) -> None:
+    project.drive("sub/a.osc")
+    project.build()
+    text = (project.out / MANIFEST_NAME).read_text()
+    assert str(project.folder) not in text
+    assert '"sub/a.py": {"source": "sub/a.osc", "sha256": "' in text

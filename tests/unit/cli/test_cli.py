@@ -1,0 +1,81 @@
+"""What all commands share: help, explanations, exit codes, and what is loaded."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+
+from osc2tx import __version__, cli
+from tests.unit.cli.shell import DRIVE, Shell
+
+HEAVY = ("black", "pint", "numpy", "lxml", "rich", "py_trees", "jinja2", "osc2tx_runtime")
+
+
+def test_explain(shell: Shell) -> None:
+    text = shell("explain", "osc104").out
+    assert text.startswith("OSC104 inconsistent-dedent (error)\n\nNo block has this indentation.")
+    assert "section 7.2.1.4" in text
+    assert shell("explain", "inconsistent-dedent").out == text
+    assert "did you mean `inconsistent-dedent`?" in shell("explain", "inconsistent-dedant").err
+
+
+def test_help_and_version(shell: Shell) -> None:
+    assert __version__ in shell("--version").out
+    text = shell("--help").out
+    assert all(name in text for name in cli.COMMANDS)
+    assert "--signal NAME@SECONDS" in shell("run", "--help").out
+
+
+@pytest.mark.parametrize("name", cli.COMMANDS)
+def test_every_command_of_the_help_page_is_there(name: str) -> None:
+    context = click.Context(cli.cli)
+    command = cli.cli.get_command(context, name)
+    assert command is not None and command.name == name
+
+
+def test_a_bug_has_its_own_exit_code(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(cli.cli, "main", fail)
+    with pytest.raises(SystemExit) as caught:
+        cli.main([])
+    assert caught.value.code == 70
+    assert "this is a bug of osc2tx" in capsys.readouterr().err
+
+
+def test_check_loads_nothing_heavy(tmp_path: Path) -> None:
+    (tmp_path / "a.osc").write_text(DRIVE.format(name="top"))
+    program = (
+        "import sys, atexit\n"
+        f"atexit.register(lambda: print([m for m in {HEAVY!r} if m in sys.modules]))\n"
+        "from osc2tx.cli import main\n"
+        "main(['check', 'a.osc'])\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    lines = [
+        "a.osc: scenario top: abstract (open: map file; place of ego)",
+        "checked 1 file: 0 errors, 0 warnings",
+        "[]",
+    ]
+    assert ended.stdout.splitlines() == lines
+
+
+def test_a_reader_that_goes_away_is_no_bug(tmp_path: Path) -> None:
+    (tmp_path / "a.osc").write_text(DRIVE.format(name="top"))
+    ended = subprocess.run(
+        f"{sys.executable} -m osc2tx build --emit ast a.osc | true; exit ${{PIPESTATUS[0]}}",
+        cwd=tmp_path,
+        shell=True,
+        executable="/bin/bash",
+        capture_output=True,
+        text=True,
+    )
+    assert ended.stderr == ""
+    assert ended.returncode in (0, 141)
