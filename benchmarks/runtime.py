@@ -16,186 +16,23 @@ trivial generator on the same machine.
 from __future__ import annotations
 
 import argparse
-import gc
-import math
-import time
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
-import py_trees
-from py_trees.common import ParallelPolicy, Status
+from costs import growth, spent, unit
+from trees import print_trees
 
 import osc2tx_runtime
 from osc2tx_runtime import Map, RunSettings, Scenario, Vehicle, rise, run_scenario
-from osc2tx_runtime.behaviour import (
-    Behaviour,
-    Emit,
-    Event,
-    On,
-    OneOf,
-    Parallel,
-    Serial,
-    Until,
-    Wait,
-    elapsed,
-)
-from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.behaviour import Behaviour, OneOf, Parallel, Wait, elapsed
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
-from osc2tx_runtime.runner import settle, setup_tree
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.catalogue import limits_of, shape_of
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
 
 DT = 0.05  # s, 20 Hz
-LEAVES = (10, 100, 1000)
-DEPTHS = (10, 50, 200)
 ACTORS = (1, 5, 20, 100, 500)
-
-
-def best(work: Callable[[], object], runs: int = 5) -> float:
-    """Seconds of one call, the least of some rounds of at least 20 ms each."""
-    calls = 1
-    while (seconds := spent(work, calls)) < 0.02:
-        calls = max(2 * calls, math.ceil(0.025 * calls / max(seconds, 1e-6)))
-    return min([seconds, *(spent(work, calls) for _ in range(runs - 1))]) / calls
-
-
-def spent(work: Callable[[], object], calls: int) -> float:
-    gc.collect()
-    begin = time.process_time()
-    for _ in range(calls):
-        work()
-    return time.process_time() - begin
-
-
-def unit() -> float:
-    """Seconds of one `next()`."""
-
-    def forever() -> Iterator[None]:
-        while True:
-            yield
-
-    generators = [forever() for _ in range(1000)]
-
-    def advance() -> None:
-        for generator in generators:
-            next(generator)
-
-    return best(advance) / 1000
-
-
-def growth(sizes: tuple[int, ...], costs: list[float]) -> str:
-    """Exponents between one size and the next: 1.00 is linear."""
-    found = (
-        f"{math.log(after / before) / math.log(large / small):.2f}"
-        for (small, large), (before, after) in zip(pairwise(sizes), pairwise(costs), strict=True)
-    )
-    return " ".join(found)
-
-
-# --- Trees ----------------------------------------------------------------------------------------
-
-
-def started(tree: Behaviour) -> tuple[ExecutionContext, Behaviour]:
-    """Set a tree up in a run without a world, and start it."""
-    world: Any = None
-    context = ExecutionContext(world)
-    setup_tree(tree, context)
-    context.begin_step(0)
-    context.begin_pass()
-    tree.tick_once()
-    assert tree.status is Status.RUNNING
-    return context, tree
-
-
-def chain(depth: int, wrap: Callable[[str, Behaviour], Behaviour], leaf: Behaviour) -> Behaviour:
-    for level in range(depth):
-        leaf = wrap(f"level {level}", leaf)
-    return leaf
-
-
-def their_parallel(leaves: int) -> Behaviour:
-    members = [py_trees.behaviours.Running(f"leaf {index}") for index in range(leaves)]
-    return py_trees.composites.Parallel("p", ParallelPolicy.SuccessOnAll(), members)
-
-
-def their_chain(depth: int) -> Behaviour:
-    def sequence(name: str, member: Behaviour) -> Behaviour:
-        return py_trees.composites.Sequence(name, memory=True, children=[member])
-
-    return chain(depth, sequence, py_trees.behaviours.Running("leaf"))
-
-
-def waits(leaves: int) -> Behaviour:
-    return Parallel("p", *(Wait(Event()) for _ in range(leaves)))
-
-
-def branches(count: int) -> Behaviour:
-    """Branches as they stand in scenarios: race, until, duration; two leaves each."""
-    return Parallel(
-        "p",
-        *(
-            Serial(
-                "s",
-                OneOf("r", Wait(Event()), Until(Wait(elapsed(1e6)), Event())),
-                duration=(0, 1e6),
-            )
-            for _ in range(count)
-        ),
-    )
-
-
-def reactions(count: int) -> Behaviour:
-    return Parallel("p", *(On(Event(), Emit(Event())) for _ in range(count)), Wait(Event()))
-
-
-def instant(tree: Behaviour) -> Callable[[], object]:
-    """Make what the runner does at each step: passes until nothing is pending."""
-    context, started_tree = started(tree)
-
-    def next_step() -> None:
-        context.begin_step(context.step + 1)
-        settle(started_tree.tick_once, context, ())  # type: ignore[arg-type]
-
-    return next_step
-
-
-def print_trees(u: float) -> None:
-    print(f"\n{'trees: one pass':48}{'us':>10}{'U':>10}{'U/leaf':>10}")
-
-    def row(name: str, work: Callable[[], object], leaves: int) -> float:
-        seconds = best(work)
-        print(f"{name:48}{seconds * 1e6:10.1f}{seconds / u:10.0f}{seconds / u / leaves:10.1f}")
-        return seconds
-
-    floor = []
-    for leaves in LEAVES:
-        tree = their_parallel(leaves)
-        tree.tick_once()
-        floor.append(row(f"py_trees Parallel, {leaves} Running", tree.tick_once, leaves))
-    ours = [
-        row(f"Parallel, {leaves} Wait(event)", started(waits(leaves))[1].tick_once, leaves)
-        for leaves in LEAVES
-    ]
-    for depth in DEPTHS:
-        tree = their_chain(depth)
-        tree.tick_once()
-        row(f"py_trees Sequence, depth {depth}", tree.tick_once, 1)
-    deep = [
-        row(f"Serial, depth {d}", started(chain(d, Serial, Wait(Event())))[1].tick_once, 1)
-        for d in DEPTHS
-    ]
-    row("20 branches of serial, one_of, until", started(branches(20))[1].tick_once, 40)
-    row("100 on beside a Wait(event)", started(reactions(100))[1].tick_once, 101)
-    row("20 Wait(event), a whole instant of the runner", instant(waits(20)), 20)
-    levels = Parallel("p", *(Wait(lambda: False) for _ in range(100)))
-    row("100 Wait(condition), a whole instant", instant(levels), 100)
-    print(f"growth exponents with leaves: py_trees {growth(LEAVES, floor)},", end=" ")
-    print(f"ours {growth(LEAVES, ours)}; with depth: {growth(DEPTHS, deep)}")
 
 
 # --- The world ------------------------------------------------------------------------------------

@@ -9,18 +9,18 @@ the source has errors that stand in the way; the sink says which.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.imports import ImportLoader, Lookup, leads_outside, look_up
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import CompileOptions, ProductName
+from osc2tx.products import DUMPS, Output, files_of_module, files_of_xml
 from osc2tx.reported import LossEntry, settle_all
 from osc2tx.stack import room_for_trees
-from osc2tx.syntax import dump_ast, parse, read_source
+from osc2tx.syntax import parse, read_source
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,12 +33,7 @@ if TYPE_CHECKING:
     from osc2tx.syntax.ast import File
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
-    """A file that a source makes: `stem` of its compilation, then `suffix`, holds `text`."""
-
-    suffix: str
-    text: str
+__all__ = ["Compilation", "Output"]
 
 
 class Compilation:
@@ -83,6 +78,7 @@ class Compilation:
         self._roots = (path.parent, *roots)
         self._is_trusted = is_trusted
         self._text = text
+        self._is_well_formed = False
 
     @cached_property
     def source(self) -> SourceFile | None:
@@ -100,16 +96,18 @@ class Compilation:
         """The syntax tree of what could be understood."""
         if self.source is None:
             return None
-        return parse(self.source, self.sink, allow=self._relaxed)
+        parsed = parse(self.source, self.sink, allow=self._relaxed)
+        self._is_well_formed = not self._failed()
+        return parsed
 
     @cached_property
     def formatted(self) -> str | None:
         """The text in the style of the standard (§9.2.2); not made if it has syntax errors."""
-        if self.source is None:
+        if self.ast is None or self.source is None or not self._is_well_formed:
             return None
         from osc2tx.formatter import format_source
 
-        return format_source(self.source, self.sink, allow=self._relaxed)
+        return format_source(self.source)
 
     @cached_property
     def model(self) -> SemanticModel | None:
@@ -214,33 +212,21 @@ class Compilation:
         return module_stem(self.ir.source)
 
     def outputs(self) -> Sequence[Output]:
-        """Return the files that the source makes; none for a library, or if there are errors.
+        """Return the files that the source makes; none for a library, or if there are errors."""
+        return (*self.module_outputs(), *self.xml_outputs())
 
-        A scenario that OpenSCENARIO XML cannot say makes only the report that says why.
+    def module_outputs(self) -> tuple[Output, ...]:
+        """Return the Python module and its source map, if it makes one."""
+        return () if self.module is None else files_of_module(self.module)
+
+    def xml_outputs(self) -> tuple[Output, ...]:
+        """Return the OpenSCENARIO XML files.
+
+        A scenario that cannot be said in XML makes only the report that says why.
         """
-        if self.ir is None or not self.is_supported:
-            return self._xml_outputs() if self.options.target == "xosc" else ()
-        modules = (
-            ()
-            if self.module is None
-            else (
-                Output(".py", self.module.python),
-                Output(".map.json", self.module.source_map),
-            )
-        )
-        return (*modules, *self._xml_outputs())
-
-    def _xml_outputs(self) -> tuple[Output, ...]:
-        return tuple(
-            Output(f"{scenario.infix}{suffix}", text)
-            for scenario in self.xml
-            for suffix, text in (
-                (".xosc", scenario.xml),
-                (".params.xosc", scenario.parameters),
-                (".xosc.report.json", scenario.report_json),
-            )
-            if text is not None
-        )
+        if not self.is_supported and self.options.target != "xosc":  # which also reports losses
+            return ()
+        return files_of_xml(self.xml)
 
     @property
     def losses(self) -> tuple[LossEntry, ...]:
@@ -291,7 +277,7 @@ class Compilation:
 
     def dump(self, product: ProductName) -> str | None:
         """Return a product as text; `None` where it does not exist."""
-        return _DUMPS[product](self)
+        return DUMPS[product](self)
 
     def _failed(self) -> bool:
         return self.sink.has_errors
@@ -301,37 +287,3 @@ class Compilation:
         from osc2tx.semantics.dialects import DIALECTS
 
         return DIALECTS[self.options.dialect].relaxed
-
-
-def _dump_ast(compilation: Compilation) -> str | None:
-    return None if compilation.ast is None else dump_ast(compilation.ast)
-
-
-def _dump_model(compilation: Compilation) -> str | None:
-    from osc2tx.semantics import dump_model
-
-    return None if compilation.model is None else dump_model(compilation.model)
-
-
-def _dump_ir(compilation: Compilation) -> str | None:
-    from osc2tx.ir import dump_ir
-
-    return None if compilation.ir is None else dump_ir(compilation.ir)
-
-
-def _dump_module(compilation: Compilation) -> str | None:
-    return None if compilation.module is None else compilation.module.python
-
-
-def _dump_xml(compilation: Compilation) -> str | None:
-    written = [scenario.xml for scenario in compilation.xml if scenario.xml is not None]
-    return "\n".join(written) if written else None
-
-
-_DUMPS: Mapping[ProductName, Callable[[Compilation], str | None]] = {
-    "ast": _dump_ast,
-    "model": _dump_model,
-    "ir": _dump_ir,
-    "py": _dump_module,
-    "xosc": _dump_xml,
-}

@@ -13,8 +13,9 @@ from osc2tx_runtime.capabilities import capabilities
 TABLE = Path(__file__).parent.parent / "osc2tx/backends/py_trees/runtime_api.json"
 USED = (
     *("actions", "modifiers", "placement", "exclusive"),
-    *("conflicts", "no_start", "rules"),
-    *("methods", "fields", "objects", "needed", "reserved"),
+    *("conflicts", "no_start", "rules", "sorts", "contradictions", "shapes"),
+    *("on_lanes", "lane_bound"),
+    *("methods", "fields", "objects", "needed", "asked", "unknown", "reserved"),
 )
 
 

@@ -19,7 +19,7 @@ require_api(1)
 knot = 0.514444
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
     """Struct `plan` (capabilities/C33_own_types.osc:12)."""
 

@@ -7,11 +7,12 @@ and invocations of user-defined types what these demand of their own members.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx.analysis.locate import Place
+from osc2tx.analysis.specialisation import Special
 from osc2tx.analysis.tape import Key, Tape, TapeWriter
 from osc2tx.analysis.trees import do_members
 from osc2tx.diagnostics import Span
@@ -19,6 +20,7 @@ from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
@@ -72,10 +74,14 @@ Entry: TypeAlias = Constraint | Removal
 class Collector:
     """Collects the constraints of types."""
 
-    def __init__(self, model: SemanticModel) -> None:
-        """Take the checked program."""
+    def __init__(
+        self, model: SemanticModel, special: Mapping[Key, tuple[Special, ...]] | None = None
+    ) -> None:
+        """Take the checked program, and the conditional types that objects are known to be of."""
         self._model = model
         self._writer = TapeWriter(model)
+        self._special = special or {}
+        self.objects: dict[Key, sym.TypeSymbol] = {}
 
     def collect(self, owner: sym.TypeSymbol) -> list[Entry]:
         """Return what constrains an instance of a type, in the order of the text."""
@@ -160,15 +166,26 @@ class Collector:
     ) -> Iterator[Entry]:
         key = (*place.prefix, field)
         type_ = symbol_of(field.type)
+        if key in place.handed_in:
+            yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+            return
         is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
             t.origin != "library" for t in supertypes(type_)
         )
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
             inner = replace(place, owner=type_, prefix=key, it=key)
             yield from self._of_type(inner, type_, depth + 1)
+        if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
+            self.objects[key] = type_
+        for special in self._special.get(key, ()):
+            inner = replace(place, owner=special, prefix=key, it=key)
+            for statement in special.statements:
+                yield from self._of_statement(inner, special, statement, depth + 1)
         if node.default is not None:
             yield self._setting(place, key, field.type, node.default, "default value")
-        inside = replace(place, it=key, it_type=type_)
+        yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+
+    def _of_with_field(self, inside: Place, node: ast.ParameterDeclaration) -> Iterator[Entry]:
         for rule in node.constraints:
             if isinstance(rule, ast.KeepConstraint | ast.RemoveDefault):
                 yield from self._of_rule(inside, rule)
@@ -265,8 +282,12 @@ class Collector:
         if node in place.prefix:
             return  # a modifier that applies itself
         if callee.origin == "user":
-            it = None if isinstance(callee, sym.ModifierSymbol) else prefix
-            inner = replace(place, owner=callee, prefix=prefix, it=it, it_type=None)
+            # In a modifier `it` is what that is applied to (§7.3.12).
+            it = place.it if isinstance(callee, sym.ModifierSymbol) else prefix
+            handed_in = {**place.handed_in, **dict(_objects(place, prefix, binding))}
+            inner = replace(
+                place, owner=callee, prefix=prefix, it=it, it_type=None, handed_in=handed_in
+            )
             yield from self._of_type(inner, callee, depth=1)
         elif not _can_be_constrained(node):
             return
@@ -274,6 +295,17 @@ class Collector:
             if isinstance(parameter, sym.FieldSymbol):
                 key = (*prefix, parameter)
                 yield self._setting(place, key, parameter.type, value, "argument")
+
+
+def _objects(place: Place, prefix: Key, binding: Binding) -> Iterator[tuple[Key, Key]]:
+    """Yield the parameters of a callee that are objects, each with the one that it stands for."""
+    for parameter, value in binding.arguments:
+        if isinstance(parameter, sym.FieldSymbol) and isinstance(
+            symbol_of(parameter.type), sym.ActorSymbol | sym.StructSymbol
+        ):
+            key = place.locate(value)
+            if key is not None:
+                yield (*prefix, parameter), key
 
 
 def _can_be_constrained(node: Instance) -> bool:

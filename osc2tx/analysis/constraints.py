@@ -16,7 +16,7 @@ expression in force, all overriding done, so that a backend can write it as auth
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from enum import Enum
 
 from osc2tx.analysis.collect import Collector, Constraint, Entry
@@ -24,6 +24,14 @@ from osc2tx.analysis.domains import Choice, Domain, Interval, Value, close, is_v
 from osc2tx.analysis.locate import name_of
 from osc2tx.analysis.overrides import InForce, apply_overrides
 from osc2tx.analysis.solver import smallest_conflict, solve
+from osc2tx.analysis.specialisation import (
+    Condition,
+    Special,
+    conditions_of,
+    is_possible,
+    specialised,
+    types_below,
+)
 from osc2tx.analysis.tape import Key, domain_of_type
 from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, types
@@ -91,6 +99,9 @@ class TypeConstraints:
         in_force: Its constraints after overriding.
         domains: What is left of each parameter that a constraint mentions.
         conflicts: Groups of constraints that cannot hold together.
+        by_key: The constraints that mention a parameter.
+        special: The conditional types that objects are of.
+        undecided: The objects that may be of others, with those.
     """
 
     owner: sym.TypeSymbol | None
@@ -98,6 +109,8 @@ class TypeConstraints:
     domains: Mapping[Key, Domain]
     conflicts: tuple[tuple[Constraint, ...], ...]
     by_key: Mapping[Key, tuple[Constraint, ...]] = field(default_factory=dict)
+    special: Mapping[Key, tuple[Special, ...]] = field(default_factory=dict)
+    undecided: tuple[tuple[Key, Special], ...] = ()
 
     def parameter(self, key: Key, type_: types.Type) -> ParameterDomain:
         """Return what is known of a parameter."""
@@ -161,10 +174,31 @@ class ConstraintAnalysis:
 
 def analyse_constraints(model: SemanticModel) -> ConstraintAnalysis:
     """Collect and propagate the constraints of every type in the user's files."""
-    collector = Collector(model)
+    conditions = conditions_of(model)
     return ConstraintAnalysis(
-        {owner: _analyse(owner, collector.collect(owner)) for owner in declared_types(model)}
+        {owner: _analyse_type(model, owner, conditions) for owner in declared_types(model)}
     )
+
+
+def _analyse_type(
+    model: SemanticModel, owner: sym.TypeSymbol, conditions: tuple[Condition, ...]
+) -> TypeConstraints:
+    """Analyse a type, again while more turns out about what its objects are."""
+    special: dict[Key, tuple[Special, ...]] = {}
+    while True:
+        collector = Collector(model, special)
+        found = _analyse(owner, collector.collect(owner))
+        more = specialised(conditions, collector.objects, found.domains, special)
+        if more == special or found.conflicts:
+            break
+        special = more
+    undecided = tuple(
+        (key, condition.type)
+        for key, declared in collector.objects.items()
+        for condition in types_below(conditions, declared, special.get(key, ()))
+        if is_possible(found.domains.get((*key, condition.field)), condition)
+    )
+    return replace(found, special=special, undecided=undecided)
 
 
 def analyse_global(model: SemanticModel, parameter: sym.FieldSymbol) -> TypeConstraints:

@@ -119,7 +119,7 @@ def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> 
             return True
     return any(
         isinstance(member, ast.UntilDirective)
-        or _speaks_of_duration(member)
+        or _speaks_of_duration(model, member)
         or _is_goal(model, member)
         for member in node.with_members
     )
@@ -142,7 +142,16 @@ def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:
     )
 
 
-def _speaks_of_duration(member: ast.WithMember) -> bool:
+def _speaks_of_duration(model: SemanticModel, member: ast.Statement) -> bool:
+    """Whether a member constrains the duration, or applies a modifier that does."""
+    if isinstance(member, ast.ModifierApplication):
+        binding = model.bindings.get(member)
+        callee = None if binding is None else binding.callee
+        return isinstance(callee, sym.ModifierSymbol) and any(
+            _speaks_of_duration(model, part)
+            for part in callee.statements
+            if isinstance(part, ast.KeepConstraint)
+        )
     return isinstance(member, ast.KeepConstraint) and any(
         isinstance(node, ast.Name) and node.text == "duration" for node in nodes_below(member)
     )

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import field
+
 from osc2tx.analysis.tape import Key
 from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
@@ -20,6 +23,7 @@ class Place:
         prefix: The instance of that type; empty for the type that is looked at.
         it: What `it` is; `None` if that is no parameter.
         it_type: The type of `it`, whose members plain names may mean too.
+        handed_in: Parameters that are objects of whoever invokes, and which ones.
     """
 
     model: SemanticModel
@@ -27,6 +31,7 @@ class Place:
     prefix: Key
     it: Key | None
     it_type: sym.TypeSymbol | None = None
+    handed_in: Mapping[Key, Key] = field(default_factory=dict)
 
     def locate(self, expression: ast.Expression) -> Key | None:
         """Return the parameter; `None` for what is none, and for what the world changes."""
@@ -40,7 +45,14 @@ class Place:
             current = current.base
         root = self._root(current)
         key = () if root is None else (*root, *reversed(path))
-        return key or None  # the instance as a whole is no parameter of it
+        return self.owned(key) or None  # the instance as a whole is no parameter of it
+
+    def owned(self, key: Key) -> Key:
+        """Return a path below a parameter as one below the object that was handed in for it."""
+        for length in range(len(key), 1, -1):
+            if key[:length] in self.handed_in:
+                return (*self.handed_in[key[:length]], *key[length:])
+        return key
 
     def _root(self, expression: ast.Expression) -> Key | None:
         if isinstance(expression, ast.ItExpression):

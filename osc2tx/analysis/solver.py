@@ -20,6 +20,7 @@ from osc2tx.analysis.domains import (
     intersect,
 )
 from osc2tx.analysis.forward import evaluate
+from osc2tx.analysis.order import disorder
 from osc2tx.analysis.tape import Key, Tape
 from osc2tx.light_dataclass import dataclass
 
@@ -81,7 +82,7 @@ def solve(tapes: Sequence[Tape], active: Sequence[int]) -> Solution:
                 if user not in waiting:
                     waiting.add(user)
                     queue.append(user)
-    return Solution(state.domains)
+    return Solution(state.domains, disorder(tapes, active))
 
 
 def smallest_conflict(tapes: Sequence[Tape], conflict: Sequence[int]) -> tuple[int, ...]:

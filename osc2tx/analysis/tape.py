@@ -157,7 +157,10 @@ class TapeWriter:
 
     def _children(self, node: ast.Expression) -> tuple[ast.Expression, ...]:
         match node:
-            case ast.Unary(operator=ast.UnaryOperator.NEGATE, operand=ast.IntegerLiteral()):
+            case ast.Unary(
+                operator=ast.UnaryOperator.NEGATE,
+                operand=ast.IntegerLiteral() | ast.PhysicalLiteral(),
+            ):
                 return ()
             case ast.Unary():
                 return (node.operand,)
@@ -191,6 +194,10 @@ class TapeWriter:
                 operator=ast.UnaryOperator.NEGATE, operand=ast.IntegerLiteral(value=value)
             ):
                 return tape.add(Operation("const", "int", point(-value), node=node))
+            case ast.Unary(
+                operator=ast.UnaryOperator.NEGATE, operand=ast.PhysicalLiteral() as literal
+            ):
+                return self._physical(tape, literal, -1)
             case ast.Unary(operator=ast.UnaryOperator.NOT):
                 return tape.add(Operation("not", "bool", ANY_BOOL, tuple(operands), node=node))
             case ast.Unary():
@@ -216,11 +223,11 @@ class TapeWriter:
             value = float(value)
         return tape.add(Operation("const", kind, point(value), node=node))
 
-    def _physical(self, tape: Tape, node: ast.PhysicalLiteral) -> int:
+    def _physical(self, tape: Tape, node: ast.PhysicalLiteral, sign: int = 1) -> int:
         unit = self._model.units.get(node)
         if unit is None:
             return self._any(tape, node)
-        value = to_si(float(node.value), unit)
+        value = to_si(sign * float(node.value), unit)
         return tape.add(Operation("const", "float", point(value), node=node))
 
     def _any(self, tape: Tape, node: ast.Expression) -> int:

@@ -86,7 +86,7 @@ class BuildResult:
 
     @property
     def bugs(self) -> tuple[str, ...]:
-        """Mistakes of osc2tx itself; their sources make nothing."""
+        """Mistakes of osc2tx itself; what they concern is not made."""
         return tuple(result.bug for result in self.results if result.bug)
 
     def remaining(self) -> tuple[Change, ...]:

@@ -93,13 +93,22 @@ def run_all(
     return tuple(bug for bug in bugs if bug)
 
 
-def find_bug(compilation: Compilation, stages: Callable[[Compilation], object]) -> str:
-    """Run stages on a file; return what mistake of osc2tx itself it shows, if any."""
+def find_bug(
+    compilation: Compilation, stages: Callable[[Compilation], object], place: str = ""
+) -> str:
+    """Run stages on a file; return what mistake of osc2tx itself it shows, if any.
+
+    Args:
+        compilation: The file.
+        stages: What to do with it.
+        place: What the stages make, if only some of them run.
+    """
+    told = f"{compilation.path}: internal error{place and f' in {place}'}"
     try:
         stages(compilation)
     except InternalCompilerError as error:
-        return f"{compilation.path}: internal error: {error}"
+        return f"{told}: {error}"
     except Exception as error:  # whatever it is, it is ours, and the other files need not wait
         trace = "".join(format_exception(error))
-        return f"{trace}{compilation.path}: internal error: {error!r}"
+        return f"{trace}{told}: {error!r}"
     return ""

@@ -175,7 +175,7 @@ def find_orphans(
     Args:
         manifest: The manifest.
         placed: What the sources make.
-        results: What became of the sources; those with errors keep their outputs.
+        results: What became of the sources; those with errors, or bugs of ours, keep their outputs.
         folders: The folders of sources that were named; without any, nothing is known of sources
             that are not among the results.
         folder: The output folder.
@@ -185,7 +185,9 @@ def find_orphans(
     failed = {
         result.job.name
         for result in results
-        if not result.is_complete or (result.outputs and result.job.name not in having)
+        if not result.is_complete
+        or result.bug
+        or (result.outputs and result.job.name not in having)
     }
     compiled = {r.job.name for r in results} - failed
     targets = {result.job.name: result.job.options.target for result in results}

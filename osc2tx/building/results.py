@@ -87,11 +87,24 @@ class FileResult:
 
 
 def compile_job(job: Job) -> FileResult:
-    """Compile a file to its outputs."""
+    """Compile a file to its outputs; a mistake of one back end costs only what that one makes."""
     compilation = job.compilation()
+    bug = find_bug(compilation, lambda item: item.is_supported)
+    if bug:
+        return _result(job, compilation, bug)
     outputs: list[Output] = []
-    bug = find_bug(compilation, lambda item: outputs.extend(item.outputs()))
-    return _result(job, compilation, bug, outputs=outputs, losses=() if bug else compilation.losses)
+    losses: list[LossEntry] = []
+
+    def write_xml(item: Compilation) -> None:
+        outputs.extend(item.xml_outputs())
+        losses.extend(item.losses)
+
+    bugs = (
+        find_bug(compilation, lambda item: outputs.extend(item.module_outputs()), "the module"),
+        find_bug(compilation, write_xml, "OpenSCENARIO XML"),
+    )
+    bug = "\n".join(filter(None, bugs))
+    return _result(job, compilation, bug, outputs=outputs, losses=tuple(losses))
 
 
 def check_job(job: Job) -> FileResult:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
@@ -33,35 +35,33 @@ def fmt(
     if show_diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
     compilations = compile_all(paths, given)
-    bugs = run_all(compilations, lambda compilation: compilation.formatted)
+    formatted: dict[Path, str] = {}
+
+    def format_one(compilation: Compilation) -> None:
+        text = compilation.formatted
+        if text is not None and compilation.path.read_bytes() != text.encode():
+            formatted[compilation.path] = text
+
+    bugs = run_all(compilations, format_one)
     code, _ = reporter.report(compilations, bugs)
-    changed = [compilation for compilation in compilations if _changes(compilation)]
-    for compilation in changed:
+    for path, text in formatted.items():
         if show_diff:
-            text = compilation.path.read_bytes().decode("utf-8")
-            print_diff(str(compilation.path), text, compilation.formatted)
+            print_diff(str(path), path.read_bytes().decode("utf-8"), text)
         elif check_only:
-            complain(f"{compilation.path}: is not formatted")
+            complain(f"{path}: is not formatted")
         else:
-            code = max(code, _write(compilation))
+            code = max(code, _write(path, text))
     would = "would be " if check_only or show_diff else ""
     total = count_of(len(compilations), "file")
     say = complain if show_diff else reporter.say
-    say(f"{len(changed)} of {total} {would}formatted")
-    return max(code, Exit.STALE) if changed and (check_only or show_diff) else code
+    say(f"{len(formatted)} of {total} {would}formatted")
+    return max(code, Exit.STALE) if formatted and (check_only or show_diff) else code
 
 
-def _changes(compilation: Compilation) -> bool:
-    if "formatted" not in vars(compilation) or compilation.formatted is None:
-        return False
-    return compilation.path.read_bytes() != compilation.formatted.encode()
-
-
-def _write(compilation: Compilation) -> Exit:
-    assert compilation.formatted is not None
+def _write(path: Path, text: str) -> Exit:
     try:
-        replace_file(compilation.path.resolve(), compilation.formatted.encode())
+        replace_file(path.resolve(), text.encode())
     except OSError as error:
-        complain(f"{compilation.path}: cannot be written: {error.strerror}")
+        complain(f"{path}: cannot be written: {error.strerror}")
         return Exit.UNREADABLE
     return Exit.OK

@@ -123,6 +123,7 @@ CODES = _table(
     Code("OSC320", "event-specification", ERROR, "It excludes parameters.", "7.3.10"),
     Code("OSC321", "invalid-extension", ERROR, "This cannot be extended so.", "7.3.9"),
     Code("OSC322", "same-dimension", ERROR, "Two types have one dimension.", "7.3.4"),
+    Code("OSC323", "reversed-range", WARNING, "The upper bound stands first.", "7.3.5.2.2"),
     # --- 4xx behaviors, modifiers and constraints ---
     Code("OSC401", "several-do", ERROR, "A behavior has more than one `do`.", "7.3.13"),
     Code("OSC402", "unknown-argument", ERROR, "No parameter has this name.", "7.3.5.1.3"),

@@ -15,34 +15,21 @@ of the source, which is checked before the text is returned.
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, SourceFile
 from osc2tx.formatter.blanks import join_lines
 from osc2tx.formatter.lines import read_lines
-from osc2tx.syntax import parse
 from osc2tx.syntax.token_source import TokenSource
 from osc2tx.syntax.tokens import TokenTable
 
 __all__ = ["format_source"]
 
 
-def format_source(
-    source: SourceFile, sink: DiagnosticSink, *, allow: Collection[str] = frozenset()
-) -> str | None:
-    """Return the text of a file as the style guide wants it (§9.2.2).
+def format_source(source: SourceFile) -> str:
+    """Return the text of a file as the style guide wants it (§9.2.2), lines ended by LF.
 
     Args:
-        source: The text.
-        sink: Where syntax errors go.
-        allow: Codes of deviations that are fine in the dialect at hand, as for `parse`.
-
-    Returns:
-        The text, lines ended by LF; `None` if the source has syntax errors.
+        source: The text, without syntax errors.
     """
-    parse(source, sink, allow=allow)
-    if sink.has_errors:
-        return None
     table = _scan(source)
     formatted = join_lines(read_lines(table))
     if _content(_scan(SourceFile(source.name, formatted))) != _content(table):

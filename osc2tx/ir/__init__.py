@@ -2,7 +2,7 @@
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
 Modules, in reading order: `values`, `expressions`, `operations`, `behaviors`, `coverage`, `nodes`;
-then `verify` (the invariants) and `dump` (the printable form).
+then `rewrite`, `verify` (the invariants) and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -45,6 +45,7 @@ from osc2tx.ir.expressions import (
     EventArgument,
     Expression,
     FieldRef,
+    InvokedValue,
     ListValue,
     Literal,
     MethodCall,
@@ -88,8 +89,11 @@ from osc2tx.ir.operations import (
     ListOperation,
     ListOperator,
     Lookup,
+    OwnShape,
     TypeTest,
 )
+from osc2tx.ir.rewrite import rewrite
+from osc2tx.ir.show import show, show_arguments
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
@@ -133,6 +137,7 @@ __all__ = [
     "InnerEvent",
     "Invoke",
     "InvokeScenario",
+    "InvokedValue",
     "Kind",
     "LabelEvent",
     "Level",
@@ -151,6 +156,7 @@ __all__ = [
     "OneOf",
     "Override",
     "OwnField",
+    "OwnShape",
     "OwnType",
     "Parallel",
     "Parameter",
@@ -175,6 +181,9 @@ __all__ = [
     "constant",
     "dump_ir",
     "is_live",
+    "rewrite",
+    "show",
+    "show_arguments",
     "verify",
     "walk",
     "walk_behaviors",

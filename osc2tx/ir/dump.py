@@ -78,7 +78,8 @@ def _own_type(own: OwnType) -> Iterator[str]:
 
 def _scenario(scenario: Scenario) -> Iterator[str]:
     origin = f" of {scenario.span.source.name}" if scenario.is_imported else ""
-    yield f"scenario {scenario.name}{origin} @{scenario.span.line}"
+    word = "action" if scenario.is_action else "scenario"
+    yield f"{word} {scenario.name}{origin} @{scenario.span.line}"
     for declaration in scenario.declarations:
         yield from _indented(_declaration(declaration))
     for method in scenario.methods:

@@ -14,6 +14,7 @@ from osc2tx.ir.operations import (
     Index,
     ListOperation,
     Lookup,
+    OwnShape,
     TypeTest,
 )
 from osc2tx.ir.values import ExpressionBase, Unit
@@ -77,6 +78,14 @@ class EventArgument(ExpressionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class InvokedValue(ExpressionBase):
+    """A parameter of a scenario that is invoked with a label, known once that stands."""
+
+    label: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Attribute(ExpressionBase):
     """A member of an actor or struct, `hero.speed`.
 
@@ -113,6 +122,7 @@ class MethodCall(ExpressionBase):
         method: Its name.
         arguments: In source order.
         is_pure: The result depends on object and arguments alone, not on the world.
+        needs_no_object: The result depends on the arguments alone.
     """
 
     base: Expression
@@ -120,6 +130,7 @@ class MethodCall(ExpressionBase):
     method: str
     arguments: tuple[Argument, ...]
     is_pure: bool = False
+    needs_no_object: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -174,6 +185,7 @@ Expression: TypeAlias = (
     | ParameterRef
     | ScenarioSelf
     | EventArgument
+    | InvokedValue
     | Attribute
     | MethodCall
     | Unary
@@ -190,6 +202,7 @@ Expression: TypeAlias = (
     | Lookup
     | TypeTest
     | Downcast
+    | OwnShape
 )
 
 
@@ -204,13 +217,15 @@ def children(expression: Expression) -> tuple[Expression, ...]:
             | ParameterRef()
             | ScenarioSelf()
             | EventArgument()
+            | InvokedValue()
             | Element()
         ):
             return ()
         case Attribute(base=base):
             return (base,)
         case MethodCall(base=base, arguments=arguments):
-            return (base, *(argument.value for argument in arguments))
+            values = tuple(argument.value for argument in arguments)
+            return values if expression.needs_no_object else (base, *values)
         case ListOperation(base=base, argument=argument):
             return (base,) if argument is None else (base, argument)
         case Index(base=base, index=index):
@@ -221,6 +236,7 @@ def children(expression: Expression) -> tuple[Expression, ...]:
             | Lookup(operand=operand)
             | TypeTest(operand=operand)
             | Downcast(operand=operand)
+            | OwnShape(operand=operand)
         ):
             return (operand,)
         case Binary(left=left, right=right):

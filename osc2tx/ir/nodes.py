@@ -24,7 +24,14 @@ class DeclarationBase:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FieldValue:
-    """A field of an actor or struct that a constraint fixes; `path` below the object."""
+    """A field of an actor or struct that a constraint fixes.
+
+    Attributes:
+        path: Members below the object; behind a list the number of an element of it.
+        value: What it is.
+        span: Of the value.
+        comments: Comment lines of the constraint.
+    """
 
     path: tuple[str, ...]
     value: Expression
@@ -40,11 +47,13 @@ class Actor(DeclarationBase):
         type: Its actor type.
         lineage: The type and its library ancestors, most derived first.
         values: What constraints fix about it.
+        is_given: Only an invoker knows all that there is to say of it, and has to hand it in.
     """
 
     type: str
     lineage: tuple[str, ...]
     values: tuple[FieldValue, ...]
+    is_given: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -215,6 +224,7 @@ class Scenario:
         coverage: What is sampled for coverage.
         is_invoked: A scenario of the module invokes it.
         is_imported: It stands here because a scenario of the file invokes it.
+        is_action: It is an action that says what it does.
     """
 
     name: str
@@ -230,6 +240,7 @@ class Scenario:
     constraints: tuple[Constraint, ...] = ()
     is_invoked: bool = False
     is_imported: bool = False
+    is_action: bool = False
 
     @property
     def key(self) -> str:

@@ -79,6 +79,23 @@ class Downcast(ExpressionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OwnShape(ExpressionBase):
+    """A shape with methods of the scenario's own, as the course of what a modifier controls.
+
+    Attributes:
+        operand: The object.
+        kind: The shape of the library that it derives from, `any_speed_shape`.
+        compute: Name of its method `compute`, as that of the scenario.
+        duration: Likewise; `None`: it goes on as long as the action.
+    """
+
+    operand: Expression
+    kind: str
+    compute: str
+    duration: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class HalfRange(ExpressionBase):
     """A range with one bound; `is_lower` if that is the lower one."""
 

@@ -13,6 +13,7 @@ from osc2tx.ir.expressions import (
     EventArgument,
     Expression,
     FieldRef,
+    InvokedValue,
     ListValue,
     Literal,
     MethodCall,
@@ -31,6 +32,7 @@ from osc2tx.ir.operations import (
     Index,
     ListOperation,
     Lookup,
+    OwnShape,
     TypeTest,
 )
 
@@ -57,6 +59,8 @@ def show(expression: Expression) -> str:
             return "it"
         case EventArgument(event=event, parameter=parameter):
             return f"@{event}.{parameter}"
+        case InvokedValue(label=label, name=name):
+            return f"{label}.{name}"
         case Attribute(base=base, name=name):
             return f"{show(base)}.{name}"
         case MethodCall(base=base, method=method, arguments=arguments):
@@ -70,6 +74,8 @@ def show(expression: Expression) -> str:
             return f"{show(base)}[{show(index)}]"
         case Conversion(operand=operand, type=type_) | Downcast(operand=operand, type=type_):
             return f"{show(operand)}.as({type_.name})"
+        case OwnShape(operand=operand):
+            return show(operand)
         case Lookup(operand=operand, type=type_):
             return f"{show(operand)}.as({type_.name})"
         case TypeTest(operand=operand, tested=tested):

@@ -14,13 +14,16 @@ from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_arguments, lower_expression
 from osc2tx.lowering.invocations import InvocationLowering, label_of
-from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.names import composition_name
 from osc2tx.lowering.triggers import declares_event, lower_trigger, lower_until
+from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
 # Life-cycle events that a scenario may emit, and whether it succeeds then.
 FINISHING = {"end": True, "fail": False}
+
+# Those that `on` can react to at the place where they occur.
+BOUNDARIES = frozenset({"start", "end"})
 
 
 class _CompositionFields(TypedDict):
@@ -57,14 +60,8 @@ class BehaviorLowering:
     def lower_on(self, node: ast.OnDirective) -> ir.On | None:
         """Lower an `on` directive; its reactions take no time."""
         trigger = lower_trigger(self._ctx, node.event)
-        reactions: list[ir.Emit | ir.Finish | ir.Call | None] = []
-        for member in node.members:
-            comments = statement_comments(member)
-            if isinstance(member, ast.EmitDirective):
-                reactions.append(self._finish(member, comments) or self._emit(member, comments))
-            else:
-                reactions.append(self._call(member, comments))
-        if trigger is None or not present(reactions):
+        reactions = self.reactions(node)
+        if trigger is None or not reactions:
             return None
         return ir.On(
             span=node.span,
@@ -72,8 +69,31 @@ class BehaviorLowering:
             name=f"on {condensed(node.event.span.text)}",
             comments=statement_comments(node),
             trigger=trigger,
-            reactions=present(reactions),
+            reactions=reactions,
         )
+
+    def reactions(self, node: ast.OnDirective) -> tuple[ir.Emit | ir.Finish | ir.Call, ...]:
+        """Return what an `on` directive does; its own comments are not among theirs."""
+        reactions: list[ir.Emit | ir.Finish | ir.Call | None] = []
+        for member in node.members:
+            comments = statement_comments(member)
+            if isinstance(member, ast.EmitDirective):
+                reactions.append(self._finish(member, comments) or self._emit(member, comments))
+            else:
+                reactions.append(self._call(member, comments))
+        return present(reactions)
+
+    def at_boundary(self, nodes: Sequence[ast.OnDirective], moment: str) -> tuple[ir.Behavior, ...]:
+        """Return what directives do at the start or end of the scenario: they frame its body."""
+        found: list[ir.Behavior] = []
+        for node in nodes:
+            if boundary_of(self._ctx, node) == moment:
+                reactions: list[ir.Behavior] = list(self.reactions(node))
+                if reactions:
+                    comments = (*statement_comments(node), *reactions[0].comments)
+                    reactions[0] = replace(reactions[0], comments=comments)
+                found += reactions
+        return tuple(found)
 
     def lower(self, node: ast.BehaviorMember, *, below_root: bool = False) -> ir.Behavior | None:
         """Lower a member; `None` if it was refused."""
@@ -114,7 +134,7 @@ class BehaviorLowering:
         members: tuple[ir.Behavior, ...] = present(lowered)
         if not members:
             return None
-        self._refuse_other_members(node.with_members)
+        self._invocations.refuse_movement(node, None, None, "a composition")
         arguments = self._composition_arguments(node)
         kept = {
             argument.parameter: argument.value
@@ -155,20 +175,6 @@ class BehaviorLowering:
 
     def _time(self, value: ast.Expression | None) -> ir.Expression | None:
         return None if value is None else lower_expression(self._ctx, value)
-
-    def _refuse_other_members(self, members: Sequence[ast.WithMember]) -> None:
-        for member in members:
-            match member:
-                case ast.UntilDirective():
-                    pass
-                case ast.ModifierApplication() if is_override(self._ctx, member):
-                    pass  # see `lower_overrides`
-                case ast.ModifierApplication(modifier=modifier):
-                    self._ctx.unsupported(
-                        "OSC508", member.span, f"modifier `{modifier}` of a composition"
-                    )
-                case ast.KeepConstraint() | ast.RemoveDefault():
-                    pass  # see `kept_arguments`
 
     def _call(self, node: ast.CallDirective, comments: tuple[str, ...]) -> ir.Call | None:
         call = lower_call(self._ctx, node)
@@ -211,6 +217,16 @@ class BehaviorLowering:
             event=ir.EventRef(span=node.event.span, name=node.event.text),
             arguments=arguments,
         )
+
+
+def boundary_of(ctx: LoweringContext, node: ast.OnDirective) -> str | None:
+    """Return `start` or `end` if a directive reacts to that of the scenario itself."""
+    event = node.event
+    symbol = None if event.event is None else ctx.model.symbol_of(event.event)
+    is_plain = isinstance(event.event, ast.NameExpression) and event.condition is None
+    if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
+        return None
+    return symbol.name if symbol.name in BOUNDARIES else None
 
 
 def _overlap(value: ast.Expression | None) -> str | None:

@@ -6,13 +6,18 @@ or one added to a plain type: its first parameter then is the object, which is `
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx import ir
+from osc2tx.lowering.composed import is_composed
 from osc2tx.lowering.context import LoweringContext, Receiver
-from osc2tx.lowering.expressions import lower_arguments, lower_expression, lower_type
+from osc2tx.lowering.expressions import lower_arguments, lower_expression
 from osc2tx.lowering.external import lower_external
+from osc2tx.lowering.overriding import dispatched, overriding_methods
+from osc2tx.lowering.shapes import is_left_open
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
@@ -28,7 +33,13 @@ PURE_METHODS = frozenset(
     | {f"map.create_{name}" for name in ("route_point", "xyz_point", "odr_point")}
     | {f"map.create_path{name}" for name in ("", "_odr_points", "_route_points")}
     | {f"map.create_trajectory{name}" for name in ("", "_odr_points", "_route_points")}
+    | {f"any_{kind}_shape.compute" for kind in ("acceleration", "lateral", "position", "speed")}
+    | {"any_shape.duration"}
+    | {"position_3d.norm", "translational_velocity_3d.norm", "translational_acceleration_3d.norm"}
 )
+
+# Of these the ones that ask not even their object.
+STATIC_METHODS = frozenset({"environment.local_to_unix_time"})
 
 
 def lower_call(ctx: LoweringContext, node: CallNode) -> ir.Expression | None:
@@ -45,6 +56,9 @@ def lower_call(ctx: LoweringContext, node: CallNode) -> ir.Expression | None:
     base = _receiver(ctx, node, binding.receiver)
     if base is None or callee.owner is None:
         return None
+    if binding.receiver is not None and is_left_open(ctx, callee, binding.receiver):
+        _report_undefined(ctx, node, callee)
+        return None
     return ir.MethodCall(
         span=node.span,
         type=lower_type(callee.result),
@@ -54,6 +68,7 @@ def lower_call(ctx: LoweringContext, node: CallNode) -> ir.Expression | None:
         arguments=lower_arguments(ctx, binding, node.arguments),
         is_pure=isinstance(callee.owner, sym.PrimitiveSymbol)
         or f"{callee.owner.name}.{callee.name}" in PURE_METHODS,
+        needs_no_object=f"{callee.owner.name}.{callee.name}" in STATIC_METHODS,
     )
 
 
@@ -93,26 +108,26 @@ def _lower_operator(
 def _lower_own(
     ctx: LoweringContext, node: CallNode, binding: Binding, callee: sym.MethodSymbol
 ) -> ir.Expression | None:
-    if callee.node is None or isinstance(callee.node.body, ast.UndefinedBody):
-        ctx.unsupported(
-            "OSC503",
-            node.span,
-            f"method `{callee.name}` is undefined",
-            help="override it, `is only expression …`, in a type that extends this one",
-        )
+    if _is_undefined(callee) and not overriding_methods(ctx, callee):
+        _report_undefined(ctx, node, callee)
         return None
     arguments = lower_arguments(ctx, binding, node.arguments)
-    if isinstance(callee.node.body, ast.ExternalBody):
+    if callee.node is not None and isinstance(callee.node.body, ast.ExternalBody):
         arguments = _in_order(ctx, callee, arguments)
-    name = callee.name
-    if not isinstance(callee.owner, sym.ScenarioSymbol):
+    if isinstance(callee.owner, sym.ModifierSymbol):
+        arguments += tuple(_late_defaults(ctx, callee, arguments))
+        return _in_place(ctx, node, callee, arguments)
+    name, inside = callee.name, ctx
+    if not is_composed(callee.owner) and callee.owner is not None:
         name = method_name(callee)
         base = _receiver(ctx, node, binding.receiver)
         if base is None:
             return None
+        inside = ctx.inside(Receiver(callee.owner, base))
         object_ = ir.Argument(parameter="", value=base, is_positional=True, span=base.span)
         arguments = (object_, *arguments)
         ctx.methods.setdefault(name, callee)
+    arguments += tuple(_late_defaults(inside, callee, arguments))
     return ir.MethodCall(
         span=node.span,
         type=lower_type(callee.result),
@@ -122,6 +137,67 @@ def _lower_own(
         arguments=arguments,
         is_pure=is_pure(ctx, callee),
     )
+
+
+def _late_defaults(
+    ctx: LoweringContext, callee: sym.MethodSymbol, given: tuple[ir.Argument, ...]
+) -> Iterator[ir.Argument]:
+    """Yield what a call leaves out and only the call can compute (§7.3.7)."""
+    names = {argument.parameter for argument in given}
+    for parameter in callee.parameters:
+        if parameter.name in names or parameter.default is None or _default(ctx, parameter):
+            continue
+        value = lower_expression(ctx, parameter.default)
+        if value is not None:
+            yield ir.Argument(
+                parameter=parameter.name, value=value, is_positional=False, span=value.span
+            )
+
+
+def _default(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.Expression | None:
+    """Return the default of a parameter if the function itself can have it: a constant."""
+    if parameter.default is None:
+        return None
+    lowered = lower_expression(ctx.quiet(), parameter.default)
+    late = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
+    if lowered is None or any(isinstance(part, late) for part in ir.walk(lowered)):
+        return None
+    return None if ir.is_live(lowered) else lowered
+
+
+def _in_place(
+    ctx: LoweringContext,
+    node: CallNode,
+    callee: sym.MethodSymbol,
+    given: tuple[ir.Argument, ...],
+) -> ir.Expression | None:
+    """Return the body of a modifier's method: like the modifier, it belongs to one invocation."""
+    body = None if callee.node is None else callee.node.body
+    if not isinstance(body, ast.ExpressionBody) or callee.name in ctx.expanding:
+        ctx.unsupported(
+            "OSC503",
+            node.span,
+            f"`{callee.name}` of a modifier is no plain expression",
+            help="declare it in the scenario",
+        )
+        return None
+    ctx = replace(ctx, expanding=(*ctx.expanding, callee.name))
+    for argument in _in_order(ctx, callee, given):
+        ctx = ctx.with_local(argument.parameter, argument.value)
+    return lower_expression(ctx, body.expression)
+
+
+def _report_undefined(ctx: LoweringContext, node: CallNode, callee: sym.MethodSymbol) -> None:
+    ctx.unsupported(
+        "OSC503",
+        node.span,
+        f"method `{callee.name}` is undefined",
+        help="override it, `is only expression …`, in a type that extends this one",
+    )
+
+
+def _is_undefined(method: sym.MethodSymbol) -> bool:
+    return method.node is None or isinstance(method.node.body, ast.UndefinedBody)
 
 
 def _in_order(
@@ -167,11 +243,12 @@ def lower_method(
 ) -> ir.Method | None:
     """Lower a method with a body; one of a type takes the object as its first parameter."""
     node = method.node
-    if node is None or isinstance(node.body, ast.UndefinedBody):
+    overriding = overriding_methods(ctx, method)
+    if node is None or (_is_undefined(method) and not overriding):
         return None
     parameters = tuple(_parameter(ctx, parameter) for parameter in method.parameters)
     name = method.name
-    if method.owner is not None and not isinstance(method.owner, sym.ScenarioSymbol):
+    if method.owner is not None and not is_composed(method.owner):
         name = method_name(method)
         is_plain = isinstance(method.owner, sym.PrimitiveSymbol)
         own = ir.MethodParameter(
@@ -185,10 +262,12 @@ def lower_method(
     expression, external = None, None
     if isinstance(node.body, ast.ExternalBody):
         external = lower_external(ctx, method, node.body)
-    else:
+    elif isinstance(node.body, ast.ExpressionBody):
         expression = lower_expression(ctx, node.body.expression)
-    if expression is None and external is None:
+    if expression is None and external is None and not _is_undefined(method):
         return None
+    if overriding and ctx.receiver is not None:
+        expression = dispatched(ctx, ctx.receiver.value, parameters, overriding, expression)
     return ir.Method(
         name=name,
         span=node.span,
@@ -201,11 +280,8 @@ def lower_method(
 
 
 def _parameter(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.MethodParameter:
-    default = parameter.default
     return ir.MethodParameter(
-        name=parameter.name,
-        type=lower_type(parameter.type),
-        default=None if default is None else lower_expression(ctx, default),
+        name=parameter.name, type=lower_type(parameter.type), default=_default(ctx, parameter)
     )
 
 

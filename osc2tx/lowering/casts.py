@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.expressions import lower_expression, lower_type, member_of
+from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.references import member_of
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.conversions import symbol_of
@@ -42,8 +44,9 @@ def lower_cast(ctx: LoweringContext, node: ast.Cast) -> ir.Expression | None:
         case types.ActorType(symbol=given), types.ActorType(symbol=wanted):
             if is_subtype(given, wanted):
                 return operand
-            if wanted.condition is None:
-                return ir.Downcast(span=span, type=type_, operand=operand)
+            if wanted.origin == "user":
+                ctx.types.append(wanted)
+            return ir.Downcast(span=span, type=type_, operand=operand)
     if source == target:
         return operand
     ctx.unsupported("OSC503", span, f"a `{source}` cannot be converted to `{target}` yet")
@@ -75,8 +78,11 @@ def _tests(
 ) -> Iterator[ir.Expression]:
     """Yield what must hold for an object to be of a subtype, from the general to the special."""
     below = [type_ for type_ in supertypes(wanted) if not is_subtype(given, type_)]
+    plain = [type_ for type_ in below if getattr(type_, "condition", None) is None]
     for type_ in reversed(below):
         condition = getattr(type_, "condition", None)
+        if condition is None and type_ is not plain[0]:
+            continue  # what is of the most special of them is of the others
         if condition is None:
             yield ir.TypeTest(span=span, type=BOOL, operand=operand, tested=type_.name)
             continue

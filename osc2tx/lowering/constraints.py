@@ -18,10 +18,12 @@ from osc2tx.analysis.domains import TRUE, Choice, Domain, hull
 from osc2tx.analysis.solver import values_on
 from osc2tx.analysis.tape import Key, domain_of_type
 from osc2tx.light_dataclass import dataclass
+from osc2tx.lowering.composed import Composed, is_composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.domains import DomainWriter, all_values, as_type, written_domain
 from osc2tx.lowering.equations import solve_for
 from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, asks_the_map
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
@@ -69,7 +71,7 @@ class ConstraintLowering:
     _used: set[Constraint] = field(default_factory=set)
 
     @classmethod
-    def of_scenario(cls, ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> ConstraintLowering:
+    def of_scenario(cls, ctx: LoweringContext, scenario: Composed) -> ConstraintLowering:
         """Take the constraints of a scenario."""
         found = ctx.analysis.types[scenario]
         return cls(ctx, found, dict(found.domains_to_set()))
@@ -86,7 +88,7 @@ class ConstraintLowering:
 
     def setting(self, key: Key, type_: types.Type) -> Setting:
         """Return what is known of a parameter; its constraints count as written from now on."""
-        mentioned = self.found.by_key.get(key, ())
+        mentioned = tuple(c for c in self.found.by_key.get(key, ()) if _is_known_here(c, key))
         own = [c for c in mentioned if c.subject == key and c.value is not None]
         if isinstance(type_, types.ListType | types.RangeType):
             own = [c for c in own if not c.is_range]  # what is in it is left to a check
@@ -131,11 +133,19 @@ class ConstraintLowering:
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
-            if any(c.place.prefix for c in mentioned if c.subject == key):
+            if any(c.place.prefix[:1] == (node,) for c in mentioned if c.subject == key):
                 continue  # the invoked scenario says it of itself
             setting = self.setting(key, parameter.type)
             if not setting.is_empty:
                 yield parameter, setting
+
+    def says_all(self, setting: Setting, key: Key) -> bool:
+        """Whether what is written of a parameter makes all constraints on it true."""
+        return all(c in setting.constraints for c in self.found.by_key.get(key, ()))
+
+    def use(self, constraint: Constraint) -> None:
+        """Note that a constraint is written: nothing of it is left to a check."""
+        self._used.add(constraint)
 
     def left_over(self) -> tuple[ir.Constraint, ...]:
         """Return what has to be checked before the run; ask last."""
@@ -149,13 +159,27 @@ class ConstraintLowering:
         assert constraint.value is not None
         return lower_expression(self.ctx.at(constraint.place), constraint.value)
 
-    @staticmethod
-    def _authored(writer: DomainWriter) -> ir.Expression | None:
+    def _authored(self, writer: DomainWriter) -> ir.Expression | None:
         """Return what a longer constraint sets a parameter to.
 
-        Objects are not set by what is set to them: `keep(it.group == street)` is about `it`.
+        Objects are not set by what is set to them: `keep(it.group == street)` is about `it`. Nor
+        are members of objects by what is known from them alone: `keep(gap == ego.rear_overhang)`.
         """
-        return None if isinstance(writer.type, types.StructType) else writer.equality()
+        if isinstance(writer.type, types.StructType):
+            return None
+        return writer.equality([c for c in writer.constraints if self._defines(c, writer.key)])
+
+    def _defines(self, constraint: Constraint, member: Key) -> bool:
+        """Whether a constraint is all that says what another parameter is, by a member."""
+        subject = constraint.subject
+        if subject is None or subject == member:
+            return False
+        if constraint in self._used:
+            return True
+        if len(member) == 1:
+            return False
+        about = self.found.by_key.get(subject, ())
+        return [c for c in about if c.subject == subject and c.value is not None] == [constraint]
 
     def _domain(
         self, writer: DomainWriter, within: Constraint | None, hard: Domain
@@ -243,9 +267,13 @@ class ConstraintLowering:
         return values_on(constraint.tape, self._written)[-1] == TRUE
 
     def _is_left(self, constraint: Constraint) -> bool:
-        if constraint in self._used or constraint.origin == "argument":
+        if constraint.origin == "argument":
             return False
         prefix = constraint.place.prefix
+        if not prefix and not constraint.is_default and self._is_about_others(constraint):
+            return True
+        if constraint in self._used:
+            return False
         if prefix and isinstance(prefix[0], ast.Invocation) and self._checks_itself(prefix[0]):
             return False
         if self.found.owner is not None and constraint.place.owner is None:
@@ -256,10 +284,20 @@ class ConstraintLowering:
             return False  # the analysis saw that it holds
         return not self._holds(constraint)
 
+    def _is_about_others(self, constraint: Constraint) -> bool:
+        """Whether a constraint is about objects that are made elsewhere, and not known there.
+
+        Known is what is said of a single member of an object that the invocation names.
+        """
+        roots = {key[0] for key in constraint.tape.keys if len(key) > 1}
+        is_relation = len(constraint.tape.keys) > 1
+        return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
+
     def _checks_itself(self, invoked: ast.Invocation) -> bool:
         """Whether an invoked behavior sees to its own constraints: all but actions of the user."""
         callee = self.ctx.model.binding_of(invoked).callee
-        return not isinstance(callee, sym.ActionSymbol) or callee.origin != "user"
+        is_action = isinstance(callee, sym.ActionSymbol) and callee.origin == "user"
+        return not is_action or is_composed(callee)
 
     def _constraint(self, constraint: Constraint) -> ir.Constraint | None:
         node = constraint.node
@@ -269,17 +307,29 @@ class ConstraintLowering:
         if expression is None:
             return None
         if ir.is_live(expression):
-            self.ctx.unsupported(
-                "OSC502",
-                constraint.span,
-                "this constraint depends on the state of the world",
-                help="constraints hold between values that are known before the run; "
-                "wait for a condition, or end something at it",
-            )
+            if asks_the_map(expression):
+                what, instead = NOT_SEARCHED_BY, SEARCHED_BY
+            else:
+                what = "this constraint depends on the state of the world"
+                instead = (
+                    "constraints hold between values that are known before the run; "
+                    "wait for a condition, or end something at it"
+                )
+            self.ctx.unsupported("OSC502", constraint.span, what, help=instead)
             return None
         return ir.Constraint(
             expression=expression, span=constraint.span, comments=_comments(constraint)
         )
+
+
+def _is_known_here(constraint: Constraint, key: Key) -> bool:
+    """Whether a constraint can be written here: one of an invoked scenario only if it is alone.
+
+    It sets an object that is handed in; what else it speaks of is only known inside.
+    """
+    prefix = constraint.place.prefix
+    is_inside = bool(prefix) and isinstance(prefix[0], ast.Node)
+    return not is_inside or isinstance(key[0], ast.Node) or constraint.tape.keys == {key}
 
 
 def _is_last(key: Key, others: list[Key]) -> bool:

@@ -20,6 +20,7 @@ from osc2tx.semantics.symbols import (
     MethodSymbol,
     ScenarioSymbol,
     StructSymbol,
+    Symbol,
     TypeSymbol,
 )
 from osc2tx.syntax import ast
@@ -32,7 +33,7 @@ class Receiver:
     """The object whose members plain names mean, in the body of a method of its type."""
 
     owner: TypeSymbol
-    value: ir.ParameterRef
+    value: ir.Expression
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +45,9 @@ class LoweringContext:
         analysis: What its constraints allow.
         sink: Where complaints go.
         globals: The global parameters that the scenario uses, in order of use.
+        own_names: Names of the members of the scenario.
         event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
-        invoked: The scenarios that it invokes, in order of use.
+        invoked: The scenarios and composed actions that it invokes, in order of use.
         drawn: Parameters that stand for ranges in its tree, in order of use.
         place: Where the names in an expression are looked up, in constraints.
         it: What `it` is there.
@@ -54,17 +56,24 @@ class LoweringContext:
         given: Values of parameters of invocations that constraints may speak of.
         receiver: The object whose method an expression is the body of.
         methods: Methods of types that the scenario calls, by name, in order of use.
+        object_events: Events of its objects that it waits for, by path, in order of use.
         locals: What parameters stand for, where they are not those of a method.
         actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
+        expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
+        mentioned: The fields that some expression of the program speaks of.
+        handed_in: Parameters of invoked scenarios that some invocation gives a value.
+        computed: Those of them that some invocation gives no plain name.
+        object_types: The types of which the program may have objects.
     """
 
     model: SemanticModel
     analysis: ConstraintAnalysis
     sink: DiagnosticSink
     globals: dict[str, FieldSymbol] = field(default_factory=dict)
+    own_names: frozenset[str] = frozenset()
     event_fields: dict[int, str] = field(default_factory=dict)
-    invoked: list[ScenarioSymbol] = field(default_factory=list)
+    invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
     drawn: list[ir.Parameter] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
     actions: list[ActionSymbol] = field(default_factory=list)
@@ -73,9 +82,29 @@ class LoweringContext:
     given: dict[Key, ir.Expression] = field(default_factory=dict)
     receiver: Receiver | None = None
     methods: dict[str, MethodSymbol] = field(default_factory=dict)
+    object_events: dict[str, ir.Event | None] = field(default_factory=dict)
+    expanding: tuple[str, ...] = ()
     purity: dict[MethodSymbol, bool] = field(default_factory=dict)
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
     actor: ir.Expression | None = None
+    mentioned: frozenset[FieldSymbol] = frozenset()
+    handed_in: frozenset[Symbol] = frozenset()
+    computed: frozenset[Symbol] = frozenset()
+    object_types: tuple[TypeSymbol, ...] = ()
+
+    def of_scenario(self, own_names: frozenset[str]) -> LoweringContext:
+        """Return the context for another scenario of the same program, with such members."""
+        return replace(
+            self,
+            own_names=own_names,
+            globals={},
+            event_fields={},
+            invoked=[],
+            drawn=[],
+            given={},
+            methods={},
+            object_events={},
+        )
 
     def at(self, place: Place) -> LoweringContext:
         """Return the context for an expression of a constraint."""
@@ -102,23 +131,34 @@ class LoweringContext:
             invoked=[],
             drawn=[],
             methods=dict(self.methods),
+            object_events=dict(self.object_events),
         )
 
-    def draw(self, name: str, domain: ir.Domain, type_: ir.ValueType) -> ir.FieldRef:
+    def draw(
+        self, name: str, domain: ir.Domain | None, type_: ir.ValueType, span: Span | None = None
+    ) -> ir.FieldRef:
         """Return a value from a domain, as a parameter that one can set like any other.
 
         Its name has a blank or a dot, so that no plain name of the scenario can be the same.
+
+        Args:
+            name: The name.
+            domain: What it is drawn from; `None` if settings must give it.
+            type_: Its type.
+            span: Its place; without one it is the place of the domain.
         """
+        place = span or (domain.span if domain is not None else None)
+        assert place is not None
         taken = {parameter.name for parameter in self.drawn}
         number, unique = 1, name
         while unique in taken:
             number += 1
             unique = f"{name} {number}"
         parameter = ir.Parameter(
-            name=unique, span=domain.span, type=type_, value=None, domain=domain, is_fixed=False
+            name=unique, span=place, type=type_, value=None, domain=domain, is_fixed=False
         )
         self.drawn.append(parameter)
-        return ir.FieldRef(span=domain.span, type=type_, name=unique)
+        return ir.FieldRef(span=place, type=type_, name=unique)
 
     def unsupported(self, code: str, span: Span, what: str, help: str | None = None) -> None:
         """Report what cannot be lowered."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
+from osc2tx.lowering.composed import Composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
-from osc2tx.lowering.expressions import lower_expression, lower_type, lower_unit
+from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.triggers import declares_event
+from osc2tx.lowering.value_types import lower_type, lower_unit
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import to_si
 from osc2tx.semantics.coverage_items import Item, all_items_of, text_of
@@ -17,7 +19,7 @@ from osc2tx.syntax import ast
 MOMENTS = {"start": ir.Moment.START, "end": ir.Moment.END, "fail": ir.Moment.FAIL}
 
 
-def lower_coverage(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[ir.Coverage, ...]:
+def lower_coverage(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Coverage, ...]:
     """Return the items of a scenario, inherited ones included, that are not switched off."""
     overrides = dict(_overrides(scenario))
     lowered = []
@@ -32,7 +34,7 @@ def lower_coverage(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[
 
 
 def _overrides(
-    scenario: sym.ScenarioSymbol,
+    scenario: Composed,
 ) -> Iterator[tuple[str, dict[str, ast.Expression]]]:
     """Yield what overrides say, by item; the last word on an argument counts (§7.5.6)."""
     merged: dict[str, dict[str, ast.Expression]] = {}
@@ -48,7 +50,7 @@ def _overrides(
 
 def _lower(
     ctx: LoweringContext,
-    scenario: sym.ScenarioSymbol,
+    scenario: Composed,
     item: Item,
     arguments: dict[str, ast.Expression],
 ) -> ir.Coverage | None:
@@ -88,7 +90,7 @@ def _lower(
     )
 
 
-def _it_of(ctx: LoweringContext, scenario: sym.ScenarioSymbol, item: Item) -> LoweringContext:
+def _it_of(ctx: LoweringContext, scenario: Composed, item: Item) -> LoweringContext:
     """Return the context of an item in the `with` of a field: `it` is the field."""
     for ancestor in supertypes(scenario):
         field = ancestor.members.get(item.name)

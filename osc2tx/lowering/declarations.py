@@ -8,13 +8,17 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.calls import lower_method
+from osc2tx.lowering.composed import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.domains import all_values
-from osc2tx.lowering.expressions import lower_expression, lower_type
+from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.lists import lower_list
+from osc2tx.lowering.map_fields import asks_the_map
 from osc2tx.lowering.objects import ObjectLowering, lineage
 from osc2tx.lowering.paths import is_path, path_declarations, path_members
-from osc2tx.lowering.triggers import lower_trigger
+from osc2tx.lowering.triggers import event_parameter, lower_trigger
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
@@ -33,7 +37,7 @@ class DeclarationLowering:
     def __init__(
         self,
         ctx: LoweringContext,
-        scenario: sym.ScenarioSymbol,
+        scenario: Composed,
         statements: tuple[ast.Statement, ...],
         constraints: ConstraintLowering,
     ) -> None:
@@ -73,7 +77,8 @@ class DeclarationLowering:
                 symbol = self._ctx.globals[name]
                 constraints = ConstraintLowering.of_global(self._ctx, symbol)
                 comments = self._global_comments(symbol)
-                lowered[name] = _parameter(symbol, symbol.span, comments, constraints)
+                parameter = _parameter(symbol, symbol.span, comments, constraints)
+                lowered[name] = replace(parameter, name=name)
                 self.global_constraints += constraints.left_over()
         return tuple(
             replace(parameter, is_global=True)
@@ -87,15 +92,38 @@ class DeclarationLowering:
         return is_open and symbol.type.symbol.origin != "user" and self._is_given(symbol)
 
     def _has_value(self, symbol: sym.FieldSymbol) -> bool:
-        return symbol.default is not None or self._is_given(symbol)
+        if symbol.default is not None or self._is_given(symbol):
+            return True
+        setting = self._constraints.setting((symbol,), symbol.type)
+        return setting.value is not None
+
+    def _described(
+        self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Parameter | None:
+        """Lower a list that constraints describe by its elements."""
+        is_list = isinstance(symbol.type, types.ListType)
+        value = lower_list(self._ctx, symbol, self._constraints) if is_list else None
+        if value is None:
+            self._ctx.unsupported(
+                "OSC501",
+                span,
+                f"`{symbol.name}`, a {symbol.type}, has no value",
+                help="give it one, `= value`, or say what its elements are, `keep(it[0] == value)`",
+            )
+            return None
+        return ir.Parameter(
+            name=symbol.name,
+            span=span,
+            comments=comments,
+            type=lower_type(symbol.type),
+            value=value,
+            domain=None,
+            is_fixed=False,
+        )
 
     def _is_given(self, symbol: sym.FieldSymbol) -> bool:
         """Whether some invocation of the scenario gives a parameter a value."""
-        return any(
-            parameter is symbol
-            for binding in self._ctx.model.bindings.values()
-            for parameter, _ in binding.arguments
-        )
+        return symbol in self._ctx.handed_in
 
     def _global_comments(self, symbol: sym.FieldSymbol) -> tuple[str, ...]:
         statements = (s for file in self._ctx.model.files for s in file.statements)
@@ -143,20 +171,25 @@ class DeclarationLowering:
         symbol = self._scenario_member(name.text)
         if not isinstance(symbol, sym.FieldSymbol):
             return None
-        if isinstance(statement, ast.VariableDeclaration):
+        if isinstance(statement, ast.VariableDeclaration) and statement.default is not None:
             return self._variable(symbol, statement, comments)
+        # A variable without initial value has one all the same (§7.3.6.1.2): from outside.
         match symbol.type:
-            case types.ActorType(symbol=actor):
+            case types.ActorType():
+                actor = self._objects.type_of(symbol)
+                assert isinstance(actor, sym.ActorSymbol)
                 self._ctx.types.append(actor)
+                is_given = self._is_given(symbol) and self._objects.is_open(symbol)
                 return ir.Actor(
                     name=symbol.name,
                     span=name.span,
                     comments=comments,
                     type=actor.name,
                     lineage=lineage(actor),
-                    values=self._objects.values(symbol),
+                    values=() if is_given else self._objects.values(symbol),
+                    is_given=is_given,
                 )
-            case types.StructType(symbol=struct) if self._is_for_caller(symbol):
+            case types.StructType() if self._is_for_caller(symbol):
                 return ir.Parameter(
                     name=symbol.name,
                     span=name.span,
@@ -166,17 +199,13 @@ class DeclarationLowering:
                     domain=None,
                     is_fixed=False,
                 )
-            case types.StructType(symbol=struct):
+            case types.StructType():
+                struct = self._objects.type_of(symbol)
+                assert isinstance(struct, sym.StructSymbol)
                 self._ctx.types.append(struct)
                 return self._objects.struct(symbol, name.span, comments, lineage(struct))
             case types.ListType() | types.RangeType() if not self._has_value(symbol):
-                self._ctx.unsupported(
-                    "OSC501",
-                    name.span,
-                    f"`{symbol.name}`, a {symbol.type}, has no value",
-                    help="give it one, `= value`",
-                )
-                return None
+                return self._described(symbol, name.span, comments)
             case (
                 types.PrimitiveType()
                 | types.PhysicalType()
@@ -192,7 +221,7 @@ class DeclarationLowering:
                 return None
 
     def _scenario_member(self, name: str) -> sym.Member | None:
-        scenario: sym.ScenarioSymbol | None = self._scenario
+        scenario: Composed | None = self._scenario
         while scenario is not None:
             if name in scenario.members:
                 return scenario.members[name]
@@ -202,11 +231,6 @@ class DeclarationLowering:
     def _variable(
         self, field: sym.FieldSymbol, node: ast.VariableDeclaration, comments: tuple[str, ...]
     ) -> ir.Variable | None:
-        if node.default is None:
-            self._ctx.unsupported(
-                "OSC501", node.span, "a variable without initial value is not supported yet"
-            )
-            return None
         sample = None
         initial: ast.Expression | None
         if isinstance(node.default, ast.SampleExpression):
@@ -223,6 +247,7 @@ class DeclarationLowering:
                 "OSC501",
                 value.span,
                 "the initial value of a variable cannot depend on the state of the world",
+                help="take it at an event: `sample(expression, @event)`",
             )
             return None
         return ir.Variable(
@@ -241,14 +266,6 @@ class DeclarationLowering:
             return None
         return ir.Sample(expression=expression, trigger=trigger)
 
-    def _method_parameter(self, parameter: sym.ParameterSymbol) -> ir.MethodParameter:
-        default = parameter.default
-        return ir.MethodParameter(
-            name=parameter.name,
-            type=lower_type(parameter.type),
-            default=None if default is None else lower_expression(self._ctx, default),
-        )
-
     def _event(self, node: ast.EventDeclaration) -> ir.Event | None:
         symbol = self._scenario_member(node.name.text)
         parameters = symbol.parameters if isinstance(symbol, sym.EventSymbol) else ()
@@ -263,7 +280,7 @@ class DeclarationLowering:
             comments=statement_comments(node),
             trigger=trigger,
             is_implicit=False,
-            parameters=tuple(self._method_parameter(p) for p in parameters),
+            parameters=tuple(event_parameter(self._ctx, p) for p in parameters),
         )
 
     def _implicit_events(self) -> Iterator[ir.Event]:
@@ -281,6 +298,13 @@ def _parameter(
 ) -> ir.Parameter:
     setting = constraints.setting((field,), field.type)
     domain = setting.domain
+    if setting.value is not None and asks_the_map(setting.value):
+        constraints.ctx.unsupported(
+            "OSC501",
+            setting.value.span,
+            f"`{field.name}` is computed before the run, when the map is not known yet",
+            help="write the expression where it is needed",
+        )
     if setting.value is None and domain is None:
         domain = all_values(field.type, span)
     return ir.Parameter(

@@ -10,7 +10,7 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.expressions import lower_type
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast

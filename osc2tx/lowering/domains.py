@@ -14,7 +14,8 @@ from osc2tx.analysis.tape import Key, domain_of_type
 from osc2tx.diagnostics import Span
 from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.expressions import lower_expression, lower_type, lower_unit
+from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.value_types import lower_type, lower_unit
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
 
@@ -51,20 +52,22 @@ class DomainWriter:
                 return authored
         return None if value is None else self._literal(value)
 
-    def equality(self) -> ir.Expression | None:
-        """Return what the parameter is set to as a part of a longer constraint."""
-        return next(self._equalities(), None)
+    def equality(self, but: Sequence[Constraint] = ()) -> ir.Expression | None:
+        """Return what the parameter is set to as a part of a longer constraint, some left out."""
+        return next(self._equalities(but), None)
 
     def domain(self, domain: Domain) -> ir.Domain | None:
         """Return a domain; `None` if it is all of the type."""
         if isinstance(domain, Choice):
             return self._choices(domain)
+        if self._is_natural(domain):
+            return None
         lower, upper = (self._bound(bound) for bound in (domain.lower, domain.upper))
         type_ = lower_type(types.RangeType(self.type))
         if lower is not None and upper is not None:
             return ir.RangeValue(span=lower.span, type=type_, lower=lower, upper=upper)
         bound = upper if lower is None else lower
-        if bound is None or self._is_natural(domain):
+        if bound is None:
             return None
         return ir.HalfRange(span=bound.span, type=type_, bound=bound, is_lower=upper is None)
 
@@ -99,6 +102,11 @@ class DomainWriter:
 
     # --- parts ---
 
+    @property
+    def _span(self) -> Span:
+        """The last constraint; where others settle the value, the parameter itself."""
+        return self.constraints[-1].span if self.constraints else self.key[-1].span
+
     def _is_natural(self, domain: Interval) -> bool:
         whole = domain_of_type(self.type)
         return isinstance(whole, Interval) and (domain.lower, domain.upper) == (
@@ -116,9 +124,7 @@ class DomainWriter:
         else:
             values = sorted(domain.values, key=str)
         elements = tuple(self._literal(value) for value in values)
-        return ir.Choices(
-            span=self.constraints[-1].span, type=lower_type(self.type), elements=elements
-        )
+        return ir.Choices(span=self._span, type=lower_type(self.type), elements=elements)
 
     def _bound(self, bound: Number) -> ir.Expression | None:
         if math.isinf(bound) or abs(bound) > LARGEST_WHOLE:
@@ -129,7 +135,7 @@ class DomainWriter:
         return self._literal(bound)
 
     def _literal(self, value: bool | int | float | str) -> ir.Expression:
-        span, type_ = self.constraints[-1].span, lower_type(self.type)
+        span, type_ = self._span, lower_type(self.type)
         if isinstance(self.type, types.EnumType):
             members = self.type.symbol.members.values()
             member = next(m for m in members if m.value == value)
@@ -141,10 +147,10 @@ class DomainWriter:
                 return ir.Quantity(span=span, type=type_, value=number, unit=lower_unit(unit))
         return ir.Literal(span=span, type=type_, value=value)
 
-    def _equalities(self) -> Iterator[ir.Expression]:
+    def _equalities(self, but: Sequence[Constraint] = ()) -> Iterator[ir.Expression]:
         """Yield what hard constraints say that the parameter equals, in parts of them."""
         for constraint, part in self._parts():
-            if part.operator is Op.EQUAL and not constraint.is_default:
+            if part.operator is Op.EQUAL and not constraint.is_default and constraint not in but:
                 for side, other in ((part.left, part.right), (part.right, part.left)):
                     if constraint.place.locate(side) == self.key:
                         yield from self._lowered(constraint, other)

@@ -7,7 +7,8 @@ from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.tape import Key
 from osc2tx.analysis.trees import nodes_below
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.expressions import lower_expression, lower_type
+from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
 

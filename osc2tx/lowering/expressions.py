@@ -7,46 +7,12 @@ from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.analysis.tape import Key
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.semantics import symbols as sym
-from osc2tx.semantics import types
+from osc2tx.lowering.references import lower_key, lower_member, lower_name
+from osc2tx.lowering.value_types import lower_type, lower_unit
 from osc2tx.semantics.model import Binding
-from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
-
-PRIMITIVE_KINDS = {
-    "bool": ir.Kind.BOOL,
-    "int": ir.Kind.INTEGER,
-    "uint": ir.Kind.INTEGER,
-    "float": ir.Kind.FLOAT,
-    "string": ir.Kind.STRING,
-}
-
-
-def lower_type(type_: types.Type) -> ir.ValueType:
-    """Return the IR's view of a type."""
-    match type_:
-        case types.PrimitiveType(name=name):
-            return ir.ValueType(PRIMITIVE_KINDS[name], name)
-        case types.PhysicalType():
-            return ir.ValueType(ir.Kind.QUANTITY, str(type_))
-        case types.EnumType():
-            return ir.ValueType(ir.Kind.ENUM, str(type_))
-        case types.ActorType():
-            return ir.ValueType(ir.Kind.ACTOR, str(type_))
-        case types.ListType(element=element):
-            return ir.ValueType(ir.Kind.LIST, str(type_), lower_type(element))
-        case types.RangeType(element=element):
-            return ir.ValueType(ir.Kind.RANGE, str(type_), lower_type(element))
-        case _:
-            return ir.ValueType(ir.Kind.STRUCT, str(type_))
-
-
-def lower_unit(unit: sym.UnitSymbol) -> ir.Unit:
-    """Return the IR's view of a unit."""
-    return ir.Unit(unit.name, unit.factor, unit.offset, is_standard=unit.origin == "library")
 
 
 def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
@@ -64,9 +30,9 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
             unit = lower_unit(ctx.model.units[node])
             return ir.Quantity(span=span, type=type_, value=number, unit=unit)
         case ast.EnumLiteral() | ast.NameExpression():
-            return _lower_name(ctx, node, type_)
+            return lower_name(ctx, node, type_)
         case ast.MemberAccess(base=base, name=name):
-            return _lower_member(ctx, node, base, name, type_)
+            return lower_member(ctx, node, base, name, type_)
         case ast.Call() | ast.Cast() | ast.TypeTest():
             return _lower_beyond(ctx, node)
         case ast.Index(base=base, index=index):
@@ -78,6 +44,8 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
             inner = lower_expression(ctx, operand)
             if inner is None:
                 return None
+            if isinstance(inner, ir.Quantity) and inner.unit.offset and _is_sign(node, operand):
+                return replace(inner, span=span, value=-inner.value)  # -3 degrees, not -276 K
             return ir.Unary(span=span, type=type_, operator=operator.value, operand=inner)
         case ast.Binary():
             return _lower_binary(ctx, node)
@@ -95,7 +63,7 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
             bounds = lower_expression(ctx, lower), lower_expression(ctx, upper)
             if bounds[0] is None or bounds[1] is None:
                 return None
-            return ir.RangeValue(span=span, type=type_, lower=bounds[0], upper=bounds[1])
+            return ordered_range(span, type_, bounds[0], bounds[1])
         case ast.ItExpression() if ctx.it is not None:
             return replace(ctx.it, span=span)
         case ast.ItExpression() if ctx.place is not None and ctx.place.it is not None:
@@ -104,6 +72,16 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
             return ir.ScenarioSelf(span=span, type=type_)
         case _:
             assert_never(node)
+
+
+def ordered_range(
+    span: Span, type_: ir.ValueType, one: ir.Expression, other: ir.Expression
+) -> ir.RangeValue:
+    """Return a range, the lower bound first if both are known (§7.4.2.8)."""
+    first, second = ir.constant(one), ir.constant(other)
+    if first is not None and second is not None and second < first:
+        one, other = other, one
+    return ir.RangeValue(span=span, type=type_, lower=one, upper=other)
 
 
 def _lower_beyond(
@@ -122,117 +100,10 @@ def _lower_beyond(
             return lower_type_test(ctx, node)
 
 
-def _lower_name(
-    ctx: LoweringContext, node: ast.EnumLiteral | ast.NameExpression, type_: ir.ValueType
-) -> ir.Expression | None:
-    match ctx.model.symbol_of(node):
-        case sym.EnumMemberSymbol(value=value, enum=enum):
-            # Members of equal value are one (§7.3.3): the first of them stands for all.
-            name = next(m.name for m in enum.members.values() if m.value == value)
-            enum_type = ir.ValueType(ir.Kind.ENUM, enum.name)
-            return ir.EnumValue(span=node.span, type=enum_type, member=name, value=value)
-        case sym.FieldSymbol(node=None, name="actor") if ctx.actor is not None:
-            return replace(ctx.actor, span=node.span)
-        case sym.FieldSymbol() if (given := _given(ctx, node)) is not None:
-            return replace(given, span=node.span)
-        case sym.FieldSymbol(node=None, name="actor"):
-            return ir.FieldRef(span=node.span, type=type_, name="actor")
-        case sym.FieldSymbol() as member if (base := _base_of(ctx, member)) is not None:
-            return member_of(ctx, base, member, node.span)
-        case sym.FieldSymbol(owner=sym.ScenarioSymbol(), name=name) as own:
-            changes = isinstance(own.default, ast.SampleExpression)
-            return ir.FieldRef(span=node.span, type=type_, name=name, is_variable=changes)
-        case sym.FieldSymbol(owner=None, name=name) as shared if shared.node is not None:
-            ctx.globals.setdefault(name, shared)
-            return ir.FieldRef(span=node.span, type=type_, name=name)
-        case sym.ParameterSymbol(name=name) if name in ctx.locals:
-            return replace(ctx.locals[name], span=node.span)
-        case sym.ParameterSymbol(name=name):
-            return ir.ParameterRef(span=node.span, type=type_, name=name)
-        case _:
-            ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
-            return None
-
-
-def _lower_member(
-    ctx: LoweringContext,
-    node: ast.MemberAccess,
-    base: ast.Expression,
-    name: ast.Name,
-    type_: ir.ValueType,
-) -> ir.Expression | None:
-    event = ctx.event_fields.get(id(ctx.model.symbol_of(base)))
-    if event is not None:
-        return ir.EventArgument(span=node.span, type=type_, event=event, parameter=name.text)
-    field = ctx.model.symbol_of(node)
-    if not isinstance(field, sym.FieldSymbol):
-        ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
-        return None
-    key = ctx.place.locate(node) if ctx.place is not None else None
-    if key is not None and not isinstance(key[0], sym.FieldSymbol):
-        return lower_key(ctx, key, node.span)
-    lowered = lower_expression(ctx, base)
-    return None if lowered is None else member_of(ctx, lowered, field, node.span)
-
-
-def member_of(
-    ctx: LoweringContext, base: ir.Expression, field: sym.FieldSymbol, span: Span
-) -> ir.Expression:
-    """Return a field of an object."""
-    type_ = lower_type(field.type)
-    if isinstance(base, ir.ScenarioSelf):
-        return ir.FieldRef(span=span, type=type_, name=field.name)
-    return ir.Attribute(
-        span=span,
-        type=type_,
-        base=base,
-        owner=field.owner.name if field.owner is not None else "",
-        name=field.name,  # not as written: a dialect may know it by another name
-        is_variable=field.is_variable,
-    )
-
-
-def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | None:
-    """Return what a path of the analysis stands for; an empty one is the scenario itself."""
-    if not key:
-        return ir.ScenarioSelf(span=span, type=ir.ValueType(ir.Kind.STRUCT, "scenario"))
-    first, *rest = key
-    expression: ir.Expression
-    if isinstance(first, sym.FieldSymbol):
-        if first.owner is None and first.node is not None:
-            ctx.globals.setdefault(first.name, first)
-        expression = ir.FieldRef(span=span, type=lower_type(first.type), name=first.name)
-    elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
-        expression, rest = ctx.given[key[: lengths[0]]], list(key[lengths[0] :])
-    else:
-        ctx.unsupported(
-            "OSC502", span, "this constraint is about something that has no value of its own"
-        )
-        return None
-    for field in rest:
-        if isinstance(field, sym.FieldSymbol):
-            expression = member_of(ctx, expression, field, span)
-    return expression
-
-
-def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
-    """Return the value of a parameter of an invocation or modifier, in what that says."""
-    key = None if ctx.place is None else ctx.place.locate(node)
-    return None if key is None else ctx.given.get(key)
-
-
-def _base_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | None:
-    """Return the object whose member a plain name means, if that is not the scenario."""
-    place, receiver = ctx.place, ctx.receiver
-    if receiver and field.owner and field.owner in supertypes(receiver.owner):
-        return receiver.value
-    if place is None or field.owner is None:
-        return None
-    if place.owner is not None and field.owner in supertypes(place.owner):
-        return lower_key(ctx, place.prefix, field.span) if place.prefix else None
-    if place.it and place.it_type and field.owner in supertypes(place.it_type):
-        return lower_key(ctx, place.it, field.span)
-    return None
+def _is_sign(node: ast.Unary, operand: ast.Expression) -> bool:
+    """Return whether a minus stands right before a number, so that it belongs to the literal."""
+    is_minus = node.operator is ast.UnaryOperator.NEGATE
+    return is_minus and operand.span.start == node.span.start + 1
 
 
 def lower_arguments(

@@ -5,15 +5,17 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.analysis.tape import Key
 from osc2tx.ir.text import statement_name
-from osc2tx.lowering.constraints import ConstraintLowering, Setting
+from osc2tx.lowering.composed import Composed, has_behavior, is_composed
+from osc2tx.lowering.constraints import ConstraintLowering, Instance, Setting
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.expressions import lower_arguments, lower_expression, lower_type
+from osc2tx.lowering.expressions import lower_arguments, lower_expression
 from osc2tx.lowering.modifiers import draw_ranges, is_override
 from osc2tx.lowering.names import invocation_name
 from osc2tx.lowering.own_actions import default_arguments, is_own
 from osc2tx.lowering.own_modifiers import ModifierLowering
 from osc2tx.lowering.paths import start_on_path
 from osc2tx.lowering.triggers import lower_until
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
@@ -34,15 +36,19 @@ class InvocationLowering:
         binding = self._ctx.model.binding_of(node)
         callee = binding.callee
         actor = self._actor(node, binding)
-        if isinstance(callee, sym.ScenarioSymbol):
+        if is_composed(callee):
             return self._scenario(node, callee, actor, comments)
         if not isinstance(callee, sym.ActionSymbol) or callee.actor is None or actor is None:
             self._ctx.unsupported(
-                "OSC504", node.span, "an action without actor is not supported yet"
+                "OSC504",
+                node.span,
+                f"action `{node.behavior}` has no actor that could carry it out",
+                help="say what it does with a `do`, or declare it for an actor, "
+                f"`action vehicle.{node.behavior}`",
             )
             return None
         self._ctx.actions.append(callee)
-        arguments = self._arguments(node)
+        arguments = self._arguments(node, actor)
         if is_own(callee):
             arguments += default_arguments(self._ctx, callee, arguments, actor, node)
         written = [member for member in node.with_members if not _is_until(member)]
@@ -79,22 +85,21 @@ class InvocationLowering:
     def _scenario(
         self,
         node: ast.Invocation,
-        callee: sym.ScenarioSymbol,
+        callee: Composed,
         actor: ir.Expression | None,
         comments: tuple[str, ...],
     ) -> ir.InvokeScenario | None:
         if not has_behavior(callee):
             self._ctx.unsupported(
-                "OSC504", node.span, f"scenario `{callee.qualified_name}` has no `do`"
+                "OSC504",
+                node.span,
+                f"scenario `{callee.qualified_name}` has no `do`",
+                help="say what happens in it: `do …`",
             )
             return None
         self._ctx.invoked.append(callee)
-        arguments = self._arguments(node)
-        for member in node.with_members:
-            if isinstance(member, ast.ModifierApplication) and not is_override(self._ctx, member):
-                self._ctx.unsupported(
-                    "OSC508", member.span, f"modifier `{member.modifier}` of an invoked scenario"
-                )
+        arguments = self._arguments(node, actor)
+        self.refuse_movement(node, actor, callee, "an invoked scenario")
         span = callee.node.name.span
         return ir.InvokeScenario(
             span=node.span,
@@ -109,30 +114,69 @@ class InvocationLowering:
             until=lower_until(self._ctx, node.with_members),
         )
 
-    def _arguments(self, node: ast.Invocation) -> tuple[ir.Argument, ...]:
+    def refuse_movement(
+        self,
+        node: Instance,
+        actor: ir.Expression | None,
+        behavior: sym.BehaviorSymbol | None,
+        what: str,
+    ) -> None:
+        """Report modifiers of what is no action; those that only constrain parameters may stand."""
+        lowering = self._modifier_lowering(node, actor, behavior)
+        for member in node.with_members:
+            if not isinstance(member, ast.ModifierApplication) or is_override(self._ctx, member):
+                continue
+            if lowering.lower(member):
+                self._ctx.unsupported(
+                    "OSC508",
+                    member.span,
+                    f"modifier `{member.modifier}` of {what} is not supported",
+                    help="apply it in the `with` of the actions in it",
+                )
+
+    def _modifier_lowering(
+        self,
+        node: Instance,
+        actor: ir.Expression | None,
+        behavior: sym.BehaviorSymbol | None,
+    ) -> ModifierLowering:
+        return ModifierLowering(
+            self._ctx, self._constraints, name_of_member(node), actor, behavior, (node,)
+        )
+
+    def _arguments(
+        self, node: ast.Invocation, actor: ir.Expression | None
+    ) -> tuple[ir.Argument, ...]:
         """Return the arguments, and what `keep(it.parameter …)` says: the same thing (§6)."""
         binding = self._ctx.model.binding_of(node)
         arguments = lower_arguments(self._ctx, binding, node.arguments)
-        if isinstance(binding.callee, sym.ActionSymbol):
+        if not is_composed(binding.callee):
             arguments = draw_ranges(self._ctx, binding, arguments, name_of_member(node))
         fields = {parameter.name: parameter for parameter, _ in binding.arguments}
         for argument in arguments:
             key: Key = (node, fields[argument.parameter])
             if not isinstance(argument.value, ir.RangeValue):
                 self._ctx.given.setdefault(key, argument.value)
+        assert isinstance(binding.callee, sym.BehaviorSymbol)
+        lowering = self._modifier_lowering(node, actor, binding.callee)
+        for member in node.with_members:
+            if isinstance(member, ast.ModifierApplication):
+                lowering.prepare(member)
         return arguments + self.kept_arguments(node)
 
     def kept_arguments(self, node: ast.Invocation | ast.Composition) -> tuple[ir.Argument, ...]:
         """Return what constraints say of the parameters that have no argument."""
         binding = self._ctx.model.bindings.get(node)
-        is_scenario = binding is not None and isinstance(binding.callee, sym.ScenarioSymbol)
+        is_scenario = binding is not None and is_composed(binding.callee)
         arguments = []
         for parameter, setting in self._constraints.of_instance(node):
             value = setting.value or setting.domain
             if value is None:
                 continue
             is_time = parameter.name == "duration" and not isinstance(setting.domain, ir.Choices)
-            if setting.value is None and not is_scenario and not is_time:
+            # An invoked scenario draws for itself, unless a check here has to know the value.
+            draws_itself = is_scenario and self._constraints.says_all(setting, (node, parameter))
+            if setting.value is None and not draws_itself and not is_time:
                 value = self._drawn(node, parameter, setting)
             if value is None:
                 continue
@@ -157,9 +201,7 @@ class InvocationLowering:
     ) -> tuple[ir.ModifierCall, ...]:
         action = self._ctx.model.binding_of(node).callee
         assert isinstance(action, sym.BehaviorSymbol)
-        lowering = ModifierLowering(
-            self._ctx, self._constraints, name_of_member(node), actor, action
-        )
+        lowering = self._modifier_lowering(node, actor, action)
         modifiers: list[ir.ModifierCall] = []
         for member in node.with_members:
             match member:
@@ -169,16 +211,6 @@ class InvocationLowering:
                 case ast.KeepConstraint() | ast.RemoveDefault() | ast.UntilDirective():
                     pass
         return tuple(modifiers)
-
-
-def has_behavior(scenario: sym.ScenarioSymbol) -> bool:
-    """Whether a scenario or one of its bases has a `do`."""
-    current: sym.ScenarioSymbol | None = scenario
-    while current is not None:
-        if any(isinstance(statement, ast.DoDirective) for statement in current.statements):
-            return True
-        current = current.base
-    return False
 
 
 def name_of_member(node: ast.Invocation | ast.Composition) -> str:

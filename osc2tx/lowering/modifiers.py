@@ -7,7 +7,9 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.dialects import dialect_defaults, set_position
-from osc2tx.lowering.expressions import lower_arguments, lower_type
+from osc2tx.lowering.expressions import lower_arguments
+from osc2tx.lowering.shapes import with_shapes
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
@@ -26,6 +28,7 @@ def lower_modifier(
     binding = ctx.model.binding_of(node)
     arguments = lower_arguments(ctx, binding, node.arguments)
     arguments = draw_ranges(ctx, binding, arguments, f"{what}.{node.modifier.text}")
+    arguments = with_shapes(ctx, binding, arguments)
     arguments += dialect_defaults(binding.callee, arguments, node.span)
     at = next((a.value for a in arguments if a.parameter == "at"), None)
     modifier = ir.ModifierCall(

@@ -27,7 +27,7 @@ def in_order_of_use(
     """
     by_name = {declaration.name: declaration for declaration in declarations}
     bodies = {method.name: method.expression for method in methods}
-    needs = {d.name: tuple(_needs(_values(d), bodies)) for d in declarations}
+    needs = {d.name: (*_events(d), *_needs(_values(d), bodies)) for d in declarations}
     ordered: dict[str, ir.Declaration] = {}
     for declaration in declarations:
         _place(ctx, declaration, by_name, needs, ordered)
@@ -97,6 +97,17 @@ def _values(declaration: ir.Declaration) -> tuple[ir.Expression, ...]:
         case ir.Event(trigger=trigger, parameters=parameters):
             defaults = tuple(p.default for p in parameters if p.default is not None)
             return defaults if trigger is None else (*_times(trigger), *defaults)
+
+
+def _events(declaration: ir.Declaration) -> tuple[str, ...]:
+    """Return the events that a declaration names: they must be there when it is made."""
+    match declaration:
+        case ir.Variable(sample=ir.Sample(trigger=ir.Trigger(event=ir.EventRef(name=name)))):
+            return (name,)
+        case ir.Event(trigger=ir.Trigger(event=ir.EventRef(name=name))):
+            return (name,)
+        case _:
+            return ()
 
 
 def _times(trigger: ir.Trigger) -> tuple[ir.Expression, ...]:

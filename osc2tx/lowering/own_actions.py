@@ -7,8 +7,11 @@ declaration, whatever the default of the Python class.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.analysis.locate import Place
+from osc2tx.analysis.trees import nodes_below
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.semantics import symbols as sym
@@ -37,12 +40,14 @@ def default_arguments(
         node: The invocation; its constraints may speak of the defaults from now on.
     """
     names = {argument.parameter for argument in given}
+    place = Place(model=ctx.model, owner=action, prefix=(node,), it=(node,))
+    inside = replace(ctx.at(place), actor=actor)
     arguments = []
-    for parameter in _parameters(action):
+    for parameter in _in_order_of_use(ctx, list(_parameters(action))):
         default = parameter.default
         if parameter.name in names or default is None or isinstance(default, ast.SampleExpression):
             continue
-        value = _lower_default(ctx, default, actor)
+        value = lower_expression(inside, default)
         if value is not None:
             ctx.given.setdefault((node, parameter), value)
             arguments.append(
@@ -61,16 +66,24 @@ def _parameters(action: sym.ActionSymbol) -> Iterator[sym.FieldSymbol]:
             yield member
 
 
-def _lower_default(
-    ctx: LoweringContext, default: ast.Expression, actor: ir.Expression
-) -> ir.Expression | None:
-    symbol = ctx.model.symbol_of(default)
-    if isinstance(symbol, sym.FieldSymbol):
-        if symbol.node is None and symbol.name == "actor":
-            return actor
-        if isinstance(symbol.owner, sym.ActionSymbol):
-            ctx.unsupported(
-                "OSC503", default.span, "a default cannot be another parameter of the action yet"
-            )
-            return None
-    return lower_expression(ctx, default)
+def _in_order_of_use(
+    ctx: LoweringContext, parameters: list[sym.FieldSymbol]
+) -> Iterator[sym.FieldSymbol]:
+    """Yield parameters in their order, but each after those that its default reads."""
+    pending = list(parameters)
+    while pending:
+        ready = (p for p in pending if not _read_by(ctx, p) & set(pending))
+        chosen = next(ready, None)
+        if chosen is None:
+            names = ", ".join(f"`{parameter.name}`" for parameter in pending)
+            ctx.unsupported("OSC511", pending[0].span, f"defaults go round in a circle: {names}")
+            return
+        pending.remove(chosen)
+        yield chosen
+
+
+def _read_by(ctx: LoweringContext, parameter: sym.FieldSymbol) -> set[sym.Symbol | None]:
+    default = parameter.default
+    if default is None or isinstance(default, ast.SampleExpression):
+        return set()
+    return {ctx.model.symbol_of(node) for node in nodes_below(default)}

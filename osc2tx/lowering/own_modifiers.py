@@ -15,11 +15,17 @@ from osc2tx.analysis.trees import nodes_below
 from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, statement_comments
-from osc2tx.lowering.expressions import lower_expression, lower_type
+from osc2tx.lowering.domains import all_values
+from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.modifiers import lower_modifier
+from osc2tx.lowering.own_fields import is_plain
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype
 from osc2tx.syntax import ast
+
+# Members by which a modifier changes something.
+EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +38,7 @@ class ModifierLowering:
         what: What they belong to, for names of values that are drawn from ranges.
         actor: Whose behavior is modified.
         action: What is invoked; `None` for modifiers of a whole scenario.
+        it: What `it` is in the body: what is modified.
         chain: The applications around this one, the outermost first.
     """
 
@@ -40,6 +47,7 @@ class ModifierLowering:
     what: str
     actor: ir.Expression | None
     action: sym.BehaviorSymbol | None
+    it: Key | None = None
     chain: tuple[ast.ModifierApplication, ...] = ()
 
     def lower(self, node: ast.ModifierApplication) -> tuple[ir.ModifierCall, ...]:
@@ -50,11 +58,15 @@ class ModifierLowering:
             return ()
         if callee.origin != "user":
             return (lower_modifier(self.ctx, node, self.what),)
-        if not any(isinstance(part, ast.ModifierApplication) for part in callee.statements):
-            self._refuse(node, f"modifier `{callee.qualified_name}`, which applies no other,")
+        if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
+            self._refuse(
+                node,
+                f"modifier `{callee.qualified_name}`, which says nothing of what it modifies,",
+                "apply other modifiers in it, or constrain parameters, `keep(it.parameter == …)`",
+            )
             return ()
         if any(self.ctx.model.binding_of(outer).callee is callee for outer in self.chain):
-            self._refuse(node, f"modifier `{callee.qualified_name}`, which applies itself,")
+            self._refuse(node, f"modifier `{callee.qualified_name}`, which applies itself,", None)
             return ()
         inner = self._inside(node, callee)
         inner.bind(callee)
@@ -64,11 +76,17 @@ class ModifierLowering:
         first = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
         return (first, *calls[1:])
 
+    def prepare(self, node: ast.ModifierApplication) -> None:
+        """Find out what the parameters of a modifier are: arguments may depend on them."""
+        callee = self.ctx.model.binding_of(node).callee
+        if isinstance(callee, sym.ModifierSymbol) and callee.origin == "user":
+            self._inside(node, callee).bind(callee)
+
     def _inside(
         self, node: ast.ModifierApplication, callee: sym.ModifierSymbol
     ) -> ModifierLowering:
         chain = (*self.chain, node)
-        place = Place(model=self.ctx.model, owner=callee, prefix=chain, it=None)
+        place = Place(model=self.ctx.model, owner=callee, prefix=chain, it=self.it)
         return replace(
             self,
             ctx=replace(self.ctx.at(place), actor=self.actor),
@@ -83,11 +101,14 @@ class ModifierLowering:
             if not isinstance(field, sym.FieldSymbol) or field.is_variable:
                 continue
             key: Key = (*self.chain, field)
+            if key in self.ctx.given:
+                continue
             setting = self.constraints.setting(key, field.type)
             value = setting.value
-            if value is None and setting.domain is not None:
-                name = f"{self.what}.{field.name}"
-                value = self.ctx.draw(name, setting.domain, lower_type(field.type))
+            if value is None and (setting.domain is not None or is_plain(field.type)):
+                domain = setting.domain or all_values(field.type, field.span)
+                name, type_ = f"{self.what}.{field.name}", lower_type(field.type)
+                value = self.ctx.draw(name, domain, type_, field.span)
             if value is not None:
                 self.ctx.given[key] = value
                 continue
@@ -103,10 +124,8 @@ class ModifierLowering:
         match statement:
             case ast.ParameterDeclaration() | ast.RemoveDefault():
                 return ()  # see `bind`
-            case ast.KeepConstraint() | ast.ModifierApplication() if any(
-                isinstance(node, ast.ItExpression) for node in nodes_below(statement)
-            ):
-                self._refuse(statement, "`it` in a modifier")
+            case ast.MethodDeclaration():
+                return ()  # calls stand for its body
             case ast.KeepConstraint():
                 pass  # the constraints of the scenario hold it, for this application
             case ast.ModifierApplication() if self._is_known(statement):
@@ -114,7 +133,12 @@ class ModifierLowering:
             case ast.ModifierApplication():
                 pass  # one of its parameters has no value, which is reported
             case _:
-                self._refuse(statement, "a modifier with more in it than parameters and modifiers")
+                self._refuse(
+                    statement,
+                    "a modifier with events, variables or coverage in it",
+                    "declare it in the scenario: events of labelled members are `@label.start` and"
+                    " `@label.end`",
+                )
         return ()
 
     def _is_known(self, node: ast.ModifierApplication) -> bool:
@@ -134,7 +158,11 @@ class ModifierLowering:
             if whose is None:
                 return False
             if self.actor is None or not _is_same(whose, self.actor):
-                self._refuse(node, f"modifier `{node.modifier}` of another actor")
+                self._refuse(
+                    node,
+                    f"modifier `{node.modifier}` of another actor",
+                    "apply it in the `with` of what that actor does",
+                )
                 return False
         target = callee.target
         fits = target is None or self.action is None or is_subtype(self.action, target)
@@ -147,8 +175,8 @@ class ModifierLowering:
             )
         return fits or not self.chain
 
-    def _refuse(self, node: ast.Node, what: str) -> None:
-        self.ctx.unsupported("OSC508", node.span, f"{what} is not supported yet")
+    def _refuse(self, node: ast.Node, what: str, help: str | None) -> None:
+        self.ctx.unsupported("OSC508", node.span, f"{what} is not supported", help)
 
 
 def _is_same(one: ir.Expression, other: ir.Expression) -> bool:

@@ -23,6 +23,8 @@ START = "on_path"
 
 # Modifier -> what it says about the piece of road.
 WISHES = {
+    "path_different_dest": "different_dest",
+    "path_different_origin": "different_origin",
     "path_length": "min_length",
     "path_max_lanes": "max_lanes",
     "path_min_driving_lanes": "min_lanes",

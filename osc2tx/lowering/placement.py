@@ -16,13 +16,15 @@ from osc2tx.diagnostics import Span
 from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.paths import START
+from osc2tx.lowering.shapes import first_value, says_start
 
 # Modifiers that say something about a single instant and so can place an actor.
 PLACING = frozenset({"acceleration", "lane", "lateral", "orientation", "position", "speed", "yaw"})
 
 # Modifiers of maps: what declared roads and lanes are like, for the whole scenario (§8.12.2.2).
 MAP_MEMBERS = frozenset(
-    {"compound_lane_side", "end_lane", "lane_side", "number_of_lanes", "roads_follow_in_junction"}
+    {"compound_lane_side", "crossing_connects", "end_lane", "lane_side", "number_of_lanes"}
+    | {"roads_follow_in_junction"}
     | {"routes_are_in_sequence", "routes_are_opposite", "routes_overlap", "set_map_file"}
     | {"set_traffic_lights_control_file", "start_lane"}
 )
@@ -31,7 +33,9 @@ MAP_MEMBERS = frozenset(
 PLACING_MEMBERS = frozenset({"location", "tow_trailer"}) | MAP_MEMBERS
 
 # Types of routes of a map, on which an actor can start.
-ROUTES = frozenset({"compound_lane", "compound_route", "lane", "lane_section", "road"})
+ROUTES = frozenset(
+    {"compound_lane", "compound_route", "crossing", "lane", "lane_section", "road", "route"}
+)
 
 # Actions that take no time, so that the next member of a serial still begins at the start.
 INSTANT = frozenset(
@@ -104,16 +108,17 @@ class PlacementLowering:
             return self._later_start(node)
         actor = node.actor.name
         node = self._begin_on_path(node, actor)
-        placing = [m for m in node.modifiers if _places(m) and m.at != "end"]
+        placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
         if not placing:
             return self._later_start(node)
         found = self._found.setdefault(actor, _Found(node.span))
         for modifier in placing:
             found.is_throughout &= modifier.at != "start"
-            if modifier.at == "start" or modifier.name not in found.modifiers:
+            what = _subject(modifier)
+            if modifier.at == "start" or what not in found.modifiers:
                 # What holds throughout stays in the tree as well, and its comments with it.
                 comments = modifier.comments if modifier.at == "start" else ()
-                found.modifiers[modifier.name] = replace(modifier, at="start", comments=comments)
+                found.modifiers[what] = replace(modifier, at="start", comments=comments)
         rest = tuple(m for m in node.modifiers if m.at != "start")
         if node.action == "assign_position" and not rest and not node.arguments:
             found.comments.extend(node.comments)
@@ -166,7 +171,14 @@ def _places(modifier: ir.ModifierCall) -> bool:
     """Whether a modifier says where or how an actor is at an instant."""
     if modifier.name == "along":
         return any(argument.value.type.name in ROUTES for argument in modifier.arguments)
-    return modifier.name in PLACING
+    return modifier.name in PLACING and says_start(modifier)
+
+
+def _subject(modifier: ir.ModifierCall) -> str:
+    """Return what a modifier is about: a speed along the lane is another thing than one across."""
+    values = (a.value for a in modifier.arguments if a.parameter == "direction")
+    across = any(isinstance(v, ir.EnumValue) and v.member == "lateral" for v in values)
+    return f"{modifier.name} across" if across else modifier.name
 
 
 def _may_jump(modifier: ir.ModifierCall) -> bool:

@@ -7,7 +7,8 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.lowering.behaviors import BehaviorLowering
+from osc2tx.lowering.behaviors import BehaviorLowering, boundary_of
+from osc2tx.lowering.composed import Composed, lineage_of
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.coverage import lower_coverage
@@ -17,6 +18,13 @@ from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.objects import lineage
 from osc2tx.lowering.ordering import in_order_of_use
 from osc2tx.lowering.overrides import lower_overrides
+from osc2tx.lowering.overriding import object_types
+from osc2tx.lowering.own_fields import (
+    class_default,
+    mentioned_fields,
+    own_fields,
+    own_lineage,
+)
 from osc2tx.lowering.own_modifiers import ModifierLowering
 from osc2tx.lowering.own_types import lower_types
 from osc2tx.lowering.paths import is_path_member
@@ -48,17 +56,35 @@ def lower(
     invoked: set[int] = set()
     used: list[sym.ActorSymbol | sym.StructSymbol] = []
     actions: list[sym.ActionSymbol] = []
-    pending = list(model.scenarios)
+    pending: list[Composed] = list(model.scenarios)
+    program = LoweringContext(
+        model,
+        analysis,
+        sink,
+        types=used,
+        actions=actions,
+        mentioned=mentioned_fields(model),
+        handed_in=frozenset(p for b in model.bindings.values() for p, _ in b.arguments),
+        computed=frozenset(
+            parameter
+            for binding in model.bindings.values()
+            for parameter, value in binding.arguments
+            if not isinstance(value, ast.NameExpression | ast.MemberAccess)
+        ),
+        object_types=object_types(model, analysis),
+    )
     while pending:
         scenario = pending.pop(0)
         if id(scenario) in lowered:
             continue
-        ctx = LoweringContext(model, analysis, sink, types=used, actions=actions)
+        ctx = program.of_scenario(
+            frozenset(name for each in lineage_of(scenario) for name in each.members)
+        )
         is_imported = scenario not in model.scenarios
         lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)
         pending.extend(ctx.invoked)
         invoked.update(map(id, ctx.invoked))
-    report_without_effect(LoweringContext(model, analysis, sink), used, actions)
+    report_without_effect(program, used, actions)
     scenarios = present(
         [
             scenario and replace(scenario, is_invoked=key in invoked)
@@ -72,7 +98,7 @@ def lower(
         one_of=options.one_of,
         scenarios=scenarios,
         comments=_head_comments(model.root),
-        types=lower_types(LoweringContext(model, analysis, sink), used, scenarios),
+        types=lower_types(program, used),
     )
 
 
@@ -87,7 +113,7 @@ def _head_comments(file: ast.File) -> tuple[str, ...]:
 
 
 def _lower_scenario(
-    ctx: LoweringContext, scenario: sym.ScenarioSymbol, *, is_imported: bool
+    ctx: LoweringContext, scenario: Composed, *, is_imported: bool
 ) -> ir.Scenario | None:
     node = scenario.node
     statements = _statements(scenario)
@@ -111,7 +137,13 @@ def _lower_scenario(
         comments=statement_comments(node),
         declarations=in_order_of_use(
             ctx,
-            (*_own_actor(ctx, scenario), *global_parameters, *declarations, *ctx.drawn),
+            (
+                *_own_actor(ctx, scenario),
+                *global_parameters,
+                *declarations,
+                *ctx.drawn,
+                *present(list(ctx.object_events.values())),
+            ),
             (*methods, *type_methods),
         ),
         methods=(*methods, *type_methods),
@@ -122,54 +154,65 @@ def _lower_scenario(
         coverage=coverage,
         constraints=(*lowering.global_constraints, *left_over),
         is_imported=is_imported,
+        is_action=isinstance(scenario, sym.ActionSymbol),
     )
 
 
-def _end_comments(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[str, ...]:
+def _end_comments(ctx: LoweringContext, scenario: Composed) -> tuple[str, ...]:
     """Return the comments below the last member; those at the end of the file go to the last."""
     is_last = bool(ctx.model.scenarios) and scenario is ctx.model.scenarios[-1]
-    return (*scenario.node.end_comments, *(ctx.model.root.comments if is_last else ()))
+    node = scenario.node
+    own = node.end_comments if isinstance(node, ast.ScenarioDeclaration) else ()
+    return (*own, *(ctx.model.root.comments if is_last else ()))
 
 
-def _own_actor(ctx: LoweringContext, scenario: sym.ScenarioSymbol) -> tuple[ir.Actor, ...]:
+def _own_actor(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Actor, ...]:
     """Return the implicit field `actor` of a scenario of an actor; its invoker fills it in."""
     if scenario.actor is None:
         return ()
     span = scenario.node.name.span
     names = lineage(scenario.actor)
     ctx.types.append(scenario.actor)
-    return (ir.Actor(name="actor", span=span, type=names[0], lineage=names, values=()),)
+    fields = (field for each in own_lineage(scenario.actor) for field in own_fields(ctx, each))
+    is_given = any(class_default(ctx, field) is None for field in fields)
+    return (
+        ir.Actor(
+            name="actor", span=span, type=names[0], lineage=names, values=(), is_given=is_given
+        ),
+    )
 
 
-def _statements(scenario: sym.ScenarioSymbol) -> tuple[ast.Statement, ...]:
+def _statements(scenario: Composed) -> tuple[ast.Statement, ...]:
     """Return the member statements, those of base scenarios first."""
-    chain: list[sym.ScenarioSymbol] = []
-    current: sym.ScenarioSymbol | None = scenario
-    while current is not None:
-        chain.append(current)
-        current = current.base
+    chain = list(lineage_of(scenario))
     return tuple(statement for symbol in reversed(chain) for statement in symbol.statements)
 
 
 def _lower_body(
     ctx: LoweringContext,
-    scenario: sym.ScenarioSymbol,
+    scenario: Composed,
     statements: tuple[ast.Statement, ...],
     constraints: ConstraintLowering,
 ) -> ir.Behavior | None:
     """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
     directives = [s for s in statements if isinstance(s, ast.DoDirective)]
     if not directives:
-        ctx.sink.report(
-            "OSC510", scenario.node.name.span, f"scenario `{scenario.name}` has no `do`"
-        )
+        if not any(other.base is scenario for other in ctx.model.scenarios):
+            ctx.sink.report(
+                "OSC510",
+                scenario.node.name.span,
+                f"scenario `{scenario.name}` has no `do`",
+            )
         return None
     lowering = BehaviorLowering(ctx, constraints)
     body = _lower_directives(lowering, scenario, directives)
-    reactions = present(
-        [lowering.lower_on(s) for s in statements if isinstance(s, ast.OnDirective)]
-    )
-    if body is None or not reactions:
+    on = [s for s in statements if isinstance(s, ast.OnDirective)]
+    reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s) is None])
+    if body is None:
+        return None
+    before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))
+    body = _framed(scenario, before, body, after)
+    if not reactions:
         return body
     return ir.Parallel(
         span=body.span,
@@ -179,8 +222,28 @@ def _lower_body(
     )
 
 
+def _framed(
+    scenario: Composed,
+    before: tuple[ir.Behavior, ...],
+    body: ir.Behavior,
+    after: tuple[ir.Behavior, ...],
+) -> ir.Behavior:
+    """Return the body with what happens at its start and at its end."""
+    if not before and not after:
+        return body
+    is_bare = isinstance(body, ir.Serial) and not body.until and body.duration is None
+    if is_bare and isinstance(body, ir.Serial) and body.label is None:
+        return replace(body, members=(*before, *body.members, *after))
+    return ir.Serial(
+        span=body.span,
+        label=None,
+        name=scenario.name,
+        members=(*before, _named_as_do(body), *after),
+    )
+
+
 def _lower_directives(
-    lowering: BehaviorLowering, scenario: sym.ScenarioSymbol, directives: list[ast.DoDirective]
+    lowering: BehaviorLowering, scenario: Composed, directives: list[ast.DoDirective]
 ) -> ir.Behavior | None:
     several = len(directives) > 1
     lowered = [lowering.lower_do(do, is_phase=several) for do in directives]
@@ -244,7 +307,7 @@ def _member_placements(
     return tuple(placements)
 
 
-def _nothing_left(scenario: sym.ScenarioSymbol) -> ir.Behavior:
+def _nothing_left(scenario: Composed) -> ir.Behavior:
     """Return a tree for a scenario that only places its actors: it ends at once."""
     zero = ir.Literal(
         span=scenario.node.name.span, type=ir.ValueType(ir.Kind.FLOAT, "float"), value=0.0

@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.composed import is_composed
+from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
@@ -19,45 +21,163 @@ def lower_trigger(
 ) -> ir.Trigger | None:
     """Lower an event specification; `None` if a part of it was refused."""
     event = None if node.event is None else _lower_event(ctx, node.event)
-    if node.field is not None:
-        if not isinstance(event, ir.EventRef):
-            ctx.unsupported("OSC506", node.field.span, "`as` is not supported for this event yet")
-            return None
-        ctx.event_fields[id(ctx.model.symbol_of(node.field))] = event.name
+    if node.field is not None and event is not None:
+        ctx.event_fields[id(ctx.model.symbol_of(node.field))] = _name_of(event)
     condition = None if node.condition is None else _lower_condition(ctx, node.condition)
     if (node.event is None) != (event is None) or (node.condition is None) != (condition is None):
         return None
     return ir.Trigger(span=node.span, event=event, condition=condition, comments=comments)
 
 
+def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
+    """Return what the arguments of an occurrence are found by."""
+    match event:
+        case ir.EventRef(name=name):
+            return name
+        case ir.InnerEvent(label=label, name=name):
+            return f"{label}.{name}"
+        case ir.LabelEvent(label=label, moment=moment):
+            return f"{label}.{moment.value}"
+
+
 def _lower_event(
     ctx: LoweringContext, path: ast.Expression
 ) -> ir.EventRef | ir.LabelEvent | ir.InnerEvent | None:
     symbol = ctx.model.symbol_of(path)
-    if isinstance(path, ast.MemberAccess) and path.name.text in MOMENTS:
-        base = ctx.model.symbol_of(path.base)
-        if isinstance(base, sym.LabelSymbol) and isinstance(base.node, ast.EmitDirective):
-            ctx.unsupported(
-                "OSC506",
-                path.span,
-                f"`{base.name}` labels an `emit`, which takes no time",
-                help=f"wait for the event itself, `@{base.node.event}`",
-            )
-            return None
-        if isinstance(base, sym.LabelSymbol):
-            moment = MOMENTS[path.name.text]
-            return ir.LabelEvent(span=path.span, label=base.name, moment=moment)
-    if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.MemberAccess):
-        label = ctx.model.symbol_of(path.base)
-        if isinstance(label, sym.LabelSymbol) and isinstance(symbol.owner, sym.ScenarioSymbol):
-            return ir.InnerEvent(span=path.span, label=label.name, name=symbol.name)
+    if isinstance(path, ast.MemberAccess):
+        labels = _labels(ctx, path.base)
+        is_moment = path.name.text in MOMENTS and not declares_event(symbol)
+        if labels and (is_moment or isinstance(symbol, sym.EventSymbol)):
+            return _event_below(ctx, path, labels, is_moment=is_moment)
+    if isinstance(symbol, sym.EventSymbol) and isinstance(
+        symbol.owner, sym.ActorSymbol | sym.StructSymbol
+    ):
+        return _event_of_object(ctx, path, symbol)
     if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
-        if not declares_event(symbol):
-            ctx.unsupported("OSC506", path.span, f"`@{symbol.name}` cannot be waited for yet")
-            return None
-        return ir.EventRef(span=path.span, name=symbol.name)
+        if declares_event(symbol):
+            return ir.EventRef(span=path.span, name=symbol.name)
+        ctx.unsupported(
+            "OSC506",
+            path.span,
+            f"`@{symbol.name}` of the scenario itself cannot be waited for here",
+            help="inside of it the start has passed, and the end is not yet: use `on @start` or "
+            "`on @end`, or label the members, `@label.end`",
+        )
+        return None
     ctx.unsupported("OSC506", path.span, f"event `{path.span.text}` cannot be waited for yet")
     return None
+
+
+def _labels(ctx: LoweringContext, base: ast.Expression) -> tuple[sym.LabelSymbol, ...]:
+    """Return the labels of a path, `p1.cut`; nothing if something else is in it."""
+    found: list[sym.LabelSymbol] = []
+    current: ast.Expression | None = base
+    while current is not None:
+        symbol = ctx.model.symbol_of(current)
+        if not isinstance(symbol, sym.LabelSymbol):
+            return ()
+        found.append(symbol)
+        current = current.base if isinstance(current, ast.MemberAccess) else None
+    return tuple(reversed(found))
+
+
+def _event_below(
+    ctx: LoweringContext,
+    path: ast.MemberAccess,
+    labels: tuple[sym.LabelSymbol, ...],
+    *,
+    is_moment: bool,
+) -> ir.LabelEvent | ir.InnerEvent | None:
+    """Return an event of a labelled member, or of one inside of it."""
+    last = labels[-1]
+    if is_moment and isinstance(last.node, ast.EmitDirective):
+        ctx.unsupported(
+            "OSC506",
+            path.span,
+            f"`{last.name}` labels an `emit`, which takes no time",
+            help=f"wait for the event itself, `@{last.node.event}`",
+        )
+        return None
+    invoked = labels[:-1] if is_moment else labels
+    if not all(is_composed(_invoked_by(ctx, label)) for label in invoked):
+        ctx.unsupported(
+            "OSC506",
+            path.span,
+            f"nothing makes `@{path.span.text}` occur",
+            help="events of an action are its `start`, `end` and `fail`",
+        )
+        return None
+    first, *inner = (label.name for label in labels)
+    if is_moment and not inner:
+        return ir.LabelEvent(span=path.span, label=first, moment=MOMENTS[path.name.text])
+    return ir.InnerEvent(span=path.span, label=first, name=".".join([*inner, path.name.text]))
+
+
+def _invoked_by(ctx: LoweringContext, label: sym.LabelSymbol) -> sym.Symbol | None:
+    binding = ctx.model.bindings.get(label.node)
+    return None if binding is None else binding.callee
+
+
+def _event_of_object(
+    ctx: LoweringContext, path: ast.Expression, symbol: sym.EventSymbol
+) -> ir.EventRef | None:
+    """Return an event that an actor or struct declares, as an event of the scenario."""
+    object_: ir.Expression | None
+    if isinstance(path, ast.MemberAccess):
+        object_ = lower_expression(ctx, path.base)
+    else:
+        object_ = None if ctx.receiver is None else ctx.receiver.value
+    name = None if object_ is None else _path_of(object_)
+    if object_ is None or name is None:
+        ctx.unsupported(
+            "OSC506",
+            path.span,
+            f"`@{path.span.text}` cannot be waited for: its object is computed",
+            help="name the object by a field of the scenario",
+        )
+        return None
+    name = f"{name}.{symbol.name}"
+    if name not in ctx.object_events:
+        ctx.object_events[name] = None  # while its own specification is looked at
+        ctx.object_events[name] = _declared(ctx, symbol, object_, name)
+    return ir.EventRef(span=path.span, name=name)
+
+
+def _declared(
+    ctx: LoweringContext, symbol: sym.EventSymbol, object_: ir.Expression, name: str
+) -> ir.Event:
+    node, owner = symbol.node, symbol.owner
+    assert isinstance(owner, sym.ActorSymbol | sym.StructSymbol)
+    inside = ctx.inside(Receiver(owner, object_))
+    specification = None if node is None else node.specification
+    return ir.Event(
+        name=name,
+        span=symbol.span,
+        comments=() if node is None else statement_comments(node),
+        trigger=None if specification is None else lower_trigger(inside, specification),
+        is_implicit=False,
+        parameters=tuple(event_parameter(inside, p) for p in symbol.parameters),
+    )
+
+
+def event_parameter(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.MethodParameter:
+    """Lower a parameter of an event."""
+    default = parameter.default
+    return ir.MethodParameter(
+        name=parameter.name,
+        type=lower_type(parameter.type),
+        default=None if default is None else lower_expression(ctx, default),
+    )
+
+
+def _path_of(object_: ir.Expression) -> str | None:
+    match object_:
+        case ir.FieldRef(name=name):
+            return name
+        case ir.Attribute(base=base, name=name) if (path := _path_of(base)) is not None:
+            return f"{path}.{name}"
+        case _:
+            return None
 
 
 def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condition | None:

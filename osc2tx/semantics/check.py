@@ -35,8 +35,8 @@ def check_bodies(r: Resolution) -> None:
     """Check what the layer declares in bodies of types, its own and extended ones."""
     owners = r.scope.own_types()
     for owner in owners:
-        for member in owner.members.values():
-            if isinstance(member, LabelSymbol) and member.type == ERROR:
+        for member in _labels(owner):
+            if member.type == ERROR:
                 env = environment_of(r, owner, _statement_of(r, owner, member))
                 resolve_label(r, member, env)
     for owner in owners:
@@ -50,6 +50,20 @@ def check_bodies(r: Resolution) -> None:
         if isinstance(symbol, FieldSymbol) and symbol.node is not None:
             env = Environment(r.scope.context_of(symbol.node))
             _check_field(r, symbol.node, symbol.type, env)
+
+
+def _labels(owner: TypeSymbol) -> list[LabelSymbol]:
+    """Return the labels of a type; those last whose type depends on another one's."""
+    found = [member for member in owner.members.values() if isinstance(member, LabelSymbol)]
+    names = {label.name for label in found}
+
+    def asks_another(label: LabelSymbol) -> bool:
+        actor = label.node.actor if isinstance(label.node, ast.Invocation) else None
+        while isinstance(actor, ast.MemberAccess):
+            actor = actor.base
+        return isinstance(actor, ast.NameExpression) and actor.name.text in names
+
+    return sorted(found, key=asks_another)
 
 
 def _statement_of(r: Resolution, owner: TypeSymbol, label: LabelSymbol) -> ast.Statement:

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 
+from osc2tx.semantics.constants import constant_number
 from osc2tx.semantics.conversions import dimension_of, is_numeric
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import ERROR, FLOAT, ListType, RangeType, Type
-from osc2tx.semantics.units import to_si
 from osc2tx.syntax import ast
 
 Arguments = Mapping[str, ast.Expression]
@@ -40,7 +40,7 @@ def _check_range(r: Resolution, value: ast.Expression, item: Type, env: Environm
 
 def _check_every(r: Resolution, value: ast.Expression, item: Type, env: Environment) -> None:
     _check_boundary(r, value, r.type_of(value, env), item, "`every`")
-    width = _constant(r, value)
+    width = constant_number(r, value)
     if width is not None and width <= 0:
         r.report("OSC412", value.span, "the width of a slice must be positive")
 
@@ -57,7 +57,7 @@ def _check_buckets(r: Resolution, value: ast.Expression, item: Type, env: Enviro
     if len(value.elements) < 2:
         r.report("OSC412", value.span, "buckets lie between two boundaries or more")
     for first, second in pairwise(value.elements):
-        lower, upper = _constant(r, first), _constant(r, second)
+        lower, upper = constant_number(r, first), constant_number(r, second)
         if lower is not None and upper is not None and upper < lower:
             r.report("OSC412", second.span, "the boundaries of buckets must not descend")
             return
@@ -75,17 +75,3 @@ def _check_boundary(
         r.report("OSC301", value.span, f"{what} takes numbers, not `{given}`")
     elif dimension_of(given) not in (dimension_of(FLOAT), dimension_of(item)):
         r.report("OSC302", value.span, f"{what} is given in `{given}`, the item in `{item}`")
-
-
-def _constant(r: Resolution, expression: ast.Expression) -> float | None:
-    """Return the value of a literal, in SI if it has a unit."""
-    match expression:
-        case ast.Unary(operator=ast.UnaryOperator.NEGATE, operand=operand):
-            value = _constant(r, operand)
-            return None if value is None else -value
-        case ast.IntegerLiteral(value=value) | ast.FloatLiteral(value=value):
-            return value
-        case ast.PhysicalLiteral(value=value) if unit := r.units.get(expression):
-            return to_si(value, unit)
-        case _:
-            return None

@@ -13,6 +13,7 @@ from math import inf
 import osc2tx_runtime.actions  # noqa: F401 (registers the actions of the library)
 from osc2tx_runtime.action import Action
 from osc2tx_runtime.actors import (
+    Actor,
     Animal,
     Environment,
     Map,
@@ -49,8 +50,35 @@ from osc2tx_runtime.behaviour import (
 )
 from osc2tx_runtime.behaviour.coverage import Unit
 from osc2tx_runtime.casts import as_type
+from osc2tx_runtime.crossings import Crossing, CrossingType
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.main import main
+from osc2tx_runtime.motions import (
+    Acceleration,
+    OrientationAcceleration,
+    OrientationRate,
+    TranslationalAcceleration,
+    TranslationalVelocity,
+    Velocity,
+)
+from osc2tx_runtime.parts import (
+    Axle,
+    BehavioralModel,
+    BmEngine,
+    BoundingBox,
+    HitchCoupler,
+    HitchReceiver,
+)
+from osc2tx_runtime.path_values import (
+    Path,
+    RelativePathOdr,
+    RelativePathPose3d,
+    RelativePathSt,
+    RelativeTrajectoryOdr,
+    RelativeTrajectoryPose3d,
+    RelativeTrajectorySt,
+    Trajectory,
+)
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action, methods
 from osc2tx_runtime.road_parts import (
     CompoundLane,
@@ -60,28 +88,41 @@ from osc2tx_runtime.road_parts import (
     LaneSection,
     Road,
     RoadPath,
+    Route,
 )
 from osc2tx_runtime.runner import RunResult, run_scenario
 from osc2tx_runtime.scenario import Range, Scenario, any_of, at_least, at_most, within
 from osc2tx_runtime.settings import RunSettings
-from osc2tx_runtime.shapes import CommonAccelerationShape, CommonLateralShape, CommonSpeedShape
+from osc2tx_runtime.shapes import (
+    AnyAccelerationShape,
+    AnyLateralShape,
+    AnyPositionShape,
+    AnyShape,
+    AnySpeedShape,
+    CommonAccelerationShape,
+    CommonLateralShape,
+    CommonPositionShape,
+    CommonSpeedShape,
+    OwnShape,
+)
+from osc2tx_runtime.stop_line_parts import TrafficLightStopLine
 from osc2tx_runtime.traffic_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
     TrafficLightGroup,
 )
-from osc2tx_runtime.values import (
-    Path,
-    RelativePathOdr,
-    RelativePathPose3d,
-    RelativePathSt,
-    RelativeTrajectoryOdr,
-    RelativeTrajectoryPose3d,
-    RelativeTrajectorySt,
-    RoutePoint,
-    Trajectory,
-    XyzPoint,
+from osc2tx_runtime.values import GeodeticPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.weather import (
+    Air,
+    CelestialLightSource,
+    CelestialPosition,
+    Clouds,
+    Fog,
+    GeodeticPosition,
+    Precipitation,
+    Weather,
+    Wind,
 )
 
 API_LEVEL = 1
@@ -130,11 +171,43 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "TrafficLightController",
     "Trailer",
     "Vehicle",
+    # motions: velocity and acceleration
+    "Acceleration",
+    "OrientationAcceleration",
+    "OrientationRate",
+    "TranslationalAcceleration",
+    "TranslationalVelocity",
+    "Velocity",
+    # parts: of physical objects
+    "Axle",
+    "BehavioralModel",
+    "BmEngine",
+    "BoundingBox",
+    "HitchCoupler",
+    "HitchReceiver",
+    # weather: and light
+    "Air",
+    "CelestialLightSource",
+    "CelestialPosition",
+    "Clouds",
+    "Fog",
+    "GeodeticPosition",
+    "Precipitation",
+    "Weather",
+    "Wind",
     # shapes
+    "AnyAccelerationShape",
+    "AnyLateralShape",
+    "AnyPositionShape",
+    "AnyShape",
+    "AnySpeedShape",
     "CommonAccelerationShape",
     "CommonLateralShape",
+    "CommonPositionShape",
     "CommonSpeedShape",
+    "OwnShape",
     # values: paths and points
+    "GeodeticPoint",
     "Path",
     "RelativePathOdr",
     "RelativePathPose3d",
@@ -145,20 +218,24 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "RoutePoint",
     "Trajectory",
     "XyzPoint",
-    # road_parts: what a map fills in
+    # road_parts, crossings: what a map fills in
     "CompoundLane",
     "CompoundRoute",
+    "Crossing",
+    "CrossingType",
     "Junction",
     "Lane",
     "LaneSection",
     "Road",
     "RoadPath",
-    # traffic_lights, traffic_cycles
+    "Route",
+    # traffic_lights, traffic_cycles, stop_line_parts
     "TrafficLight",
     "TrafficLightBulb",
     "TrafficLightCycle",
     "TrafficLightGroup",
     "TrafficLightPhase",
+    "TrafficLightStopLine",
     # behaviour: compositions, directives, conditions
     "Behaviour",
     "Call",
@@ -187,6 +264,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "LATERAL",
     "LONGITUDINAL",
     "Action",
+    "Actor",
     "action",
     "methods",
 ]

@@ -37,6 +37,7 @@ class Action(Leaf):
         method: How the class is registered: name, slots, ending.
         rules: Which arguments go together (`with`: the modifiers); the compiler knows them as well.
         accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
+        physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
         actor: Who acts.
         modifiers: As given.
         duration: As given: seconds, or (least, most) seconds.
@@ -47,6 +48,7 @@ class Action(Leaf):
     method: ClassVar[Method]
     rules: ClassVar[tuple[Rule, ...]] = ()
     accepts: ClassVar[tuple[type, ...]] = ()
+    physical: ClassVar[bool] = False
 
     def __init__(
         self,

@@ -8,7 +8,15 @@ from typing import Any, Literal
 
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["Rule", "at_least", "at_least_one", "at_most_one", "check_arguments", "none_of"]
+__all__ = [
+    "Rule",
+    "above",
+    "at_least",
+    "at_least_one",
+    "at_most_one",
+    "check_arguments",
+    "none_of",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +25,7 @@ class Rule:
 
     Attributes:
         kind: `at_most_one` or `at_least_one` of the parameters is given, `none` of them, or each
-            that is given is `at_least` some number.
+            that is given is `at_least` some number, or `above` it.
         of: Parameters.
         when: It only holds if one of these is given,
         values: with one of these values,
@@ -25,7 +33,7 @@ class Rule:
         least: The number.
     """
 
-    kind: Literal["at_most_one", "at_least_one", "none", "at_least"]
+    kind: Literal["at_most_one", "at_least_one", "none", "at_least", "above"]
     of: tuple[str, ...]
     when: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
@@ -40,7 +48,7 @@ class Rule:
         found = [name for name in self.of if name in given]
         names = _or(self.of)
         if cause is not None and self.values:
-            cause = f"{cause}: {given[cause]}"
+            cause = f"{cause}: {_word(given[cause])}"
         match self.kind:
             case "at_most_one" if len(found) > 1:
                 return f"`{found[0]}` and `{found[1]}` exclude each other"
@@ -51,10 +59,13 @@ class Rule:
             case "at_least":
                 low = next((n for n in found if _is_less(given[n], self.least)), None)
                 return None if low is None else f"`{low}` must not be less than {self.least}"
+            case "above":
+                low = next((n for n in found if _is_less(given[n], self.least, equal=True)), None)
+                return None if low is None else f"`{low}` must be above {self.least}"
         return None
 
     def _counts(self, name: str, given: Mapping[str, Any]) -> bool:
-        return name in given and (not self.values or given[name] in self.values)
+        return name in given and (not self.values or _word(given[name]) in self.values)
 
 
 def at_most_one(*of: str) -> Rule:
@@ -69,14 +80,19 @@ def at_least_one(
     return Rule("at_least_one", of, tuple(when), tuple(values), tuple(unless))
 
 
-def none_of(*of: str, when: Sequence[str]) -> Rule:
+def none_of(*of: str, when: Sequence[str], values: Sequence[str] = ()) -> Rule:
     """These parameters make no sense together with any of `when`."""
-    return Rule("none", of, tuple(when))
+    return Rule("none", of, tuple(when), tuple(values))
 
 
 def at_least(least: int, *of: str, when: Sequence[str] = (), unless: Sequence[str] = ()) -> Rule:
     """These parameters are numbers that are not less."""
     return Rule("at_least", of, tuple(when), unless=tuple(unless), least=least)
+
+
+def above(least: int, *of: str) -> Rule:
+    """These parameters are numbers that are greater."""
+    return Rule("above", of, least=least)
 
 
 def check_arguments(what: str, rules: Sequence[Rule], given: Mapping[str, Any]) -> None:
@@ -91,8 +107,13 @@ def check_arguments(what: str, rules: Sequence[Rule], given: Mapping[str, Any]) 
             raise ScenarioError(f"{what}: {wrong}")
 
 
-def _is_less(value: Any, least: int) -> bool:
-    return isinstance(value, int | float) and value < least
+def _is_less(value: Any, least: int, *, equal: bool = False) -> bool:
+    return isinstance(value, int | float) and (value < least or (equal and value == least))
+
+
+def _word(value: Any) -> Any:
+    """A value as the DSL writes it."""
+    return str(value).lower() if isinstance(value, bool) else value
 
 
 def _or(names: Sequence[str]) -> str:

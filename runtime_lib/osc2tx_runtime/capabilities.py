@@ -7,194 +7,28 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, get_args, get_type_hints
 
-from osc2tx_runtime.actions.checks import CONFLICTS, EXCLUSIVE, MOVING, NO_START
-from osc2tx_runtime.actions.shaped import ShapedAction
-from osc2tx_runtime.actors import (
-    Actor,
-    Animal,
-    Environment,
-    Map,
-    MovableObject,
-    Orientation,
-    Person,
-    PhysicalObject,
-    Point,
-    Pose,
-    StationaryObject,
-    TrafficLightController,
-    Trailer,
-    Vehicle,
+from osc2tx_runtime.actions.combinations import (
+    CONFLICTS,
+    CONTRADICTIONS,
+    EXCLUSIVE,
+    MOVING,
+    NO_START,
+    ON_LANES,
+    SORTS,
+    STARTING,
 )
+from osc2tx_runtime.actions.shaped import ShapedAction
+from osc2tx_runtime.actors import Actor
 from osc2tx_runtime.argument_rules import Rule
+from osc2tx_runtime.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.initializer import PLACEMENT_MODIFIERS
-from osc2tx_runtime.measures import RoutePosition
 from osc2tx_runtime.modifiers import MAP_MODIFIERS, MODIFIERS, Modifier
 from osc2tx_runtime.registry import Method, methods
-from osc2tx_runtime.road_network import RoadNetwork
-from osc2tx_runtime.road_parts import (
-    CompoundLane,
-    CompoundRoute,
-    Junction,
-    Lane,
-    LaneSection,
-    Road,
-    RoadPath,
-)
-from osc2tx_runtime.shapes import CommonAccelerationShape, CommonLateralShape, CommonSpeedShape
-from osc2tx_runtime.traffic_cycles import TrafficLightCycle, TrafficLightPhase
-from osc2tx_runtime.traffic_lights import (
-    TrafficLight,
-    TrafficLightBulb,
-    TrafficLightGroup,
-)
-from osc2tx_runtime.values import (
-    OdrPoint,
-    Path,
-    RelativePathOdr,
-    RelativePathPose3d,
-    RelativePathSt,
-    RelativeTrajectoryOdr,
-    RelativeTrajectoryPose3d,
-    RelativeTrajectorySt,
-    RoutePoint,
-    Trajectory,
-    XyzPoint,
-)
 
-__all__ = ["FIELDS", "METHODS", "OBJECTS", "capabilities"]
-
-METHODS: Mapping[str, Callable[..., Any]] = {
-    "physical_object.object_distance": PhysicalObject.object_distance,
-    "physical_object.road_distance": PhysicalObject.road_distance,
-    "physical_object.get_s_coord": PhysicalObject.get_s_coord,
-    "physical_object.get_t_coord": PhysicalObject.get_t_coord,
-    "physical_object.get_route_point": PhysicalObject.get_route_point,
-    "physical_object.distance_to_xyz_point": PhysicalObject.distance_to_xyz_point,
-    "physical_object.distance_to_route_point": PhysicalObject.distance_to_route_point,
-    "physical_object.distance_to_odr_point": PhysicalObject.distance_to_odr_point,
-    **{
-        f"map.{name}": method
-        for name, method in vars(RoadNetwork).items()
-        if not name.startswith("_") and name != "context"
-    },
-    "traffic_participant.space_gap": PhysicalObject.space_gap,
-    "traffic_participant.time_gap": PhysicalObject.time_gap,
-    "traffic_participant.space_headway": PhysicalObject.space_headway,
-    "traffic_participant.time_headway": PhysicalObject.time_headway,
-    "traffic_participant.time_to_collision": PhysicalObject.time_to_collision,
-    "traffic_light.state_equal": TrafficLight.state_equal,
-    "traffic_light.semantic_state_to_state": TrafficLight.semantic_state_to_state,
-    "traffic_light.state_to_semantic_state": TrafficLight.state_to_semantic_state,
-    "traffic_light_group.state_equal": TrafficLightGroup.state_equal,
-    "movable_object.distance_along_route": PhysicalObject.distance_along_route,
-    "environment.local_to_unix_time": Environment.local_to_unix_time,
-    "position_3d.norm": Point.norm,
-    "carla_position.ahead_of": RoutePosition.ahead_of,
-    "carla_position.behind": RoutePosition.behind,
-}
-"""Methods of the domain model that can be read in expressions."""
-
-FIELDS: Mapping[str, str] = {
-    "physical_object.color": "color",
-    "physical_object.position": "carla_position",
-    "physical_object.orientation": "orientation_3d",
-    "physical_object.pose": "pose_3d",
-    "movable_object.speed": "speed",
-    "movable_object.acceleration": "acceleration_6d",
-    "movable_object.velocity": "velocity_6d",
-    "acceleration_6d.translational": "translational_acceleration_3d",
-    "velocity_6d.translational": "translational_velocity_3d",
-    "translational_acceleration_3d.x": "acceleration",
-    "translational_velocity_3d.x": "speed",
-    "hitch_coupler.is_towed": "bool",
-    "hitch_receiver.is_towing": "bool",
-    "trailer.coupler": "hitch_coupler",
-    "trailer.tow_vehicle": "vehicle",
-    "vehicle.trailer_receiver": "hitch_receiver",
-    "vehicle.vehicle_category": "vehicle_category",
-    "environment.sun": "celestial_light_source",
-    "environment.moon": "celestial_light_source",
-    "environment.weather": "weather",
-    "weather.air": "air",
-    "weather.rain": "precipitation",
-    "weather.snow": "precipitation",
-    "weather.wind": "wind",
-    "weather.fog": "fog",
-    "weather.clouds": "clouds",
-    "air.temperature": "temperature",
-    "air.pressure": "pressure",
-    "air.relative_humidity": "float",
-    "precipitation.intensity": "speed",
-    "wind.speed": "speed",
-    "wind.direction": "angle",
-    "fog.visual_range": "length",
-    "clouds.cloudiness": "uint",
-    "celestial_light_source.position": "celestial_position_2d",
-    "celestial_position_2d.azimuth": "angle",
-    "celestial_position_2d.elevation": "angle",
-    "map.driving_rule": "driving_rule",
-    "map.traffic_light_control": "list of traffic_light_cycle",
-    "route_point.s": "length",
-    "route_point.t": "length",
-    "traffic_light.bulbs": "list of traffic_light_bulb",
-    "traffic_light.group": "traffic_light_group",
-    "traffic_light_bulb.state": "bulb_state",
-    "traffic_light_group.bulbs": "list of traffic_light_bulb",
-    "traffic_light_group.traffic_lights": "list of traffic_light",
-    "xyz_point.position": "position_3d",
-}
-"""Members that can be read in expressions, with their types."""
-
-OBJECTS: Mapping[str, Callable[..., Any]] = {
-    **{
-        kind.kinds[0]: kind
-        for kind in (
-            Animal,
-            Environment,
-            Map,
-            MovableObject,
-            Person,
-            PhysicalObject,
-            StationaryObject,
-            TrafficLightController,
-            Trailer,
-            Vehicle,
-        )
-    },
-    "orientation_3d": Orientation,
-    "pose_3d": Pose,
-    "position_3d": Point,
-    "common_acceleration_shape": CommonAccelerationShape,
-    "common_lateral_shape": CommonLateralShape,
-    "common_speed_shape": CommonSpeedShape,
-    "compound_lane": CompoundLane,
-    "compound_route": CompoundRoute,
-    "junction": Junction,
-    "lane": Lane,
-    "lane_section": LaneSection,
-    "road": Road,
-    "traffic_light": TrafficLight,
-    "traffic_light_bulb": TrafficLightBulb,
-    "traffic_light_cycle": TrafficLightCycle,
-    "traffic_light_group": TrafficLightGroup,
-    "traffic_light_phase": TrafficLightPhase,
-    "odr_point": OdrPoint,
-    "path": Path,
-    "Path": RoadPath,
-    "relative_path_odr": RelativePathOdr,
-    "relative_path_pose_3d": RelativePathPose3d,
-    "relative_path_st": RelativePathSt,
-    "relative_trajectory_odr": RelativeTrajectoryOdr,
-    "relative_trajectory_pose_3d": RelativeTrajectoryPose3d,
-    "relative_trajectory_st": RelativeTrajectorySt,
-    "route_point": RoutePoint,
-    "trajectory": Trajectory,
-    "xyz_point": XyzPoint,
-}
-"""Classes of actors and values, by their names in the domain model."""
+__all__ = ["capabilities"]
 
 
 def capabilities() -> dict[str, Any]:
@@ -202,14 +36,20 @@ def capabilities() -> dict[str, Any]:
 
     Returns:
         `actions`: `vehicle.drive` to its `arguments`, which of them are `required`, `modifiers`,
-        `slots` and how it `ends`, and whether it `moves` as its modifiers say;
-        `modifiers`: name to parameters; `placement`: the same for those an actor can start with;
-        `methods`: `physical_object.object_distance` to parameters; `fields`: name to type;
-        `exclusive`: groups of modifiers of which an action takes one;
+        `slots` and how it `ends`, whether it `moves` as its modifiers say and whether that has to
+        be `physical`;
+        `modifiers`: name to parameters; `asked`: those they cannot do without; `placement`: the
+        same as `modifiers` for those an actor can start with; `methods`:
+        `physical_object.object_distance` to parameters; `fields`: name to type; `exclusive`: groups
+        of modifiers of which an action takes one;
         `objects`: actor or value type to what its constructor takes; `needed`: what it cannot do
         without; `reserved`: what actors have besides actions; `rules`: which arguments of a
-        modifier or action go together, as written in `argument_rules`; `conflicts`: modifiers to
-        those that they leave no room for; `no_start`: modifiers that say nothing of a start.
+        modifier or action go together, as written in `argument_rules`; `unknown`: members of actors
+        that only the scenario can say; `conflicts`: modifiers to those that they leave no room for;
+        `no_start`: modifiers that say nothing of a start; `on_lanes`: those for actors that follow
+        lanes, which are `lane_bound`; `sorts` of modifiers, under which `conflicts` lists them as
+        well; `contradictions`: pairs of an argument and its value; `shapes`: modifiers to the base
+        of their shapes.
     """
     return {
         "actions": {f"{m.kind}.{m.name}": _action(m) for m in methods.all()},
@@ -222,13 +62,27 @@ def capabilities() -> dict[str, Any]:
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
         "fields": dict(sorted(FIELDS.items())),
         "objects": {name: _keywords(OBJECTS[name]) for name in sorted(OBJECTS)},
-        "needed": {name: _needed(OBJECTS[name]) for name in sorted(OBJECTS)},
+        "needed": {name: _needed(name) for name in sorted(OBJECTS)},
+        "asked": {name: _mandatory(MODIFIERS[name]) for name in sorted(MODIFIERS)},
+        "unknown": sorted(UNKNOWN),
         "reserved": sorted(_members()),
         "conflicts": {
             name: [kind.name for kind in kinds] for name, kinds in sorted(CONFLICTS.items())
         },
         "no_start": sorted(kind.name for kind in NO_START),
+        "lane_bound": sorted(
+            name for name, kind in OBJECTS.items() if getattr(kind, "lane_bound", False)
+        ),
+        "on_lanes": sorted(kind.name for kind in ON_LANES),
+        "sorts": [dataclasses.asdict(sort) for sort in SORTS],
+        "contradictions": [[list(said) for said in pair] for pair in CONTRADICTIONS],
+        "shapes": {
+            name: kind.shaped_by.kind
+            for name, kind in sorted(MODIFIERS.items())
+            if kind.shaped_by is not None
+        },
         "rules": {
+            "a start": _rules(STARTING),
             **{f"{name} while moving": _rules(MOVING[name]) for name in sorted(MOVING)},
             **{name: _rules(MODIFIERS[name].rules) for name in sorted(MODIFIERS)},
             **{f"{m.kind}.{m.name}": _rules(m.factory.rules) for m in methods.all()},
@@ -249,7 +103,8 @@ def _action(method: Method) -> dict[str, Any]:
         "arguments": _arguments(method.factory.__init__),
         "required": _required(method.factory.__init__),
         "modifiers": sorted(accepted),
-        "moves": issubclass(method.factory, ShapedAction),
+        "moves": issubclass(method.factory, ShapedAction) and not method.factory.stands,
+        "physical": method.factory.physical,
         "slots": list(method.slots),
         "ends": method.ends,
     }
@@ -259,8 +114,8 @@ def _arguments(function: Callable[..., Any]) -> list[str]:
     """Names of the parameters in their order, without the actor and what all have."""
     return [
         parameter.name
-        for parameter in list(inspect.signature(function).parameters.values())[1:]
-        if parameter.name not in ("actor", "duration", "label")
+        for parameter in inspect.signature(function).parameters.values()
+        if parameter.name not in ("self", "actor", "duration", "label")
         and parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
     ]
 
@@ -273,7 +128,16 @@ def _required(function: Callable[..., Any]) -> list[str]:
 
 
 def _keywords(kind: Callable[..., Any]) -> list[str]:
-    return list(inspect.signature(kind).parameters)
+    """Names of all that a constructor takes, those of its bases as well."""
+    names: list[str] = []
+    for parameter in inspect.signature(kind).parameters.values():
+        if parameter.kind is parameter.VAR_KEYWORD:
+            hint = get_type_hints(kind.__init__)[parameter.name]
+            (fields,) = get_args(hint)
+            names += get_type_hints(fields)
+        else:
+            names.append(parameter.name)
+    return names
 
 
 def _rules(rules: Sequence[Rule]) -> list[dict[str, Any]]:
@@ -282,9 +146,16 @@ def _rules(rules: Sequence[Rule]) -> list[dict[str, Any]]:
     return [{name: value for name, value in rule.items() if value} for rule in written]
 
 
-def _needed(kind: Callable[..., Any]) -> list[str]:
-    parameters = inspect.signature(kind).parameters.values()
-    return [p.name for p in parameters if p.default is inspect.Parameter.empty]
+def _needed(name: str) -> list[str]:
+    parameters = inspect.signature(OBJECTS[name]).parameters.values()
+    single = (p for p in parameters if p.kind is not p.VAR_KEYWORD)
+    without = (p.name for p in single if p.default is inspect.Parameter.empty)
+    return [*without, *MANDATORY.get(name, ())]
+
+
+def _mandatory(kind: type[Modifier]) -> list[str]:
+    fields = (f for f in dataclasses.fields(kind) if f.init and f.default is dataclasses.MISSING)
+    return [field.name for field in fields if field.default_factory is dataclasses.MISSING]
 
 
 def _parameters(kind: type[Modifier]) -> list[str]:

@@ -10,11 +10,11 @@ hand their wishes in here, and `commit` carries them out once the instant is set
 
 from __future__ import annotations
 
-import math
 import random
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from osc2tx_runtime.clock import whole_steps
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.settings import RunSettings
 from osc2tx_runtime.slots import Effect, Effects, Slots
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.actors import Actor
     from osc2tx_runtime.behaviour.events import Event
     from osc2tx_runtime.behaviour.variables import Sampled
+    from osc2tx_runtime.stretches import Stretch
     from osc2tx_runtime.world.commands import Command
     from osc2tx_runtime.world.protocol import World
 
@@ -40,6 +41,7 @@ class ExecutionContext:
         world: The world; its snapshot is that of the present step.
         settings: Settings of the run.
         actors: Actors by id, in the order of their declaration.
+        crossings: Where the crossings lie that the scenario declares.
         events: Declared events by name.
         trace: Takes the lines of the trace.
         dt: Length of a step in seconds.
@@ -84,7 +86,9 @@ class ExecutionContext:
         self.slots = Slots()
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
+        self.crossings: list[Stretch] = []
         self._cast: tuple[str, ...] | None = None
+        self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[Event, list[Mapping[str, Any]]] = {}
         self._assigned: dict[Sampled, Any] = {}
         self._pass_wanted = False
@@ -96,12 +100,8 @@ class ExecutionContext:
         return self.step * self.dt
 
     def steps(self, seconds: float) -> int:
-        """Return a duration in steps, the nearest whole number."""
-        return round(seconds / self.dt)
-
-    def first_step_at(self, seconds: float) -> int:
-        """Return the first step at or after a time; close misses by rounding count as hits."""
-        return max(0, math.ceil(seconds / self.dt - 1e-6))
+        """Return a duration in steps: until the first one at or after its end."""
+        return whole_steps(seconds, self.dt)
 
     def cast(self) -> tuple[str, ...]:
         """Return the ids of the placed actors, in the order of their declaration.
@@ -141,6 +141,7 @@ class ExecutionContext:
     def begin_step(self, step: int) -> None:
         """Go to a step; its first pass comes next."""
         self.step = step
+        self._left.clear()
         self.snapshot += 1
         self.pass_number = -1
         self.settled = False
@@ -190,6 +191,18 @@ class ExecutionContext:
     def release(self, actor_id: str, slot: str, owner: Action) -> None:
         """Give a slot up. Without a new owner the actor holds its speed or keeps its lane."""
         self.slots.release((actor_id, slot), owner)
+
+    def leave(self, actor_id: str, slot: str, model: str, command: Command | None) -> None:
+        """Let a slot without owner pursue the command of a behavioral model; None: hold, keep.
+
+        Raises:
+            ScenarioError: At this instant it was left to another model.
+        """
+        other = self._left.setdefault(actor_id, model)
+        if other != model:
+            names = ", ".join(sorted((other, model)))
+            raise ScenarioError(f"{actor_id} gets two behavioral models at once: {names}")
+        self.slots.leave((actor_id, slot), command)
 
     def command(self, actor_id: str, slot: str, owner: Action, command: Command) -> None:
         """Set the command of an owner; the world gets it when the instant is settled."""

@@ -29,6 +29,10 @@ class ScenarioError(Exception):
         self.message = message
         self.source = source
 
+    def happened(self, seconds: float) -> None:
+        """Note when it was met."""
+        self.message = f"{self.message} (at {seconds:.3f} s)"
+
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
 

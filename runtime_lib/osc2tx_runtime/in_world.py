@@ -6,27 +6,23 @@ uses the path.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from osc2tx_runtime.along import way_through
 from osc2tx_runtime.errors import PlacementError
-from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+from osc2tx_runtime.globe import place_of_geodetic
+from osc2tx_runtime.made_routes import Element, poses_of_route
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
+from osc2tx_runtime.path_values import MadeRoute, NetworkPath, NetworkTrajectory, Path, Trajectory
 from osc2tx_runtime.paths import PathError
 from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.road_graph import graph_of
+from osc2tx_runtime.road_parts import Route
 from osc2tx_runtime.routes import place_of_route
-from osc2tx_runtime.values import (
-    NetworkPath,
-    NetworkPoint,
-    NetworkTrajectory,
-    OdrPoint,
-    Path,
-    Pose,
-    RoutePoint,
-    Trajectory,
-    XyzPoint,
-)
+from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.values import GeodeticPoint, NetworkPoint, OdrPoint, Pose, RoutePoint, XyzPoint
 
 __all__ = ["path_in_world", "trajectory_in_world"]
 
@@ -39,10 +35,45 @@ def path_in_world(road_map: RoadMap, path: Path) -> Path:
     """
     if not isinstance(path, NetworkPath):
         return path
+    if isinstance(path, MadeRoute):
+        return _route_in_world(road_map, path)
     places = _places(road_map, path.places)
     if path.on_road_network:
         return Path(way_through(road_map, [_on_lane(road_map, p) for p in places]), "smooth")
     return Path(tuple(_pose(road_map, place) for place in places), path.interpolation)
+
+
+def _route_in_world(road_map: RoadMap, route: MadeRoute) -> Path:
+    elements = [part for each in route.route_elements for part in _elements(road_map, each)]
+    poses = poses_of_route(road_map, elements, route.connect_points_by)
+    drives = all(not isinstance(each, MapPose) and _is_driven(road_map, each) for each in elements)
+    return Path(poses, "smooth" if drives else "straight_line")
+
+
+def _is_driven(road_map: RoadMap, element: Element) -> bool:
+    """Whether an element lies on lanes of vehicles: the way along those bends smoothly."""
+    match element:
+        case Path():
+            return False
+        case Stretch():
+            graph = graph_of(road_map)
+            lanes = [lane for each in element.parts or (element,) for lane in graph.lanes_of(each)]
+            return element.line is None and all(graph.lane(lane).type in DRIVING for lane in lanes)
+        case _:
+            return isinstance(element, LanePosition)
+
+
+def _elements(road_map: RoadMap, element: NetworkPoint | Route | Path) -> Iterator[Element]:
+    """An element of a route, taken apart; what is in junctions fills gaps anyway."""
+    if isinstance(element, Path):
+        yield path_in_world(road_map, element)
+    elif isinstance(element, Route):
+        found = element.found
+        parts = found.parts if found.kind == "compound_route" else (found,)
+        yield from (part for part in parts if road_map.roads[part.road].junction is None)
+    else:
+        (place,) = _places(road_map, [element])
+        yield place
 
 
 def trajectory_in_world(road_map: RoadMap, trajectory: Trajectory) -> Trajectory:
@@ -84,6 +115,8 @@ def _place(road_map: RoadMap, point: NetworkPoint) -> LanePosition | MapPose:
             return place_of_route(road_map, point)
         case XyzPoint(position=position):
             return MapPose(position.x, position.y, position.z, 0.0)
+        case GeodeticPoint():
+            return place_of_geodetic(road_map, point)
 
 
 def _pose(road_map: RoadMap, place: LanePosition | MapPose) -> Pose:

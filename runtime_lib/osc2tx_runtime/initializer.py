@@ -7,86 +7,29 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.actors import Map, PhysicalObject
 from osc2tx_runtime.control_file import read_control_file
+from osc2tx_runtime.crossings import Crossing
 from osc2tx_runtime.errors import InputError, PlacementError, ScenarioError, SettingsError
 from osc2tx_runtime.map_solver import MapSolver, Relation
 from osc2tx_runtime.modifiers import (
-    Along,
-    Lane,
-    Lateral,
-    Location,
     MapModifier,
-    Modifier,
-    OnPath,
-    Orient,
-    Position,
     SetTrafficLightsControlFile,
-    Speed,
-    TowTrailer,
-    Yaw,
 )
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
-from osc2tx_runtime.places import Placer, Spot
-from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.places import Placer
 from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.spots import Spot
+from osc2tx_runtime.start_order import PLACEMENT_MODIFIERS, Start, couple, cycle_of
+from osc2tx_runtime.stop_line_parts import TrafficLightStopLine
 from osc2tx_runtime.world.collision import Box, box_of, overlapping
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.towing import pose_behind
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
-    from osc2tx_runtime.scenario import Placement
-    from osc2tx_runtime.traffic_lights import MapObject
+    from osc2tx_runtime.map_objects import MapObject
+    from osc2tx_runtime.placement import Placement
 
 __all__ = ["PLACEMENT_MODIFIERS", "ScenarioInitializer"]
-
-PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
-    Along,
-    Position,
-    Location,
-    Lane,
-    Lateral,
-    Speed,
-    Yaw,
-    Orient,
-    TowTrailer,
-    OnPath,
-)
-"""Modifiers that say where and how an actor starts."""
-
-
-class _Start:
-    """One actor to be placed.
-
-    Attributes:
-        actor: Who.
-        modifiers: Where and how.
-        source: Place in the scenario.
-        references: Actors that must be placed before.
-        rank: Absolute places come before relative ones, defaults last.
-        towed_by: The vehicle it is coupled to from the start.
-    """
-
-    def __init__(
-        self, actor: PhysicalObject, modifiers: Sequence[Modifier], source: str | None
-    ) -> None:
-        self.actor = actor
-        self.modifiers = modifiers
-        self.source = source
-        self.references: list[PhysicalObject] = []
-        self.towed_by: PhysicalObject | None = None
-        for modifier in modifiers:
-            if not isinstance(modifier, PLACEMENT_MODIFIERS):
-                raise PlacementError(f"{actor.id} cannot start with {modifier.name}", source)
-            if getattr(modifier, "at", "all") == "end":
-                raise PlacementError(f"{actor.id}: {modifier.name} at the end is no start", source)
-            reference = getattr(modifier, "reference", None)
-            reference = reference or getattr(modifier, "relative_to", None)
-            if reference is not None:
-                self.references.append(reference)
-        position = one_of_kind(modifiers, Position)
-        absolute = position is not None and position.absolute
-        absolute = absolute or one_of_kind(modifiers, Location) is not None
-        self.rank = 0 if absolute else 1 if self.references else 2
 
 
 class ScenarioInitializer:
@@ -122,7 +65,7 @@ class ScenarioInitializer:
         while waiting:
             ready = [s for s in waiting if all(r.id in self._boxes for r in s.references)]
             if not ready:
-                raise _cycle(waiting)
+                raise cycle_of(waiting)
             start = min(ready, key=lambda s: s.rank)  # the first of equals: order of the cast
             waiting.remove(start)
             self._place(start)
@@ -152,9 +95,17 @@ class ScenarioInitializer:
             for modifier in placement.modifiers:
                 if isinstance(modifier, SetTrafficLightsControlFile):
                     self._read_cycles(placement, modifier.file)
-        parts = [each for each in self._map_objects if isinstance(each, RoadPart)]
+        lines = [each for each in self._map_objects if isinstance(each, TrafficLightStopLine)]
+        parts = [
+            each
+            for each in self._map_objects
+            if isinstance(each, RoadPart) and not isinstance(each, TrafficLightStopLine)
+        ]
         if parts or relations:
             MapSolver(self._world.map, parts, relations).solve()
+        self._context.crossings.extend(p.found for p in parts if isinstance(p, Crossing))
+        for line in lines:
+            line.settle(self._world.map, self._world.signals)
 
     def _read_cycles(self, placement: Placement, file: str) -> None:
         assert isinstance(placement.actor, Map)
@@ -175,7 +126,7 @@ class ScenarioInitializer:
                     4, "size", actor=actor.id, model=actor.model, source=actor.size_from
                 )
 
-    def _starts(self, placements: Sequence[Placement]) -> list[_Start]:
+    def _starts(self, placements: Sequence[Placement]) -> list[Start]:
         """One start per physical actor, in the order of the cast."""
         written: dict[str, Placement] = {}
         for placement in placements:
@@ -189,13 +140,13 @@ class ScenarioInitializer:
             given = written.get(actor.id)
             if isinstance(actor, PhysicalObject):
                 modifiers = () if given is None else given.modifiers
-                starts.append(_Start(actor, modifiers, given.source if given else actor.source))
+                starts.append(Start(actor, modifiers, given.source if given else actor.source))
             elif given is not None:
                 raise PlacementError(f"{actor.id} cannot be placed anywhere", given.source)
-        _couple(starts)
+        couple(starts)
         return starts
 
-    def _place(self, start: _Start) -> None:
+    def _place(self, start: Start) -> None:
         actor = start.actor
         if start.towed_by is not None:
             tow = self._world.state(start.towed_by.id)
@@ -214,7 +165,7 @@ class ScenarioInitializer:
             other = self._taken_by(actor, spot)
             if other is not None:
                 raise PlacementError(f"{actor.id} overlaps {other} at its start")
-            self._world.place(actor.id, spot.at, spot.speed or 0.0, spot.heading)
+            self._world.place(actor.id, *spot)
         except ScenarioError as error:
             error.source = error.source or start.source
             raise
@@ -264,39 +215,3 @@ class ScenarioInitializer:
             raise SettingsError(
                 f"--destination {actor_id}={goal}: write a placed actor or ROAD,LANE,S"
             ) from None
-
-
-def _couple(starts: Sequence[_Start]) -> None:
-    """Makes trailers wait for what tows them.
-
-    Raises:
-        PlacementError: A trailer has a place of its own, or two towing vehicles.
-    """
-    by_id = {start.actor.id: start for start in starts}
-    for start in starts:
-        tow = one_of_kind(start.modifiers, TowTrailer)
-        if tow is None:
-            continue
-        trailer = by_id[tow.trailer.id]
-        if trailer.modifiers or trailer.towed_by is not None:
-            raise PlacementError(
-                f"{trailer.actor.id} is towed by {start.actor.id}, so it has no place of its own",
-                start.source,
-            )
-        trailer.towed_by, trailer.references, trailer.rank = start.actor, [start.actor], 1
-
-
-def _cycle(waiting: Sequence[_Start]) -> PlacementError:
-    """Names the starts that wait for each other."""
-    by_id = {start.actor.id: start for start in waiting}
-    start, seen = waiting[0], []
-    while start not in seen:
-        seen.append(start)
-        blocking = [r.id for r in start.references if r.id in by_id]
-        if not blocking:
-            missing = ", ".join(reference.id for reference in start.references)
-            return PlacementError(f"{start.actor.id} waits for {missing}", start.source)
-        start = by_id[blocking[0]]
-    ring = seen[seen.index(start) :]
-    places = ", ".join(f"{each.actor.id} ({each.source})" for each in ring)
-    return PlacementError(f"the starts of {places} depend on each other", ring[-1].source)

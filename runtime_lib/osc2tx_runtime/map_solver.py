@@ -10,11 +10,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from osc2tx_runtime.crossings import Crossing
 from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.modifiers.map_crossings import implied
+from osc2tx_runtime.modifiers.map_members import listed_members
+from osc2tx_runtime.modifiers.map_paths import differences
 from osc2tx_runtime.modifiers.roads import MapModifier
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart, Stretch
+from osc2tx_runtime.road_graph import graph_of
+from osc2tx_runtime.road_parts import RoadPart, RoadPath
+from osc2tx_runtime.stretches import Stretch
 
 __all__ = ["MapSolver", "Relation"]
 
@@ -42,7 +47,8 @@ class MapSolver:
         self, road_map: RoadMap, parts: Sequence[RoadPart], relations: Sequence[Relation]
     ) -> None:
         self._map_name = road_map.name
-        self._graph = RoadGraph(road_map)
+        self._graph = graph_of(road_map)
+        relations = [*relations, *_implied(parts)]
         used = {id(part) for relation in relations for part in relation.modifier.parts().values()}
         used.update(id(part.within) for part in parts if part.within is not None)
         self._parts = [part for part in parts if part.kind != "compound_route" or id(part) in used]
@@ -72,7 +78,7 @@ class MapSolver:
                 )
         part = self._parts[self._furthest]
         names = [r.modifier.name for r in self._relations if part in r.modifier.parts().values()]
-        alone = _wishes(part) or "its anchors hold"
+        alone = part.wishes or "its anchors hold"
         what = f"{' and '.join(dict.fromkeys(names))} hold" if names else alone
         sources = [r.source for r in self._relations if part in r.modifier.parts().values()]
         return PlacementError(
@@ -101,16 +107,21 @@ class MapSolver:
     def _options(self, part: RoadPart) -> Iterator[Stretch]:
         """Stretches for a part, as the first modifier that knows others of its parts limits them.
 
-        Without one all of its kind.
+        Without one all that it can be.
         """
         for relation in self._relations:
             parts = relation.modifier.parts()
             names = [name for name, other in parts.items() if other is part]
-            if names and (known := self._known(relation)):
+            known = self._known(relation) if names else {}
+            if known or (names and relation.modifier.leads):
                 found = relation.modifier.rows(self._graph, known)
-                yield from dict.fromkeys(row[names[0]] for row in found)
+                tried: set[Stretch] = set()
+                for row in found:  # only as far as it is looked at
+                    if row[names[0]] not in tried:
+                        tried.add(row[names[0]])
+                        yield row[names[0]]
                 return
-        yield from self._graph.all(part.kind)
+        yield from part.candidates(self._graph)
 
     def _known(self, relation: Relation) -> dict[str, Stretch]:
         parts = relation.modifier.parts()
@@ -125,9 +136,7 @@ class MapSolver:
     def _consistent(self, part: RoadPart) -> bool:
         """Whether what is said about a part itself holds, and no modifier has become impossible."""
         stretch = self._chosen[id(part)]
-        if not self._anchored(part, stretch) or not self._numbered(part, stretch):
-            return False
-        if part.min_length > 0.0 and self._graph.length(stretch) < part.min_length:
+        if not part.suits(self._graph, stretch):
             return False
         inner = [other for other in self._parts if other.within is not None]
         for other in inner:
@@ -139,30 +148,16 @@ class MapSolver:
         about = (r for r in self._relations if part in r.modifier.parts().values())
         return all(self._holds(relation) for relation in about)
 
-    def _anchored(self, part: RoadPart, stretch: Stretch) -> bool:
-        if not part.anchors:
-            return True
-        road = self._graph.map.roads.get(stretch.road)
-        names = {stretch.road, f"{stretch.road}:{stretch.lane}", "" if road is None else road.name}
-        return all(anchor in names for anchor in part.anchors)
 
-    def _numbered(self, part: RoadPart, stretch: Stretch) -> bool:
-        if part.min_lanes is None and part.max_lanes is None:
-            return True
-        count = len(self._graph.lanes_of(stretch))
-        return (part.min_lanes or 0) <= count and (
-            part.max_lanes is None or count <= part.max_lanes
-        )
-
-
-def _wishes(part: RoadPart) -> str:
-    """What a part itself asks of the map besides its anchors."""
-    wishes = {
-        f"there are at least {part.min_lanes} lanes": part.min_lanes is not None,
-        f"there are at most {part.max_lanes} lanes": part.max_lanes is not None,
-        f"there are {part.min_length:g} m": part.min_length > 0.0,
-    }
-    return " and ".join(text for text, is_asked in wishes.items() if is_asked)
+def _implied(parts: Sequence[RoadPart]) -> Iterator[Relation]:
+    """What parts say themselves about others: their members, their lanes, where others are."""
+    for part in parts:
+        said: list[MapModifier | None] = [*listed_members(part)]
+        if isinstance(part, Crossing):
+            said.append(implied(part))
+        elif isinstance(part, RoadPath):
+            said.extend(differences(part))
+        yield from (Relation(each, part.source) for each in said if each is not None)
 
 
 def _inside(inner: Stretch, outer: Stretch) -> bool:

@@ -5,21 +5,23 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.motions import Motion, Translation
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.measured import Measured
+from osc2tx_runtime.motions import Acceleration, Velocity
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
+from osc2tx_runtime.path_values import Path
 from osc2tx_runtime.poses import place_of_odr
 from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.route_coordinates import RouteType, between_on_crossing, place_in_route
 from osc2tx_runtime.route_places import place_on_route
-from osc2tx_runtime.routes import along_lane, place_of_route, route_point_at
+from osc2tx_runtime.route_position import RoutePosition
+from osc2tx_runtime.routes import place_of_route
 from osc2tx_runtime.values import (
     OdrPoint,
     Orientation,
-    Path,
     Point,
     Pose,
-    RoadRoute,
     RoutePoint,
     XyzPoint,
 )
@@ -42,9 +44,7 @@ from osc2tx_runtime.world.state import ActorState
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
 
-__all__ = ["Measures", "RoutePosition", "RouteType"]
-
-RouteType = Literal["on_road", "on_lane_section", "on_lane", "on_crossing"]
+__all__ = ["Measures", "RouteType"]
 
 
 class Measures:
@@ -67,17 +67,17 @@ class Measures:
     @property
     def speed(self) -> float:
         """Speed (m/s), negative in reverse."""
-        return self.state.v
+        return Measured(self.state.v)
 
     @property
-    def velocity(self) -> Motion:
-        """Velocity in the own axes, as far as it is known."""
-        return Motion(Translation(self.state.v))
+    def velocity(self) -> Velocity:
+        """Velocity in the own axes, against the world."""
+        return self.context.world.motion(self.id).velocity
 
     @property
-    def acceleration(self) -> Motion:
-        """Acceleration in the own axes, as far as it is known."""
-        return Motion(Translation(self.state.a))
+    def acceleration(self) -> Acceleration:
+        """Acceleration in the own axes, against the world."""
+        return self.context.world.motion(self.id).acceleration
 
     @property
     def position(self) -> RoutePosition:
@@ -87,13 +87,14 @@ class Measures:
     @property
     def orientation(self) -> Orientation:
         """Orientation (rad)."""
-        return Orientation(yaw=self.state.h)
+        state = self.state
+        return Orientation(*map(Measured, (state.roll, state.pitch, state.h)))
 
     @property
     def pose(self) -> Pose:
         """Place and orientation of the reference point."""
-        state = self.state
-        return Pose(x=state.x, y=state.y, z=state.z, yaw=state.h)
+        place = Point(*map(Measured, self.state[:3]))
+        return Pose(position=place, orientation=self.orientation)
 
     # --- distances ----------------------------------------------------------------------------
 
@@ -104,7 +105,7 @@ class Measures:
         mode: DistanceMode = "reference_points",
     ) -> float:
         """Distance (m) in the own axes; positive if the reference is in front, left, above."""
-        return object_distance(self.state, reference.state, direction, mode)
+        return Measured(object_distance(self.state, reference.state, direction, mode))
 
     def road_distance(
         self,
@@ -117,7 +118,7 @@ class Measures:
 
         With `bounding_boxes` it is measured between the facing ends or sides.
         """
-        return self._road_distance_to(reference.state, direction, mode, route_type)
+        return Measured(self._road_distance_to(reference.state, direction, mode, route_type))
 
     def space_gap(self, reference: Measures, direction: RoadDirection) -> float:
         """Space (m) between facing ends or sides; positive if the caller is ahead or left.
@@ -127,49 +128,48 @@ class Measures:
         """
         shape, other = self.state.shape, reference.state.shape
         if direction == "longitudinal":
-            return gap_between(-self._along(reference), shape, other)
-        return side_gap(self._lateral(reference), shape, other)
+            return Measured(gap_between(-self._along(reference), shape, other))
+        return Measured(side_gap(self._lateral(reference), shape, other))
 
     def time_gap(self, reference: Measures, direction: RoadDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""
         gap = self.space_gap(reference, direction)
         if direction == "longitudinal":
-            return time_to_cover(gap, reference.speed if gap > 0.0 else self.speed)
+            return Measured(time_to_cover(gap, reference.speed if gap > 0.0 else self.speed))
         me, other = self.state, reference.state
         place = me.lane_position
         along = me.h if place is None else self.context.world.map.pose(place).h
         to_left = me.v * math.sin(me.h - along) - other.v * math.sin(other.h - along)
-        return time_to_cover(gap, -to_left if gap > 0.0 else to_left)
+        return Measured(time_to_cover(gap, -to_left if gap > 0.0 else to_left))
 
     def space_headway(self, reference: Measures) -> float:
         """Distance (m) from front to front; positive if the caller trails."""
-        return -headway_between(-self._along(reference), self.state.shape, reference.state.shape)
+        along = self._along(reference)
+        return Measured(-headway_between(-along, self.state.shape, reference.state.shape))
 
     def time_headway(self, reference: Measures) -> float:
         """Space headway over the speed of the trailing one (s); positive if the caller trails."""
         headway = self.space_headway(reference)
-        return time_to_cover(headway, self.speed if headway > 0.0 else reference.speed)
+        return Measured(time_to_cover(headway, self.speed if headway > 0.0 else reference.speed))
 
     def time_to_collision(self, reference: Measures) -> float:
         """Time (s) until the boxes touch at constant velocities; infinite if they never do."""
-        return time_to_collision(self.state, reference.state)
+        return Measured(time_to_collision(self.state, reference.state))
 
     def get_s_coord(self, route_type: RouteType = "on_road") -> float:
         """Own s (m) on the road, or along the centre line of the lane from where it begins."""
-        return self._road_coordinates(route_type)[0]
+        return Measured(self.get_route_point(route_type).s)
 
     def get_t_coord(self, route_type: RouteType = "on_road") -> float:
         """Own t (m): left of the reference line of the road, or of the lane's centre line."""
-        return self._road_coordinates(route_type)[1]
+        return Measured(self.get_route_point(route_type).t)
 
     def get_route_point(self, route_type: RouteType = "on_road") -> RoutePoint:
-        """Own place in coordinates of the road or the lane."""
-        s, t = self._road_coordinates(route_type)
-        place = self.state.lane_position
-        assert place is not None  # else it has no coordinates
-        if route_type == "on_lane":
-            return route_point_at(self.context.world.map, place)
-        return RoutePoint(RoadRoute(place.road), s, t)
+        """Own place in coordinates of the road, lane section, lane or crossing."""
+        try:
+            return place_in_route(self.context, self.state, route_type)
+        except ScenarioError as error:
+            raise ScenarioError(f"{self.id}: {error.message}") from error
 
     # --- distances to points ------------------------------------------------------------------
 
@@ -181,7 +181,7 @@ class Measures:
     ) -> float:
         """As `object_distance`, to a point."""
         there = point.position
-        return object_distance(self.state, self._standing_at(there, 0.0), direction, mode)
+        return Measured(object_distance(self.state, self._standing_at(there, 0.0), direction, mode))
 
     def distance_to_route_point(
         self,
@@ -191,8 +191,8 @@ class Measures:
         route_type: RouteType = "on_road",
     ) -> float:
         """As `road_distance`, to a point."""
-        there = place_of_route(self.context.world.map, point)
-        return self._road_distance_to(self._at_place(there), direction, mode, route_type)
+        there = self._at_place(place_of_route(self.context.world.map, point))
+        return Measured(self._road_distance_to(there, direction, mode, route_type))
 
     def distance_to_odr_point(
         self,
@@ -202,8 +202,8 @@ class Measures:
         route_type: RouteType = "on_road",
     ) -> float:
         """As `road_distance`, to a point."""
-        there = place_of_odr(self.context.world.map, point)
-        return self._road_distance_to(self._at_place(there), direction, mode, route_type)
+        there = self._at_place(place_of_odr(self.context.world.map, point))
+        return Measured(self._road_distance_to(there, direction, mode, route_type))
 
     def distance_along_route(
         self, route: Path | RoadPart, from_: Literal["from_start", "from_end"] = "from_start"
@@ -217,30 +217,17 @@ class Measures:
             along, length = place_on_route(self.context.world.map, route, self.state)
         except ScenarioError as error:
             raise ScenarioError(f"{self.id}: {error.message}") from error
-        return along if from_ == "from_start" else length - along
+        return Measured(along if from_ == "from_start" else length - along)
 
     # --- internals ----------------------------------------------------------------------------
-
-    def _road_coordinates(self, route_type: RouteType) -> tuple[float, float]:
-        state = self.state
-        place = state.lane_position
-        if place is None:
-            raise ScenarioError(f"{self.id} is not on a road")
-        if route_type == "on_lane":
-            return along_lane(self.context.world.map, place), place.offset
-        if route_type != "on_road":
-            raise UnsupportedError(f"coordinates with route_type {route_type} are not there yet")
-        line = self.context.world.map.road_pose(place.road, place.s, 0.0)
-        across = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
-        return place.s, across
 
     def _road_distance_to(
         self, there: ActorState, direction: RoadDirection, mode: DistanceMode, route_type: RouteType
     ) -> float:
-        if route_type not in ("on_road", "on_lane"):
-            raise UnsupportedError(f"road_distance with route_type {route_type} is not there yet")
         here, road_map = self.state, self.context.world.map
         ahead = direction == "longitudinal"
+        if route_type == "on_crossing":
+            return between_on_crossing(self.context, here, there, ahead=ahead, mode=mode)
         distance = (route_between if ahead else lateral_on_road)(road_map, here, there)
         if distance is None:
             raise ScenarioError(f"no lane leads from {self.id} to the place or back")
@@ -281,39 +268,3 @@ class Measures:
             f"no lane leads from {self.id} to {reference.id} or back, so they have no distance"
             " along the road"
         )
-
-
-class RoutePosition:
-    """Place of an object, with its relation to others along the road."""
-
-    __slots__ = ("_object",)
-
-    def __init__(self, of: Measures) -> None:
-        self._object = of
-
-    def ahead_of(self, reference: Measures) -> float:
-        """How far (m) it is ahead of another object along the road; negative if behind."""
-        return -self._object._along(reference)
-
-    def behind(self, reference: Measures) -> float:
-        """How far (m) it is behind another object along the road; negative if ahead."""
-        return self._object._along(reference)
-
-    @property
-    def x(self) -> float:
-        """World x (m)."""
-        return self._object.state.x
-
-    @property
-    def y(self) -> float:
-        """World y (m)."""
-        return self._object.state.y
-
-    @property
-    def z(self) -> float:
-        """World z (m)."""
-        return self._object.state.z
-
-    def norm(self) -> float:
-        """Distance from the world's origin (m)."""
-        return Point(self.x, self.y, self.z).norm()

@@ -1,45 +1,81 @@
-"""What actors tell of their motion and of what they tow (DSL 8.7.5, 8.7.13, 8.7.14)."""
+"""Velocities and accelerations of actors against the world, in their own axes (DSL 8.7.5, 8.14.2).
+
+The axes are those of ISO 8855: x forward, y to the left, z up; turns are counter-clockwise about
+them, so a nose that sinks has a positive pitch rate.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-__all__ = ["Hitch", "Motion", "Translation"]
+from osc2tx_runtime.measured import Measured
+
+__all__ = [
+    "Acceleration",
+    "OrientationAcceleration",
+    "OrientationRate",
+    "TranslationalAcceleration",
+    "TranslationalVelocity",
+    "Velocity",
+]
 
 
 @dataclass(frozen=True, slots=True)
-class Translation:
-    """A velocity (m/s) or acceleration (m/s^2) along the own x axis.
+class TranslationalVelocity:
+    """A velocity along the axes (m/s)."""
 
-    Worlds only tell how fast actors move along their heading; y and z are not known.
-    """
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
 
-    x: float
-
-
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """A velocity or acceleration of an actor against the world, in its own axes."""
-
-    translational: Translation
+    def norm(self) -> float:
+        """Magnitude (m/s)."""
+        return Measured(math.hypot(self.x, self.y, self.z))
 
 
 @dataclass(frozen=True, slots=True)
-class Hitch:
-    """One half of a hitch: the receiver of a vehicle that tows, or the coupler of a trailer.
+class OrientationRate:
+    """Turning about the axes (rad/s)."""
 
-    Attributes:
-        connected: Whether the other half hangs on it now.
-    """
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
 
-    connected: bool
 
-    @property
-    def is_towing(self) -> bool:
-        """Of a receiver: whether it tows."""
-        return self.connected
+@dataclass(frozen=True, slots=True)
+class Velocity:
+    """How something moves and turns."""
 
-    @property
-    def is_towed(self) -> bool:
-        """Of a coupler: whether it is towed."""
-        return self.connected
+    translational: TranslationalVelocity = TranslationalVelocity()
+    angular: OrientationRate = OrientationRate()
+
+
+@dataclass(frozen=True, slots=True)
+class TranslationalAcceleration:
+    """An acceleration along the axes (m/s^2)."""
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+
+    def norm(self) -> float:
+        """Magnitude (m/s^2)."""
+        return Measured(math.hypot(self.x, self.y, self.z))
+
+
+@dataclass(frozen=True, slots=True)
+class OrientationAcceleration:
+    """Changes of the rates about the axes (rad/s^2)."""
+
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Acceleration:
+    """How the motion of something changes."""
+
+    translational: TranslationalAcceleration = TranslationalAcceleration()
+    angular: OrientationAcceleration = OrientationAcceleration()

@@ -21,17 +21,15 @@ from typing import TypeVar
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
-from osc2tx_runtime.values import (
-    OdrPoint,
+from osc2tx_runtime.path_values import (
     Path,
     PathPoint,
-    Pose,
     RelativePath,
     RelativeTrajectory,
     RelativeTransform,
-    RoutePoint,
     Trajectory,
 )
+from osc2tx_runtime.values import OdrPoint, Pose, RoutePoint
 from osc2tx_runtime.world.curve import Curve, Knot
 from osc2tx_runtime.world.state import ActorState
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime import opendrive
-from osc2tx_runtime.errors import PlacementError, UnsupportedError
+from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.modifiers import (
     Along,
     Lane,
@@ -17,38 +17,26 @@ from osc2tx_runtime.modifiers import (
     Modifier,
     OnPath,
     Position,
-    Speed,
+    value_of,
 )
 from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.path_values import Path
 from osc2tx_runtime.points import PointPlaces
 from osc2tx_runtime.poses import heading_of, one_of_kind, road_entry
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.road_graph import graph_of
+from osc2tx_runtime.spots import Spot, aside_speed_at, speed_at, tilt_at
 from osc2tx_runtime.starts import StartPlaces
-from osc2tx_runtime.world.lateral import offset_from
+from osc2tx_runtime.values import RoutePoint
+from osc2tx_runtime.world.lanes import offset_from
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Placer", "Spot"]
+__all__ = ["Placer"]
 
 _EXACT = 1e-7  # m to which a distance along the road is met
-
-
-class Spot(NamedTuple):
-    """A place to be, with the state to be in.
-
-    Attributes:
-        at: Place on a lane, or pose of the reference point.
-        speed: m/s; None if nothing says.
-        heading: rad, for actors off the lanes; None if nothing says.
-    """
-
-    at: LanePosition | opendrive.Pose
-    speed: float | None
-    heading: float | None
 
 
 class Placer:
@@ -85,7 +73,7 @@ class Placer:
             PlacementError: There is no such place.
         """
         self._draws = draws
-        speed = self._speed(modifiers)
+        speed = speed_at(self._world, modifiers, self._of)
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
         if speed and not actor.movable:
@@ -97,13 +85,13 @@ class Placer:
             at = self._aside(actor, at, lateral)
         pose = self._map.pose(at) if isinstance(at, LanePosition) else at
         heading = heading_of(self._world, actor, modifiers, pose)
-        if heading is not None and actor.lane_bound and isinstance(at, LanePosition):
-            if math.cos(heading - pose.h) < 1.0 - 1e-9:
-                raise UnsupportedError(
-                    f"{actor.id} follows its lane, so it cannot start at an angle to it"
-                )
+        along = heading is not None and math.cos(heading - pose.h) >= 1.0 - 1e-9
+        if along and actor.lane_bound and isinstance(at, LanePosition):
             heading = None
-        return Spot(at, speed, heading)
+        turned = pose if heading is None else pose._replace(h=heading)
+        tilt = tilt_at(self._world, modifiers, turned)
+        aside = aside_speed_at(self._world, modifiers, self._of)
+        return Spot(at, speed, heading, tilt, aside)
 
     # --- kinds of places ----------------------------------------------------------------------
 
@@ -223,16 +211,18 @@ class Placer:
         along: Along,
         lane: Lane | None,
         position: Position | None,
-    ) -> LanePosition:
+    ) -> LanePosition | opendrive.Pose:
         """Where a route of the map begins, or so far from there."""
-        if not isinstance(along.route, RoadPart):
-            raise PlacementError(f"{actor.id}: a path to move along says nothing about the start")
-        place = RoadGraph(self._map).begin(along.route.found)
-        distance = along.start_offset + (0.0 if position is None else self._of(position.size()))
+        route = along.way
+        distance = value_of(along.start_offset)
+        distance += 0.0 if position is None else self._of(position.size())
+        if isinstance(route, Path) or route.found.kind == "crossing":
+            return self._points.on_way(actor, RoutePoint(route, distance))
+        place = graph_of(self._map).begin(route.found)
         step = self._map.advance(place, distance)
         if abs(step.travelled - distance) > 1e-6:
             raise PlacementError(
-                f"{actor.id}: {along.route.found} ends after {step.travelled:.1f} m, before"
+                f"{actor.id}: {route.found} ends after {step.travelled:.1f} m, before"
                 f" {distance:g} m"
             )
         place = step.position
@@ -272,17 +262,6 @@ class Placer:
         if on is None:
             raise PlacementError(f"{actor.id}: {of.id} is not on a road, so it has no lane")
         return LanePosition(on.road, on.lane, on.s)
-
-    def _speed(self, modifiers: Sequence[Modifier]) -> float | None:
-        speed = one_of_kind(modifiers, Speed)
-        if speed is None:
-            return None
-        if speed.shaped:
-            raise PlacementError("a speed at the start takes no rate_profile or rate_peak")
-        value = self._of(speed.difference())
-        if speed.reference is None:
-            return value
-        return speed.factor * self._world.state(speed.reference.id).v + value
 
     def _of(self, bounds: tuple[float, float]) -> float:
         """A value between bounds."""

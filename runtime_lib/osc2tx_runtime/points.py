@@ -10,12 +10,13 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.modifiers import Lane, Position
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.poses import pose_of, road_heading
+from osc2tx_runtime.routes import place_of_route
 from osc2tx_runtime.world.lanes import lane_with_number, number_of_lane
 from osc2tx_runtime.world.motion import ANY_LANE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
-    from osc2tx_runtime.values import Point
+    from osc2tx_runtime.values import Point, RoutePoint
 
 __all__ = ["PointPlaces"]
 
@@ -84,6 +85,15 @@ class PointPlaces:
             return on
         h = lane.h if heading is None else heading
         return opendrive.Pose(pose.x, pose.y, lane.z if z is None else z, h)
+
+    def on_way(self, actor: PhysicalObject, point: RoutePoint) -> LanePosition | opendrive.Pose:
+        """A point of a path or crossing, looking along it; vehicles in the lane that is there."""
+        pose = place_of_route(self._map, point)
+        assert isinstance(pose, opendrive.Pose)
+        on = self._map.locate(pose.x, pose.y, heading=pose.h, max_distance=1e-3)
+        if on is None or not actor.lane_bound or math.cos(self._map.pose(on).h - pose.h) <= 0.0:
+            return pose
+        return on
 
     def near_point(
         self, actor: PhysicalObject, position: Position, distance: float, lane: Lane | None

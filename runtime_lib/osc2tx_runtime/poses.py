@@ -11,6 +11,7 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.modifiers import Modifier, Orient, Position, Yaw
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.values import OdrPoint
+from osc2tx_runtime.world.attitude import LEVEL, Tilt, tilt_on
 from osc2tx_runtime.world.curve import turn_between
 from osc2tx_runtime.world.motion import ANY_LANE
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = [
+    "heading_base",
     "heading_of",
     "headings_of",
     "one_of_kind",
@@ -27,10 +29,13 @@ __all__ = [
     "pose_of",
     "road_entry",
     "road_heading",
+    "tilt_of",
 ]
 
 # What is added to an angle between axes to have the heading: the width axis points left.
 _AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
+
+_AT_END = 1e-6  # m by which a point may miss its road
 
 ModifierT = TypeVar("ModifierT", bound=Modifier)
 
@@ -77,18 +82,43 @@ def headings_of(
 ) -> tuple[float, float] | None:
     """Least and greatest heading (rad) that yaw or orientation allow; arguments as above."""
     turned = one_of_kind(modifiers, Yaw) or one_of_kind(modifiers, Orient)
-    if turned is None:
+    angles = None if turned is None else turned.angles()
+    if turned is None or angles is None:
         return None
-    low, high = turned.angles()
+    low, high = angles
+    base = heading_base(world, turned, at)
+    return base + low, base + high
+
+
+def heading_base(world: World, turned: Yaw | Orient, at: opendrive.Pose | ActorState) -> float:
+    """The heading (rad) from which an angle counts; arguments as above."""
     if isinstance(turned, Orient):
-        base = road_heading(world.map, at) if turned.measure_by == "relative_to_road" else 0.0
+        base = 0.0 if turned.measure_by == "absolute" else road_heading(world.map, at)
     else:
         north = turned.measure_by == "relative_to_north"
         base = 0.5 * math.pi if north else road_heading(world.map, at)
         base += _AXES.get(turned.measure_by, 0.0)
     if turned.relative_to is not None and turned.measure_by != "absolute":
         base = world.state(turned.relative_to.id).h + _AXES.get(turned.measure_by or "", 0.0)
-    return base + low, base + high
+    return base
+
+
+def tilt_of(world: World, modifiers: Sequence[Modifier], at: opendrive.Pose | ActorState) -> Tilt:
+    """Pitch and roll (rad) that an orientation asks for; arguments as above."""
+    turned = one_of_kind(modifiers, Orient)
+    if turned is None or (turned.pitch is None and turned.roll is None):
+        return LEVEL
+    pitch, roll = turned.tilt()
+    base = (0.0, 0.0)
+    if turned.relative_to is not None and turned.measure_by != "absolute":
+        other = world.state(turned.relative_to.id)
+        base = (other.pitch, other.roll)
+    elif turned.measure_by != "absolute":
+        on = world.map.locate(at.x, at.y, at.z, lane_types=ANY_LANE, max_distance=1e-3)
+        base = (0.0, 0.0) if on is None else tilt_on(world.map.pose(on), at.h)
+    return Tilt(
+        None if pitch is None else base[0] + pitch, None if roll is None else base[1] + roll
+    )
 
 
 def road_heading(road_map: RoadMap, at: opendrive.Pose | ActorState) -> float:
@@ -139,10 +169,21 @@ def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive
     try:
         lane = point.lane
         if lane is None:
-            return road_map.road_pose(point.road_id, point.s, point.t)
+            pose = road_map.road_pose(point.road_id, point.s, point.t)
+            _check_length(road_map, point)
+            return pose
         place = LanePosition(point.road_id, lane, point.s)
         road_map.pose(place)
+        _check_length(road_map, point)
         left = point.t * road_map.travel_direction(point.road_id, lane)
         return LanePosition(point.road_id, lane, point.s, left)
     except MapError as error:
         raise PlacementError(error.message) from error
+
+
+def _check_length(road_map: RoadMap, point: OdrPoint) -> None:
+    length = road_map.roads[point.road_id].length
+    if not -_AT_END <= point.s <= length + _AT_END:
+        raise PlacementError(
+            f"road {point.road_id} is {length:.1f} m long, so there is no s = {point.s:g} m"
+        )

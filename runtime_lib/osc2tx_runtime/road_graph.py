@@ -2,39 +2,31 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from functools import cached_property
-from typing import NamedTuple
+from functools import cached_property, lru_cache
 
-from osc2tx_runtime.opendrive import DRIVING, LaneKey, LanePosition, RoadMap
-from osc2tx_runtime.road_parts import PartKind, Stretch
+from osc2tx_runtime.crossing_lines import on_crosswalk
+from osc2tx_runtime.lane_kinds import LaneKind, kind_of_lane
+from osc2tx_runtime.opendrive import DRIVING, Lane, LaneKey, LanePosition, RoadMap
+from osc2tx_runtime.opendrive.lane_line import lane_line
+from osc2tx_runtime.passages import Passage, arms_of, passages_of
+from osc2tx_runtime.stretches import PartKind, Stretch
 
-__all__ = ["Passage", "RoadGraph"]
+__all__ = ["RoadGraph", "graph_of"]
 
 _INSIDE = 1e-6  # m from the end of a lane section, to be in it
 
 
-class Passage(NamedTuple):
-    """A way through a junction, from lane to lane.
-
-    Attributes:
-        junction: The junction.
-        in_lane: Lane that enters it.
-        via: Lane in it.
-        out_lane: Lane that leaves it.
-        turn: Change of heading (rad), to the left positive, in (-pi, pi].
-    """
-
-    junction: Stretch
-    in_lane: Stretch
-    via: Stretch
-    out_lane: Stretch
-    turn: float
+@lru_cache(maxsize=4)
+def graph_of(road_map: RoadMap) -> RoadGraph:
+    """The graph of a map; the same one as long as it is in use."""
+    return RoadGraph(road_map)
 
 
 class RoadGraph:
-    """Stretches of a map and how they hang together; only lanes that vehicles drive on count.
+    """Stretches of a map and how they hang together.
+
+    Only lanes that vehicles drive on count; `other_lanes` has those beside them.
 
     Args:
         road_map: The map.
@@ -48,7 +40,7 @@ class RoadGraph:
     def all(self, kind: PartKind) -> tuple[Stretch, ...]:
         """All stretches of a kind: by numbers of road and section, lanes from the right."""
         match kind:
-            case "road":
+            case "road" | "route":
                 return self.roads
             case "lane_section":
                 return self.sections
@@ -60,8 +52,10 @@ class RoadGraph:
                 return self.paths
             case "junction":
                 return tuple(Stretch("junction", each) for each in self.map.junctions)
+            case "crossing":
+                return self.crossings
             case _:
-                return tuple(dict.fromkeys(self._result(passage) for passage in self.passages))
+                return tuple(dict.fromkeys(passage.route for passage in self.passages))
 
     @cached_property
     def roads(self) -> tuple[Stretch, ...]:
@@ -92,6 +86,14 @@ class RoadGraph:
         usable = (s for s in self.sections if (s.road, s.section, s.forwards) in starts)
         return tuple(sorted(usable, key=self.length, reverse=True))
 
+    def sections_of_road(self, road: str, *, forwards: bool) -> tuple[Stretch, ...]:
+        """Lane sections of one direction of a road that have drivable lanes, in order of s."""
+        return tuple(
+            Stretch("lane_section", road, section.index, forwards=forwards)
+            for section in self.map.roads[road].sections
+            if self._ids(road, section.index, forwards)
+        )
+
     def length(self, section: Stretch) -> float:
         """Length of a lane section (m)."""
         found = self.map.roads[section.road].sections[section.section or 0]
@@ -101,6 +103,23 @@ class RoadGraph:
     def lanes(self) -> tuple[Stretch, ...]:
         """Lanes of these sections."""
         return tuple(lane for section in self.sections for lane in self.lanes_of(section))
+
+    @cached_property
+    def other_lanes(self) -> tuple[Stretch, ...]:
+        """Lanes outside of junctions that vehicles do not drive on, by road and from the right."""
+        return tuple(
+            self.stretch_of(LaneKey(road.id, section.index, lane.id))
+            for road in self.map.roads.values()
+            if road.junction is None
+            for section in road.sections
+            for lane in section.lanes.values()
+            if lane.type not in DRIVING
+        )
+
+    @cached_property
+    def crossings(self) -> tuple[Stretch, ...]:
+        """Crosswalks of the map, each in both directions."""
+        return tuple(each for walk in self.map.crosswalks() for each in on_crosswalk(self, walk))
 
     @cached_property
     def compound_lanes(self) -> tuple[Stretch, ...]:
@@ -145,6 +164,14 @@ class RoadGraph:
             for forwards in directions
             for lane in self._ids(stretch.road, index, forwards)
         )
+
+    def chains_of(self, road: Stretch) -> tuple[tuple[Stretch, ...], ...]:
+        """Drivable lanes over a whole road, each with those that follow it on the road.
+
+        Those in the direction of the road come first.
+        """
+        chains = [lane.parts for lane in self.compound_lanes if lane.road == road.road]
+        return tuple(sorted(chains, key=lambda chain: chain[0].forwards != road.forwards))
 
     def sections_of(self, stretch: Stretch) -> tuple[Stretch, ...]:
         """Whole cross-sections, or sections of one direction, that a stretch runs through."""
@@ -216,66 +243,70 @@ class RoadGraph:
         assert lane.lane is not None and lane.section is not None
         return LaneKey(lane.road, lane.section, lane.lane)
 
-    def _stretch(self, key: LaneKey) -> Stretch:
+    def along(self, lane: Stretch, s: float) -> float:
+        """Metres along the centre line of a lane, in its direction, at a road coordinate (m)."""
+        line = lane_line(self.lane(lane))
+        along = line.length_at(s)
+        return along if lane.forwards else line.length - along
+
+    def s_at(self, lane: Stretch, along: float) -> float | None:
+        """Road coordinate (m) so far along a lane; None beyond its end."""
+        line = lane_line(self.lane(lane))
+        if not 0.0 <= along <= line.length:
+            return None
+        return line.s_at(along if lane.forwards else line.length - along)
+
+    def lane(self, lane: Stretch) -> Lane:
+        """The lane of the map, with its geometry."""
+        section = self.map.roads[lane.road].sections[lane.section or 0]
+        if not section.ready:
+            section.prepare()
+        assert lane.lane is not None
+        return section.lanes[lane.lane]
+
+    def width_of(self, lane: Stretch) -> float:
+        """Width (m) of a lane where it begins."""
+        found = self.lane(lane)
+        section = found.section
+        return found.width_at(section.begin if lane.forwards else section.end)
+
+    def kind_of(self, lane: Stretch) -> LaneKind:
+        """What a lane is for."""
+        return kind_of_lane(self.lane(lane).type)
+
+    def stretch_of(self, key: LaneKey) -> Stretch:
+        """The stretch that a lane of the map is."""
         forwards = self.map.travel_direction(key.road, key.lane) > 0
         return Stretch("lane", key.road, key.section, key.lane, forwards)
 
     def after(self, lane: Stretch) -> tuple[Stretch, ...]:
         """Lanes that follow a lane."""
-        return tuple(self._stretch(key) for key in self.map.successors(self.key(lane)))
+        return tuple(self.stretch_of(key) for key in self.map.successors(self.key(lane)))
 
     def before(self, lane: Stretch) -> tuple[Stretch, ...]:
         """Lanes that lead to a lane."""
-        return tuple(self._stretch(key) for key in self.map.predecessors(self.key(lane)))
+        return tuple(self.stretch_of(key) for key in self.map.predecessors(self.key(lane)))
 
     # --- junctions ----------------------------------------------------------------------------
 
     @cached_property
     def passages(self) -> tuple[Passage, ...]:
         """Ways through junctions."""
-        found = []
-        for lane in self.lanes:
-            for via in self.after(lane):
-                junction = self.map.roads[via.road].junction
-                if junction is None:
-                    continue
-                inside = Stretch("junction", junction)
-                for out in self.after(via):
-                    if self.map.roads[out.road].junction is None:
-                        turn = self._turn(lane, out)
-                        found.append(Passage(inside, lane, via, out, turn))
-        return tuple(found)
+        return passages_of(self)
 
-    def _turn(self, entry: Stretch, exit_: Stretch) -> float:
-        turn = self._heading(exit_, at_end=False) - self._heading(entry, at_end=True)
-        return math.pi - (math.pi - turn) % math.tau
+    def arms(self, junction: Stretch) -> Iterator[tuple[float, str]]:
+        """Roads that meet in a junction: direction in which they leave it (rad), and their id."""
+        return arms_of(self, self.passages, junction)
 
-    def _heading(self, lane: Stretch, *, at_end: bool) -> float:
+    def roads_at(self, junction: Stretch) -> tuple[str, ...]:
+        """Ids of the roads that meet in a junction, in the order of the map."""
+        found = {road for _, road in self.arms(junction)}
+        return tuple(road for road in self.map.roads if road in found)
+
+    def heading(self, lane: Stretch, *, at_end: bool) -> float:
+        """Heading (rad) of a lane where it begins or ends."""
         assert lane.lane is not None and lane.section is not None
         section = self.map.roads[lane.road].sections[lane.section]
         last = lane.forwards == at_end
         s = max(section.end - _INSIDE, section.begin) if last else section.begin
         return self.map.pose(LanePosition(lane.road, lane.lane, s)).h
-
-    def _result(self, passage: Passage) -> Stretch:
-        """In-road, junction and out-road as one route."""
-        roads = (passage.in_lane, passage.via, passage.out_lane)
-        parts = tuple(Stretch("road", r.road, forwards=r.forwards) for r in roads)
-        return Stretch("compound_route", parts[0].road, parts=parts)
-
-    def route_of(self, passage: Passage) -> Stretch:
-        """The whole way of a passage."""
-        return self._result(passage)
-
-    def arms(self, junction: Stretch) -> Iterator[tuple[float, str]]:
-        """Roads that meet in a junction: direction in which they leave it (rad), and their id."""
-        seen: dict[str, float] = {}
-        for passage in self.passages:
-            if passage.junction != junction:
-                continue
-            seen.setdefault(
-                passage.in_lane.road, self._heading(passage.in_lane, at_end=True) + math.pi
-            )
-            seen.setdefault(passage.out_lane.road, self._heading(passage.out_lane, at_end=False))
-        for road, heading in seen.items():
-            yield heading % math.tau, road

@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.in_world import path_in_world
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
-from osc2tx_runtime.paths import absolute
-from osc2tx_runtime.poses import place_of_odr
-from osc2tx_runtime.routes import place_of_route, route_point_at
-from osc2tx_runtime.values import (
+from osc2tx_runtime.path_values import (
+    ConnectPointsBy,
+    MadeRoute,
     NetworkPath,
     NetworkTrajectory,
-    OdrPoint,
     Path,
     PathInterpolation,
-    Point,
-    Pose,
     RelativePath,
     RelativeTrajectory,
     RelativeTransform,
+    Trajectory,
+)
+from osc2tx_runtime.paths import absolute
+from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.road_graph import graph_of
+from osc2tx_runtime.road_parts import Junction, PartT, Road, Route
+from osc2tx_runtime.routes import place_of_route, route_point_at
+from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.traffic_lights import TrafficLightGroup
+from osc2tx_runtime.values import (
+    NetworkPoint,
+    OdrPoint,
+    Point,
+    Pose,
     RoadRoute,
     RoutePoint,
-    Trajectory,
     XyzPoint,
 )
 
@@ -38,7 +48,7 @@ __all__ = ["RoadNetwork"]
 class RoadNetwork:
     """What one can ask a map; mixed into the actor class."""
 
-    map_file: str | None
+    named_file: str | None
 
     @property
     def context(self) -> ExecutionContext:
@@ -103,7 +113,40 @@ class RoadNetwork:
 
     def get_map_file(self) -> str:
         """Name of the map file, as the scenario writes it; else that of the map."""
-        return self.map_file or self._map.name
+        return self.named_file or self._map.name
+
+    @property
+    def map_file(self) -> str:
+        """The same as a field."""
+        return self.get_map_file()
+
+    @property
+    def routes(self) -> tuple[Road, ...]:
+        """The roads outside of junctions, by their numbers; they have the rest of it."""
+        graph = graph_of(self._map)
+        return self._seen(Road, graph.roads)
+
+    @property
+    def junctions(self) -> tuple[Junction, ...]:
+        """The junctions, by their numbers."""
+        return self._seen(Junction, graph_of(self._map).all("junction"))
+
+    @property
+    def traffic_light_groups(self) -> tuple[TrafficLightGroup, ...]:
+        """The groups of traffic lights, by their numbers."""
+        groups = tuple(TrafficLightGroup(map_id=each.id) for each in self._map.controllers())
+        for group in groups:
+            group.bind(self.context)
+        return groups
+
+    def _seen(self, kind: type[PartT], stretches: Sequence[Stretch]) -> tuple[PartT, ...]:
+        parts = []
+        for stretch in stretches:
+            part = kind()
+            part.bind(self.context)
+            part.choose(stretch)
+            parts.append(part)
+        return tuple(parts)
 
     def _right_hand(self) -> bool:
         rules = {road.right_hand_traffic for road in self._map.roads.values()}
@@ -126,7 +169,7 @@ class RoadNetwork:
         on_road_network: bool = False,
     ) -> Path:
         """A path through points in road coordinates, along the lanes if it is to stay on them."""
-        return NetworkPath((), interpolation, tuple(points), on_road_network)
+        return NetworkPath((), interpolation, tuple(points), on_road_network, self)
 
     def create_path_route_points(
         self,
@@ -135,29 +178,30 @@ class RoadNetwork:
         on_road_network: bool = False,
     ) -> Path:
         """A path through points in route coordinates, likewise."""
-        return NetworkPath((), interpolation, tuple(points), on_road_network)
+        return NetworkPath((), interpolation, tuple(points), on_road_network, self)
 
     def create_route(
         self,
-        routes: Sequence[RoutePoint | OdrPoint | XyzPoint],
-        connect_points_by: Literal["waypoint"] = "waypoint",
+        routes: Sequence[NetworkPoint | Route | Path],
+        connect_points_by: ConnectPointsBy = "waypoint",
         legal_route: bool = True,
-    ) -> Path:
-        """The way along lanes from point to point, in order.
+    ) -> MadeRoute:
+        """The way through points, roads, lanes, crossings and paths, in order (DSL 8.5.7).
 
         Args:
-            routes: Points of the road network, two at least.
-            connect_points_by: Points become points of the way.
-            legal_route: Lanes are followed in direction of travel in any case.
+            routes: What it leads through; gaps are filled.
+            connect_points_by: What points stand for: themselves, or what they are on.
+            legal_route: Lanes of vehicles are followed in direction of travel in any case.
+        """
+        return MadeRoute((), "smooth", (), True, self, tuple(_elements(routes)), connect_points_by)
+
+    def in_world(self, path: Path) -> Path:
+        """A path through poses of this map.
 
         Raises:
-            UnsupportedError: There is something else than points, or they become something else.
+            PathError: A point is not on the map, or no way along lanes leads to it.
         """
-        if not all(isinstance(each, RoutePoint | OdrPoint | XyzPoint) for each in routes):
-            raise UnsupportedError("create_route connects points only yet")
-        if connect_points_by != "waypoint":
-            raise UnsupportedError(f"create_route cannot connect points by {connect_points_by} yet")
-        return NetworkPath((), "smooth", tuple(routes), on_road_network=True)
+        return path_in_world(self._map, path)
 
     def create_trajectory(
         self,
@@ -206,3 +250,14 @@ class RoadNetwork:
         """The absolute trajectory, at the present place of the reference; times stay."""
         poses = absolute(self._map, relative_trajectory.points, reference.state, transform)
         return Trajectory(poses, relative_trajectory.time_stamps, relative_trajectory.interpolation)
+
+
+def _elements(
+    routes: Sequence[NetworkPoint | Route | Path],
+) -> Iterator[NetworkPoint | Route | Path]:
+    """The elements of routes: those that were put together are taken apart."""
+    for each in routes:
+        if isinstance(each, MadeRoute):
+            yield from _elements(each.route_elements)
+        else:
+            yield each

@@ -11,12 +11,15 @@ import math
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+from osc2tx_runtime.path_values import Path
 from osc2tx_runtime.poses import road_entry
-from osc2tx_runtime.road_graph import RoadGraph
+from osc2tx_runtime.road_graph import graph_of
 from osc2tx_runtime.road_parts import RoadPart
 from osc2tx_runtime.values import RoadRoute, RoutePoint
 
 __all__ = ["along_lane", "place_of_route", "route_point_at"]
+
+_AT_END = 1e-5  # m: so near to the end of a lane is there
 
 
 def along_lane(road_map: RoadMap, place: LanePosition) -> float:
@@ -40,25 +43,47 @@ def place_of_route(road_map: RoadMap, point: RoutePoint) -> LanePosition | opend
     route = point.route
     if route is None:
         raise PlacementError("a point without a route is relative; it needs a reference")
-    if isinstance(route, RoadPart) and route.kind == "road":
-        route = RoadRoute(route.found.road)
+    way = None
+    if isinstance(route, Path):
+        return _beside_path(route, point)
+    if isinstance(route, RoadPart):
+        found = route.found
+        if found.line is not None:
+            return opendrive.Pose(*found.line.at(point.s, point.t), found.line.heading)
+        if found.kind == "road":
+            route = RoadRoute(found.road)
     try:
         if isinstance(route, RoadPart):
-            begin = RoadGraph(road_map).begin(route.found)
+            graph = graph_of(road_map)
+            begin = graph.begin(route.found)
+            if found.kind == "compound_route":
+                way = road_map.route_to(graph.end(route.found))
         elif route.lane_id is None:
             return road_map.road_pose(route.road_id, point.s, point.t)
         else:
             begin = _begin(road_map, route.road_id, route.lane_id)
-        step = road_map.advance(begin, point.s)
+        step = road_map.advance(begin, point.s, way)
     except MapError as error:
         raise PlacementError(error.message) from error
-    if abs(step.travelled - point.s) > 1e-6:
+    if abs(step.travelled - point.s) > _AT_END:
         raise PlacementError(
             f"lane {begin.lane} of road {begin.road} ends after {step.travelled:.1f} m,"
             f" before s = {point.s:g} m"
         )
     on = step.position
     return LanePosition(on.road, on.lane, on.s, point.t)
+
+
+def _beside_path(path: Path, point: RoutePoint) -> opendrive.Pose:
+    curve = path.curve
+    if not 0.0 <= point.s <= curve.length + _AT_END:
+        raise PlacementError(
+            f"the path is {curve.length:.1f} m long, so it has no s = {point.s:g} m"
+        )
+    at = curve.at_length(point.s)
+    (x, y, z), heading = curve.point(at), curve.heading(at) or 0.0
+    x, y = x - point.t * math.sin(heading), y + point.t * math.cos(heading)
+    return opendrive.Pose(x, y, z, heading)
 
 
 def _begin(road_map: RoadMap, road: str, lane: int) -> LanePosition:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from osc2tx_runtime.actors import Actor, Map
 from osc2tx_runtime.behaviour.assembly import assemble, invoked_placements
 from osc2tx_runtime.behaviour.base import Behaviour
-from osc2tx_runtime.behaviour.events import Event, Trigger, argument_key
+from osc2tx_runtime.behaviour.events import Event, Guard, Trigger, argument_key
 from osc2tx_runtime.behaviour.invocation import (
     Caller,
     Invocation,
@@ -21,11 +20,13 @@ from osc2tx_runtime.behaviour.override import Mode
 from osc2tx_runtime.behaviour.parameters import Range, any_of, at_least, at_most, within
 from osc2tx_runtime.behaviour.variables import MISSING, Sampled
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.map_objects import MapObject
+from osc2tx_runtime.members import check_arguments, check_settings, name_members
 from osc2tx_runtime.modifiers import SetMapFile
+from osc2tx_runtime.placement import Placement
 from osc2tx_runtime.scenario_values import ScenarioValues
-from osc2tx_runtime.settings import RunSettings, check_known, near
+from osc2tx_runtime.settings import RunSettings, near
 from osc2tx_runtime.sidecar import read_source_map
-from osc2tx_runtime.traffic_lights import MapObject
 
 if TYPE_CHECKING:
     from osc2tx_runtime.modifiers import MapModifier, Modifier
@@ -41,23 +42,6 @@ __all__ = [
 ]
 
 AnyT = TypeVar("AnyT")
-
-
-@dataclass(frozen=True, slots=True)
-class Placement:
-    """Where and how an actor starts.
-
-    Attributes:
-        actor: Who.
-        modifiers: position, lane, speed and so on, as written.
-        source: Place in the scenario.
-        throughout: All of it holds later as well.
-    """
-
-    actor: Actor
-    modifiers: tuple[Modifier, ...]
-    source: str
-    throughout: bool = False
 
 
 class Scenario(ScenarioValues):
@@ -115,9 +99,9 @@ class Scenario(ScenarioValues):
         self._inner_events: dict[str, Event] = {}
         self._overrides: list[tuple[str, str, Mode]] = []
         self._declare_values(self.declare)
-        self._name_members()
-        self._check_arguments()
-        self.placement()
+        name_members(self)
+        check_arguments(self)
+        self._computed(self.placement)
         self._own_placements = len(self.placements)
 
     # --- written by generated classes ---
@@ -158,7 +142,7 @@ class Scenario(ScenarioValues):
         trigger: Trigger,
         default: Any = MISSING,
         *,
-        condition: Callable[[], bool] | None = None,
+        condition: Guard | None = None,
     ) -> AnyT:
         """Make a variable: `self.v = self.sample(lambda: self.ego.speed, self.near, 0 * mps)`.
 
@@ -203,8 +187,10 @@ class Scenario(ScenarioValues):
         # By place in the source; without a map by the order of the calls.
         name = names[index] if index < len(names) else unique_name(label or short, self._invoked)
         path = f"{self._path}.{name}" if self._path else name
-        # Without a label the arguments tell invocations apart, not the order of the members.
-        key = label or f"{scenario.name}{argument_key(given)}"
+        # Not by the order of the members: as written, without a map by the arguments.
+        keys = self._source_map.draws
+        written = keys[index] if index < len(keys) else None
+        key = written or label or f"{scenario.name}{argument_key(given)}"
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
         self._keys[key] = None
         invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
@@ -252,11 +238,22 @@ class Scenario(ScenarioValues):
     def create_tree(self) -> Behaviour:
         """Return the tree, each node with its place in the scenario."""
         self._invoked, self._keys, self._overrides = {}, {}, []
-        tree = assemble(self, self.behavior())
+        tree = assemble(self, self._computed(self.behavior))
         if self._caller is None:
+            # Stable: the actors of each scenario in their order, the scenarios by path.
+            self.actors = dict(
+                sorted(self.actors.items(), key=lambda item: item[0].rpartition(".")[0])
+            )
             self.placements[self._own_placements :] = invoked_placements(self, tree)
-            self._check_settings()
+            check_settings(self)
         return tree
+
+    def _computed(self, method: Callable[[], AnyT]) -> AnyT:
+        """Call a method of the generated class; a value without result is an error of it."""
+        try:
+            return method()
+        except ArithmeticError as error:
+            raise ScenarioError(f"a value cannot be computed: {error}", self.source) from error
 
     def map_file(self) -> str | None:
         """Return the map file the scenario names; None if it leaves the map open.
@@ -265,7 +262,7 @@ class Scenario(ScenarioValues):
             ScenarioError: If it names two.
         """
         maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
-        named = [(found.map_file, found.source) for found in maps if found.map_file]
+        named = [(found.named_file, found.source) for found in maps if found.named_file]
         named += [
             (modifier.file, placement.source)
             for placement in self.placements
@@ -298,39 +295,3 @@ class Scenario(ScenarioValues):
         event = self.label_events.setdefault((label, moment), Event())
         event.name = f"{self._path}.{label}.{moment}" if self._path else f"{label}.{moment}"
         return event
-
-    def _name_members(self) -> None:
-        lines = self._source_map.fields
-        handed_in = {id(actor) for actor in self._arguments.values()}
-        handed_in.update(id(actor) for actor in self._root.actors.values())
-        for attribute, value in vars(self).items():
-            path = f"{self._path}.{attribute}" if self._path else attribute
-            if isinstance(value, Actor) and id(value) not in handed_in:
-                value.id = path
-                value.source = self._source_map.place(lines.get(attribute))
-                self.actors[attribute] = self._root.actors[path] = value
-            elif isinstance(value, MapObject):
-                value.source = self._source_map.place(lines.get(attribute))
-                self._root.map_objects.append(value)
-            elif isinstance(value, Event):
-                value.name = path
-                self.events[attribute] = self._root.events[path] = value
-
-    def _check_arguments(self) -> None:
-        for name in self._arguments:
-            if name not in self.parameters and not isinstance(vars(self).get(name), Actor):
-                if self._caller is None:
-                    raise TypeError(f"{type(self).__name__}() has no parameter {name!r}")
-                hint = near(name, self.parameters)
-                raise ScenarioError(
-                    f"{self._path}: scenario {self.name} has no parameter {name}{hint}",
-                    self._caller.scenario.source,
-                )
-
-    def _check_settings(self) -> None:
-        """Report settings that name nothing of this scenario."""
-        settings = self.settings
-        check_known("--set", "parameter", settings.set, self.parameters)
-        check_known("--signal", "event", settings.signal, self.events)
-        check_known("--spawn", "actor", settings.spawn, self.actors)
-        check_known("--destination", "actor", settings.destination, self.actors)

@@ -116,7 +116,7 @@ class ScenarioValues:
         return value
 
     def required_argument(self, name: str, kind: type[AnyT]) -> AnyT:
-        """Return a list or range that the caller has to give.
+        """Return a list, range or object that the caller has to give.
 
         Raises:
             SettingsError: If it does not.

@@ -30,6 +30,7 @@ class SourceMap:
         placements: Lines of the `place` calls, in their order.
         nodes: Line and name of the nodes, in pre-order.
         invocations: Names of the invoked scenarios, in the same order.
+        draws: What their random values depend on besides the seed, in the same order.
     """
 
     file: str
@@ -39,6 +40,7 @@ class SourceMap:
     placements: tuple[int, ...] = ()
     nodes: tuple[tuple[int | None, str], ...] = ()
     invocations: tuple[str, ...] = ()
+    draws: tuple[str, ...] = ()
 
     def place(self, line: int | None) -> str:
         """Return `file:line`, or the file alone."""
@@ -79,6 +81,7 @@ def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
         placements=tuple(int(line) for line in entry.get("placements", ())),
         nodes=tuple((line, str(text)) for line, text in entry.get("nodes", ())),
         invocations=tuple(str(name) for name in entry.get("invocations", ())),
+        draws=tuple(str(key) for key in entry.get("draws", ())),
     )
 
 

@@ -30,6 +30,13 @@ class Slots:
         self._owners: dict[SlotKey, dict[Action, Command | None]] = {}
         self._touched: dict[SlotKey, None] = {}
         self._sent: dict[SlotKey, Command | None] = {}
+        self._left: dict[SlotKey, Command | None] = {}
+
+    def leave(self, key: SlotKey, command: Command | None) -> None:
+        """Let a slot pursue a command while it has no owner; None holds what is."""
+        if command is not self._left.get(key):
+            self._left[key] = command
+            self._touched[key] = None
 
     def claim(self, key: SlotKey, owner: Action) -> None:
         """Make `owner` an owner of the slot; claiming twice is claiming once."""
@@ -65,14 +72,15 @@ class Slots:
     def check(self) -> None:
         """Raise SlotConflict for the first slot (by name) with two live owners."""
         for key in sorted(self._touched):
-            owners = self._owners[key]
+            owners = self._owners.get(key, {})
             if len(owners) > 1:
                 raise conflict(f"the {key[1]} slot of {key[0]}", list(owners))
 
     def send(self, world: World) -> None:
-        """Hand the commands that changed to the world; an unowned slot gets None."""
+        """Hand the commands that changed to the world; an unowned slot gets what it is left to."""
         for key in sorted(self._touched):
-            command = next(iter(self._owners[key].values()), None)
+            owners = self._owners.get(key, {})
+            command = next(iter(owners.values()), self._left.get(key))
             if command is not self._sent.get(key):
                 self._sent[key] = command
                 world.command(*key, command)
@@ -129,9 +137,18 @@ def conflict(what: str, owners: list[Action]) -> SlotConflict:
     first, second = sorted(owners, key=lambda owner: place_key(owner.source, owner.name))[:2]
     return SlotConflict(
         f"{first.name} ({first.source}) and {second.name} ({second.source}) control {what}"
-        " at the same time; let them run one after the other",
+        f" at the same time; {remedy(first, second)}",
         second.source or None,
     )
+
+
+def remedy(one: Behaviour, other: Behaviour) -> str:
+    """Return what may help where two nodes must not run at the same time."""
+    from osc2tx_runtime.behaviour.compositions import OneOf
+
+    if isinstance(nearest_above(one, other), OneOf):
+        return "all members of a race run: let `--one-of first` or `seeded` choose one of them"
+    return "let them run one after the other"
 
 
 def place_key(source: str, name: str) -> tuple[str, int, str]:
@@ -144,6 +161,11 @@ def in_sequence(one: Behaviour, other: Behaviour) -> bool:
     """Return whether a serial composition orders the two nodes."""
     from osc2tx_runtime.behaviour.compositions import Serial
 
+    return isinstance(nearest_above(one, other), Serial)
+
+
+def nearest_above(one: Behaviour, other: Behaviour) -> Behaviour | None:
+    """Return the innermost node that two nodes are both in."""
     above = []
     node: Behaviour | None = one
     while node is not None:
@@ -152,4 +174,4 @@ def in_sequence(one: Behaviour, other: Behaviour) -> bool:
     node = other
     while node is not None and node not in above:
         node = node.parent
-    return isinstance(node, Serial)
+    return node

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +29,7 @@ def number(value: float | None) -> str:
 
 
 def to_json(value: Any) -> str:
-    """Return compact JSON; actors as their ids.
+    """Return compact JSON; actors as their ids, values of structs by member.
 
     Floats have nine significant digits: unlike states, parameters, arguments and the environment
     have values of any size (2 mm/h of rain are 5.6e-7 m/s).
@@ -44,6 +45,9 @@ def to_json(value: Any) -> str:
         return json.dumps(value)
     if hasattr(value, "__float__"):  # numbers of other libraries
         return to_json(float(value))
+    if is_dataclass(value) and not hasattr(value, "id"):
+        shown = (each.name for each in fields(value) if each.repr)
+        return to_json({name: getattr(value, name) for name in shown})
     return json.dumps(str(getattr(value, "id", value)))
 
 
@@ -208,9 +212,18 @@ def state_json(state: ActorState) -> str:
         return (
             f'"x":{number(x)},"y":{number(y)},"z":{number(z)},"h":{number(h)},"v":{number(v)},'
             f'"a":{number(a)},"road":{road},"lane":{lane},"s":{number(s)},"offset":{number(offset)}'
+            + _tilt_json(state)
         )
     return (
         f'"x":{round(x, 6) + 0.0!r},"y":{round(y, 6) + 0.0!r},"z":{round(z, 6) + 0.0!r},'
         f'"h":{round(h, 6) + 0.0!r},"v":{round(v, 6) + 0.0!r},"a":{round(a, 6) + 0.0!r},'
         f'"road":{road},"lane":{lane},"s":{round(s, 6) + 0.0!r},"offset":{round(offset, 6) + 0.0!r}'
+        + _tilt_json(state)
     )
+
+
+def _tilt_json(state: ActorState) -> str:
+    """Return pitch and roll, of those who are not level."""
+    if not (state.pitch or state.roll):
+        return ""
+    return f',"pitch":{number(state.pitch)},"roll":{number(state.roll)}'

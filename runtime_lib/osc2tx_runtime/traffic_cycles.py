@@ -67,7 +67,7 @@ class TrafficLightCycle:
         if any(not phase.duration > 0.0 for phase in self.phases):
             raise ScenarioError("a traffic_light_phase needs a duration of more than 0 s")
         group = self.phases[0].group
-        if any(phase.group is not group for phase in self.phases):
+        if not all(phase.group.is_same(group) for phase in self.phases):
             raise ScenarioError("the phases of a traffic_light_cycle are about different groups")
 
     @property

@@ -6,121 +6,30 @@ A `traffic_light` is a dynamic signal of the map, a `traffic_light_group` one of
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.lamps import (
-    BulbColor,
-    BulbState,
-    Lamp,
-    Meaning,
-    lamps_that_mean,
-    meaning_of,
-)
+from osc2tx_runtime.lamp_states import Bulbs, Shown, TrafficLightBulb, states_of
+from osc2tx_runtime.map_objects import MapObject
+from osc2tx_runtime.opendrive import Signal
+from osc2tx_runtime.values import Pose
+from osc2tx_runtime.world.lamps import Lamp, Meaning, meaning_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.traffic_cycles import TrafficLightCycle
     from osc2tx_runtime.world.signals import Signals
 
 __all__ = [
     "Bulbs",
-    "MapObject",
     "Shown",
     "TrafficLight",
     "TrafficLightBulb",
     "TrafficLightGroup",
     "states_of",
 ]
-
-
-@dataclass(frozen=True, slots=True)
-class TrafficLightBulb:
-    """A lamp.
-
-    Attributes:
-        color: Its color.
-        icon: The symbol on it.
-        map_id: Its id in the map; maps have none.
-        icon_positive: The symbol shines, on dark ground.
-        state: What it does now.
-    """
-
-    color: BulbColor
-    icon: str = "circle"
-    map_id: str | None = None
-    icon_positive: bool = True
-    state: BulbState = "unknown"
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """What a box shows when it means something; its lamps are known once there is a map.
-
-    Attributes:
-        meaning: The meaning.
-    """
-
-    meaning: Meaning
-
-
-Bulbs = Sequence[TrafficLightBulb] | Sequence[BulbState] | Shown
-"""Lamps in their states, plain states, or what they are to mean."""
-
-
-def states_of(bulbs: Bulbs, lamps: Sequence[Lamp], what: str) -> tuple[BulbState, ...]:
-    """States of the lamps of a box, in their order.
-
-    Raises:
-        ScenarioError: They do not fit the lamps of the box.
-    """
-    if isinstance(bulbs, Shown):
-        states = lamps_that_mean(lamps, bulbs.meaning)
-        if states is None:
-            raise ScenarioError(f"{what} has no lamps that mean {bulbs.meaning}")
-        return states
-    if len(bulbs) != len(lamps):
-        raise ScenarioError(f"{what} has {len(lamps)} lamps, not {len(bulbs)}")
-    return tuple(bulb.state if isinstance(bulb, TrafficLightBulb) else bulb for bulb in bulbs)
-
-
-class MapObject:
-    """Something of the map; its live members can be read while the scenario runs.
-
-    Attributes:
-        map_id: OpenDRIVE id.
-        source: Where it is declared.
-    """
-
-    word = ""
-
-    def __init__(self, map_id: str | None) -> None:
-        self.map_id = map_id
-        self.source: str | None = None
-        self._context: ExecutionContext | None = None
-
-    def bind(self, context: ExecutionContext) -> None:
-        """Joins a run."""
-        self._context = context
-
-    @property
-    def _signals(self) -> Signals:
-        if self._context is None:
-            raise ScenarioError(f"{self.word} {self.map_id} is read before the scenario runs")
-        return self._context.world.signals
-
-    def required_id(self) -> str:
-        """The OpenDRIVE id.
-
-        Raises:
-            ScenarioError: It has none.
-        """
-        if self.map_id is None:
-            raise ScenarioError(
-                f"a {self.word} is in no map without its id: keep(it.map_id == ...)"
-            )
-        return self.map_id
 
 
 class TrafficLight(MapObject):
@@ -170,15 +79,32 @@ class TrafficLight(MapObject):
 
     @property
     def group(self) -> TrafficLightGroup:
-        """The group it belongs to."""
-        if self._group is not None:
-            return self._group
-        found = self._signals.group_of(self.required_id())
-        if found is None:
-            raise ScenarioError(f"traffic light {self.map_id} belongs to no group of the map")
-        group = TrafficLightGroup(map_id=found)
-        group._context = self._context
-        return group
+        """The group it belongs to; which one the map says, when it is asked."""
+        return self._group or TrafficLightGroup(light=self)
+
+    @property
+    def pose(self) -> Pose:
+        """Where its lower edge is, looking in the direction of the traffic that it is for."""
+        signal, road_map = self._found(), self.context.world.map
+        at = road_map.road_pose(signal.road, signal.s, signal.t)
+        turn = math.pi if signal.orientation == "-" else 0.0
+        yaw = math.remainder(at.h + turn + signal.h_offset, math.tau)
+        return Pose(at.x, at.y, at.z + signal.z_offset, yaw=yaw)
+
+    @property
+    def height(self) -> float:
+        """Height of the box (m)."""
+        return self._found().height
+
+    @property
+    def width(self) -> float:
+        """Width of the box (m)."""
+        return self._found().width
+
+    def _found(self) -> Signal:
+        """The signal of the map."""
+        wanted = self.find(self._signals)
+        return next(each for each in self.context.world.map.signals() if each.id == wanted)
 
     def lights(self, signals: Signals) -> tuple[str, ...]:
         """Signals of its group."""
@@ -215,6 +141,7 @@ class TrafficLightGroup(MapObject):
     Args:
         map_id: Id of the controller in the map.
         traffic_lights: Its boxes; default: the signals of the controller.
+        light: Instead of both: a box that belongs to it.
     """
 
     word = "traffic_light_group"
@@ -224,13 +151,38 @@ class TrafficLightGroup(MapObject):
         *,
         map_id: str | None = None,
         traffic_lights: Sequence[TrafficLight] | None = None,
+        light: TrafficLight | None = None,
     ) -> None:
         super().__init__(map_id)
         self._given = None if traffic_lights is None else tuple(traffic_lights)
+        self._light = light
+
+    @property
+    def context(self) -> ExecutionContext:
+        """The run."""
+        return super().context if self._light is None else self._light.context
+
+    @property
+    def map_id(self) -> str | None:
+        """OpenDRIVE id.
+
+        Raises:
+            ScenarioError: The box is in no group of the map.
+        """
+        if self._light is None:
+            return self._map_id
+        found = self._signals.group_of(self._light.required_id())
+        if found is None:
+            raise ScenarioError(
+                f"traffic light {self._light.map_id} belongs to no group of the map"
+            )
+        return found
 
     @property
     def name(self) -> str:
         """What messages call it."""
+        if self._light is not None:
+            return f"group of {self._light.required_id()}"
         if self._given is None:
             return f"group {self.required_id()}"
         return f"group of {', '.join(light.required_id() for light in self._given)}"
@@ -241,6 +193,8 @@ class TrafficLightGroup(MapObject):
         Raises:
             ScenarioError: The map does not have it.
         """
+        if self._light is not None:
+            return self._light.lights(signals)
         if self._given is not None:
             return tuple(light.find(signals) for light in self._given)
         return signals.members(self.required_id())
@@ -252,8 +206,31 @@ class TrafficLightGroup(MapObject):
             return self._given
         found = tuple(TrafficLight(map_id=each) for each in self.lights(self._signals))
         for light in found:
-            light._context = self._context
+            light.bind(self.context)
         return found
+
+    def is_same(self, other: TrafficLightGroup) -> bool:
+        """Whether two are one group."""
+        if self is other:
+            return True
+        return self._map_id is not None and self._map_id == other._map_id
+
+    @property
+    def cycle(self) -> TrafficLightCycle:
+        """What the `traffic_light_control` of the map lets it show.
+
+        Raises:
+            ScenarioError: That says nothing about it.
+        """
+        from osc2tx_runtime.actors import Map  # which knows this class
+
+        signals = self._signals
+        own = set(self.lights(signals))
+        maps = (each for each in self.context.actors.values() if isinstance(each, Map))
+        for cycle in (cycle for each in maps for cycle in each.traffic_light_control):
+            if cycle.phases and own & set(cycle.phases[0].group.lights(signals)):
+                return cycle
+        raise ScenarioError(f"{self.name} has no cycle in the traffic_light_control of the map")
 
     @property
     def bulbs(self) -> tuple[TrafficLightBulb, ...]:

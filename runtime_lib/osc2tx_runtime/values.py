@@ -3,38 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.errors import PlacementError, ScenarioError
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.path_values import Path
     from osc2tx_runtime.road_parts import RoadPart
 
 __all__ = [
-    "NetworkPath",
+    "GeodeticPoint",
     "NetworkPoint",
-    "NetworkTrajectory",
     "OdrPoint",
     "Orientation",
-    "Path",
-    "PathInterpolation",
-    "PathPoint",
     "Point",
     "Pose",
-    "RelativePath",
-    "RelativePathOdr",
-    "RelativePathPose3d",
-    "RelativePathSt",
-    "RelativeTrajectory",
-    "RelativeTrajectoryOdr",
-    "RelativeTrajectoryPose3d",
-    "RelativeTrajectorySt",
-    "RelativeTransform",
     "RoadRoute",
     "RoutePoint",
-    "Trajectory",
     "XyzPoint",
 ]
 
@@ -61,16 +47,46 @@ class Orientation:
     yaw: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False)
 class Pose:
-    """A point (m) with an orientation (rad); in paths a yaw of None is that of the way."""
+    """A point (m) with an orientation (rad); in paths a yaw of None is that of the way.
 
-    x: float = 0.0
-    y: float = 0.0
-    z: float = 0.0
-    roll: float = 0.0
-    pitch: float = 0.0
-    yaw: float | None = None
+    Attributes:
+        x: Metres along x of the world.
+        y: Metres along y.
+        z: Metres above the ground of the world.
+        roll: Right side down.
+        pitch: Nose down.
+        yaw: Counter-clockwise from x.
+    """
+
+    x: float
+    y: float
+    z: float
+    roll: float
+    pitch: float
+    yaw: float | None
+
+    def __init__(
+        self,
+        x: float = 0.0,
+        y: float = 0.0,
+        z: float = 0.0,
+        roll: float = 0.0,
+        pitch: float = 0.0,
+        yaw: float | None = None,
+        *,
+        position: Point | None = None,
+        orientation: Orientation | None = None,
+    ) -> None:
+        """Take the numbers, or instead of them a point and an orientation."""
+        if position is not None:
+            x, y, z = position.x, position.y, position.z
+        if orientation is not None:
+            roll, pitch, yaw = orientation.roll, orientation.pitch, orientation.yaw
+        values = {"x": x, "y": y, "z": z, "roll": roll, "pitch": pitch, "yaw": yaw}
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
 
     @property
     def position(self) -> Point:
@@ -83,8 +99,54 @@ class Pose:
         return Orientation(self.roll, self.pitch, self.yaw or 0.0)
 
 
+class RoutableDot:
+    """What points have of a route (DSL 8.12.5): they can stand in routes, but nobody moves in one.
+
+    It has no length and no lanes.
+    """
+
+    __slots__ = ()
+
+    @property
+    def length(self) -> float:
+        """None (m)."""
+        return 0.0
+
+    @property
+    def directionality(self) -> Literal["none"]:
+        """No direction."""
+        return "none"
+
+    @property
+    def min_lanes(self) -> int:
+        """No lanes."""
+        return 0
+
+    @property
+    def max_lanes(self) -> int:
+        """No lanes."""
+        return 0
+
+    @property
+    def anchors(self) -> list[str]:
+        """Nothing in the map file is it."""
+        return []
+
+    def start_point(self) -> RoutePoint:
+        """Where it begins.
+
+        Raises:
+            ScenarioError: A point has no begin of its own.
+        """
+        raise ScenarioError("a point is no route with a begin and an end: convert it to one")
+
+    def end_point(self) -> RoutePoint:
+        """Where it ends; as `start_point`."""
+        return self.start_point()
+
+
 @dataclass(frozen=True, slots=True)
-class OdrPoint:
+class OdrPoint(RoutableDot):
     """A point in road coordinates.
 
     Attributes:
@@ -115,7 +177,7 @@ class OdrPoint:
 
 
 @dataclass(frozen=True, slots=True)
-class XyzPoint:
+class XyzPoint(RoutableDot):
     """A point of the road network in world coordinates."""
 
     position: Point
@@ -135,118 +197,36 @@ class RoadRoute:
 
 
 @dataclass(frozen=True, slots=True)
-class RoutePoint:
+class RoutePoint(RoutableDot):
     """A point in the coordinates of a route.
 
     Attributes:
         route: A lane (`s` runs along its centre line in direction of travel) or a road (`s`, `t` of
-            its reference line), also one that a scenario declares; None in relative paths.
+            its reference line), also one that a scenario declares, or a path; None in relative
+            paths.
         s: Metres along it.
         t: Metres to the left of it.
     """
 
-    route: RoadRoute | RoadPart | None = None
+    route: RoadRoute | RoadPart | Path | None = None
     s: float = 0.0
     t: float = 0.0
 
 
-NetworkPoint = RoutePoint | OdrPoint | XyzPoint
-PathPoint = Pose | RoutePoint | OdrPoint
-PathInterpolation = Literal["straight_line", "smooth"]
-RelativeTransform = Literal["world_relative", "object_relative", "road_relative", "lane_relative"]
-
-
 @dataclass(frozen=True, slots=True)
-class Path:
-    """A way through poses in the world.
+class GeodeticPoint(RoutableDot):
+    """A point on the globe (WGS 84), on the road.
 
     Attributes:
-        points: Poses; a yaw that is left open is that of the way.
-        interpolation: How they are joined.
+        latitude: rad, to the north.
+        longitude: rad, to the east.
+        altitude: Metres above the nearest road.
     """
 
-    points: Sequence[Pose]
-    interpolation: PathInterpolation = "straight_line"
+    latitude: float
+    longitude: float
+    altitude: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class NetworkPath(Path):
-    """A path through points of the road network; poses come from the map when it is used.
-
-    Attributes:
-        places: The points.
-        on_road_network: Along lanes from point to point.
-    """
-
-    places: Sequence[NetworkPoint] = ()
-    on_road_network: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class RelativePath:
-    """A way relative to an object; see `relative_to` in `paths` for the frames."""
-
-    points: Sequence[PathPoint]
-    interpolation: PathInterpolation = "straight_line"
-
-
-@dataclass(frozen=True, slots=True)
-class RelativePathPose3d(RelativePath):
-    """Points in Cartesian coordinates."""
-
-
-@dataclass(frozen=True, slots=True)
-class RelativePathSt(RelativePath):
-    """Points in s and t."""
-
-
-@dataclass(frozen=True, slots=True)
-class RelativePathOdr(RelativePath):
-    """Points in road coordinates."""
-
-
-@dataclass(frozen=True, slots=True)
-class Trajectory:
-    """A way through poses in the world at given times.
-
-    Attributes:
-        points: As of `Path`.
-        time_stamps: Seconds since the start of the action, one per point, ascending.
-        interpolation: How they are joined.
-    """
-
-    points: Sequence[Pose]
-    time_stamps: Sequence[float]
-    interpolation: PathInterpolation = "straight_line"
-
-
-@dataclass(frozen=True, slots=True)
-class NetworkTrajectory(Trajectory):
-    """A trajectory through points of the road network; likewise."""
-
-    places: Sequence[NetworkPoint] = ()
-    on_road_network: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class RelativeTrajectory:
-    """A trajectory relative to an object."""
-
-    points: Sequence[PathPoint]
-    time_stamps: Sequence[float]
-    interpolation: PathInterpolation = "straight_line"
-
-
-@dataclass(frozen=True, slots=True)
-class RelativeTrajectoryPose3d(RelativeTrajectory):
-    """Points in Cartesian coordinates."""
-
-
-@dataclass(frozen=True, slots=True)
-class RelativeTrajectorySt(RelativeTrajectory):
-    """Points in s and t."""
-
-
-@dataclass(frozen=True, slots=True)
-class RelativeTrajectoryOdr(RelativeTrajectory):
-    """Points in road coordinates."""
+NetworkPoint = RoutePoint | OdrPoint | XyzPoint | GeodeticPoint
+"""A point of the road network."""

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Literal
+
+from osc2tx_runtime.measured import Measured
 
 __all__ = [
     "Air",
@@ -16,165 +19,158 @@ __all__ = [
     "CelestialPosition",
     "Clouds",
     "Fog",
+    "GeodeticPosition",
     "Precipitation",
     "Weather",
     "Wind",
+    "celestial_position",
+    "weather_of",
 ]
 
 _UNTOUCHED = {"rain_intensity": 0.0, "snow_intensity": 0.0, "visual_range": math.inf}
 
 
-class _Part:
-    """A part of the environment."""
+@dataclass(frozen=True, slots=True)
+class Air:
+    """The air near the ground.
 
-    def __init__(self, values: Mapping[str, float]) -> None:
-        self._values = values
+    Attributes:
+        temperature: K.
+        pressure: Pa.
+        relative_humidity: 0 to 1.
+    """
 
-    def _value(self, name: str) -> float:
-        return self._values.get(name, _UNTOUCHED.get(name, math.nan))
-
-
-class Air(_Part):
-    """The air near the ground."""
-
-    @property
-    def temperature(self) -> float:
-        """Temperature (K)."""
-        return self._value("temperature")
-
-    @property
-    def pressure(self) -> float:
-        """Pressure (Pa)."""
-        return self._value("pressure")
-
-    @property
-    def relative_humidity(self) -> float:
-        """Relative humidity, 0 to 1."""
-        return self._value("relative_humidity")
+    temperature: float = math.nan
+    pressure: float = math.nan
+    relative_humidity: float = math.nan
 
 
-class Precipitation(_Part):
+@dataclass(frozen=True, slots=True)
+class Precipitation:
     """Rain or snow.
 
-    Args:
-        values: Of the environment.
-        kind: Which.
+    Attributes:
+        intensity: Water column per time (m/s).
     """
 
-    def __init__(self, values: Mapping[str, float], kind: Literal["rain", "snow"]) -> None:
-        super().__init__(values)
-        self._kind = kind
-
-    @property
-    def intensity(self) -> float:
-        """Water column per time (m/s)."""
-        return self._value(f"{self._kind}_intensity")
+    intensity: float = _UNTOUCHED["rain_intensity"]
 
 
-class Wind(_Part):
-    """The wind."""
+@dataclass(frozen=True, slots=True)
+class Wind:
+    """The wind.
 
-    @property
-    def speed(self) -> float:
-        """Speed (m/s)."""
-        return self._value("wind_speed")
+    Attributes:
+        speed: m/s.
+        direction: Where it comes from (rad from +y, clockwise).
+    """
 
-    @property
-    def direction(self) -> float:
-        """Where it comes from (rad from +y, clockwise)."""
-        return self._value("wind_direction")
-
-
-class Fog(_Part):
-    """Fog."""
-
-    @property
-    def visual_range(self) -> float:
-        """How far one sees (m)."""
-        return self._value("visual_range")
+    speed: float = math.nan
+    direction: float = math.nan
 
 
-class Clouds(_Part):
-    """Clouds."""
+@dataclass(frozen=True, slots=True)
+class Fog:
+    """Fog.
 
-    @property
-    def cloudiness(self) -> float:
-        """Okta."""
-        return self._value("cloudiness")
+    Attributes:
+        visual_range: How far one sees (m).
+    """
+
+    visual_range: float = _UNTOUCHED["visual_range"]
 
 
-class Weather(_Part):
+@dataclass(frozen=True, slots=True)
+class Clouds:
+    """Clouds.
+
+    Attributes:
+        cloudiness: Okta; 9 when the sky cannot be seen.
+    """
+
+    cloudiness: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class Weather:
     """All of it."""
 
-    @property
-    def air(self) -> Air:
-        """The air."""
-        return Air(self._values)
-
-    @property
-    def rain(self) -> Precipitation:
-        """Rain."""
-        return Precipitation(self._values, "rain")
-
-    @property
-    def snow(self) -> Precipitation:
-        """Snow."""
-        return Precipitation(self._values, "snow")
-
-    @property
-    def wind(self) -> Wind:
-        """The wind."""
-        return Wind(self._values)
-
-    @property
-    def fog(self) -> Fog:
-        """Fog."""
-        return Fog(self._values)
-
-    @property
-    def clouds(self) -> Clouds:
-        """Clouds."""
-        return Clouds(self._values)
+    air: Air = Air()
+    rain: Precipitation = Precipitation()
+    snow: Precipitation = Precipitation()
+    wind: Wind = Wind()
+    fog: Fog = Fog()
+    clouds: Clouds = Clouds()
 
 
-class CelestialPosition(_Part):
-    """Where the sun or the moon stands.
+@dataclass(frozen=True, slots=True)
+class GeodeticPosition:
+    """A point on the globe (WGS 84).
 
-    Args:
-        values: Of the environment.
-        name: `sun` or `moon`.
+    Attributes:
+        latitude: rad, to the north.
+        longitude: rad, to the east.
     """
 
-    def __init__(self, values: Mapping[str, float], name: str) -> None:
-        super().__init__(values)
-        self._name = name
+    latitude: float
+    longitude: float
 
-    @property
-    def azimuth(self) -> float:
-        """Rad from +y, clockwise."""
-        return self._value(f"{self._name}_azimuth")
 
-    @property
-    def elevation(self) -> float:
-        """Rad above the horizon."""
-        return self._value(f"{self._name}_elevation")
+@dataclass(frozen=True, slots=True)
+class CelestialPosition:
+    """Where the sun or the moon stands.
+
+    Attributes:
+        azimuth: rad from +y, clockwise.
+        elevation: rad above the horizon.
+    """
+
+    azimuth: float
+    elevation: float
 
 
 class CelestialLightSource:
     """The sun or the moon.
 
     Args:
+        position: Tells where it stands at the present step.
         name: `sun` or `moon`.
-        values: Gives the values of the environment at the present step.
     """
 
     def __init__(
-        self, name: Literal["sun", "moon"], values: Callable[[], Mapping[str, float]]
+        self, position: Callable[[], CelestialPosition], name: Literal["sun", "moon"]
     ) -> None:
+        self._position = position
         self.name = name
-        self._values = values
 
     @property
     def position(self) -> CelestialPosition:
         """Where it stands now."""
-        return CelestialPosition(self._values(), self.name)
+        return self._position()
+
+
+def weather_of(values: Mapping[str, float]) -> Weather:
+    """Return the weather by the values of an environment, see `World.environment`."""
+
+    def measured(name: str) -> float:
+        return Measured(values.get(name, _UNTOUCHED.get(name, math.nan)))
+
+    return Weather(
+        Air(*map(measured, ("temperature", "pressure", "relative_humidity"))),
+        Precipitation(measured("rain_intensity")),
+        Precipitation(measured("snow_intensity")),
+        Wind(measured("wind_speed"), measured("wind_direction")),
+        Fog(measured("visual_range")),
+        Clouds(measured("cloudiness")),
+    )
+
+
+def celestial_position(
+    name: Literal["sun", "moon"], values: Mapping[str, float]
+) -> CelestialPosition:
+    """Return where the sun or the moon stands by the values of an environment."""
+    azimuth, elevation = (values.get(f"{name}_{angle}") for angle in ("azimuth", "elevation"))
+    return CelestialPosition(
+        Measured(math.nan if azimuth is None else azimuth),
+        Measured(math.nan if elevation is None else elevation),
+    )

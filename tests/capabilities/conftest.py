@@ -36,7 +36,7 @@ def load(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Load]:
 
     yield import_module
     for name in names:
-        del sys.modules[name]
+        sys.modules.pop(name, None)  # a run of pytest inside a test has its own fixtures
 
 
 @pytest.fixture(scope="session")

@@ -134,9 +134,15 @@ def quintic(start: float, end: float, duration: float, t: float) -> float:
     return start + (end - start) * (6.0 * x**5 - 15.0 * x**4 + 10.0 * x**3)
 
 
-def quintic_duration(change: float, peak: float) -> float:
-    """Duration of a quintic whose rate peaks at its middle, with 15/8 of its mean."""
-    return 15.0 / 8.0 * change / peak
+def cosine(start: float, end: float, duration: float, t: float) -> float:
+    """Course along half a cosine."""
+    x = min(max(t / duration, 0.0), 1.0)
+    return start + (end - start) * 0.5 * (1.0 - math.cos(math.pi * x))
+
+
+def cosine_duration(change: float, peak: float) -> float:
+    """Duration of half a cosine whose rate peaks at its middle, with pi/2 of its mean."""
+    return 0.5 * math.pi * change / peak
 
 
 @dataclass(frozen=True)

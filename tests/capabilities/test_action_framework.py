@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.capabilities.kit import DT, ROUNDED, Perform, quintic
+from tests.capabilities.kit import DT, ROUNDED, Perform, cosine
 
 
 def test_c01_actions_start_end_and_fail(perform: Perform) -> None:
@@ -36,6 +36,30 @@ def test_c02_an_action_moves_the_actor_it_is_invoked_on(perform: Perform) -> Non
     assert run.spans("third change_speed") == []
 
 
+def test_c02_parts_of_actors_are_values(perform: Perform) -> None:
+    run = perform("C02_actor_parts")
+    assert run.status == "success"
+    box = {"length": 5.0, "width": 2.0, "height": 1.6, "rear": 1.0}
+    assert {name: run.box("ego")[name] for name in box} == box
+    # Two lengths behind the van, at the speed of the police
+    behind = run.at("van", 0.0)["s"] - run.at("ego", 0.0)["s"]
+    assert behind == pytest.approx(2 * 5.0, abs=ROUNDED)
+    assert run.at("ego", 0.0)["v"] == 11.0
+    # Near when the gap is less than the wheelbase of 3 m
+    close = run.event("close")
+
+    def gap(t: float) -> float:
+        return run.rear("van", t) - run.front("ego", t)
+
+    assert gap(close) <= 3.0 + ROUNDED < gap(close - DT)
+    noted = {line["name"]: line["value"] for line in run.of_kind("variable")}
+    assert noted["middle"] == pytest.approx(0.5 * 5.0 - 1.0)
+    assert noted["weight"] == pytest.approx(0.5 * 1.6)
+    # The coupler is half a metre before the box of the trailer, the hitch at the end of the truck.
+    load, van = run.box("load"), run.box("van")
+    assert noted["hitch"] == pytest.approx(load["length"] - load["rear"] + 0.5 + van["rear"])
+
+
 def test_c03_serials_in_a_parallel(perform: Perform) -> None:
     run = perform("C03_composition")
     assert run.status == "success"
@@ -59,7 +83,7 @@ def test_c04_durations_end_stretch_and_limit(perform: Perform) -> None:
     faster, slower = run.spans("ego change_speed")
     assert (faster.start, faster.length) == (3.0, 4.0)
     for line in run.during("ego", faster):
-        v = quintic(10.0, 20.0, 4.0, line["t"] - 3.0)
+        v = cosine(10.0, 20.0, 4.0, line["t"] - 3.0)
         assert line["v"] == pytest.approx(v, abs=ROUNDED)
     # 7 s + wait of 1 s; the block's 2 s are over at 9 s, when 10 m/s are 4 s away.
     assert (slower.start, slower.end) == (8.0, 9.0)

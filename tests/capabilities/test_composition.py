@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tests.capabilities.kit import DT, ROUNDED, Perform, next_step, quintic
+from tests.capabilities.kit import DT, ROUNDED, Perform, cosine, next_step, quintic
 
 
 def test_c30_steps_follow_without_a_gap(perform: Perform) -> None:
@@ -35,7 +35,7 @@ def test_c31_members_of_a_parallel_share_time(perform: Perform) -> None:
     assert (left.start, left.end) == (0.0, 5.0)
     for line in run.during("ego", left):
         # Both changes take their course as if they were alone.
-        assert line["v"] == pytest.approx(quintic(10.0, 16.0, 4.0, line["t"]), abs=ROUNDED)
+        assert line["v"] == pytest.approx(cosine(10.0, 16.0, 4.0, line["t"]), abs=ROUNDED)
         assert line["y"] == pytest.approx(quintic(-8.75, -5.25, 5.0, line["t"]), abs=ROUNDED)
     assert run.span("other drive").end == 3.0
     # overlap: end - the short one starts late, so that both end together.
@@ -101,3 +101,27 @@ def test_c32_measures_trigger_and_are_noted(perform: Perform) -> None:
         t, value = values[name]
         assert value == pytest.approx(course(t), abs=1e-6)
         assert course(t) < limit < course(t - DT)
+
+
+def test_c32_motion_triggers_and_is_noted(perform: Perform) -> None:
+    """Against differences of the states in the trace."""
+    run = perform("C32_motion_readings")
+    assert run.status == "success"
+    noted = {line["name"]: (line["t"], line["value"]) for line in run.of_kind("variable")}
+
+    def rate(t: float, of: str) -> float:
+        return float(run.at("ego", t)[of] - run.at("ego", t - DT)[of]) / DT
+
+    bend, yaw_rate = noted["yaw_rate"]
+    assert rate(bend - DT, "h") <= 0.1 < rate(bend, "h")
+    # The road leans by a few degrees, which is a permille of the rate.
+    assert yaw_rate == pytest.approx(rate(bend, "h"), rel=5e-3)
+    assert noted["aside"] == (bend, pytest.approx(15.0 * rate(bend, "h"), rel=5e-3))
+    assert noted["drift"] == (bend, pytest.approx(0.0, abs=1e-3))
+    out, slope = noted["slope"]
+    up = 0.5 * (rate(out, "z") + rate(out + DT, "z"))
+    assert slope == pytest.approx(math.hypot(15.0, up), abs=1e-3)
+    assert noted["pitch"] == (out, pytest.approx(-math.atan2(up, 15.0), abs=1e-3))
+    braking, ahead = noted["ahead"]
+    assert braking == pytest.approx(out + DT)
+    assert ahead == pytest.approx(-3.0, abs=0.01)

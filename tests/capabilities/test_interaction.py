@@ -75,3 +75,15 @@ def test_c15_headway_counts_from_front_to_front(perform: Perform) -> None:
     assert headway("far", far.end) == pytest.approx(3.0 * own, abs=REACHED)
     for line in run.during("far", run.span("far keep_time_headway")):
         assert headway("far", line["t"]) / line["v"] == pytest.approx(3.0, abs=0.02)
+
+
+def test_c13_a_careful_driver_keeps_its_time_gap(perform: Perform) -> None:
+    run = perform("C13_careful_following")
+    assert run.status == "success"
+    assert run.of_kind("collision") == []
+    # At rest against the leader the gap of the model is 2 m + 1.5 s * v; it gets there slowly.
+    for t, v, tolerance in ((30.0, 12.0, 0.05), (60.0, 6.0, 0.02)):
+        gap = run.rear("slower", t) - run.front("ego", t)
+        assert gap == pytest.approx(2.0 + 1.5 * v, abs=tolerance)
+        assert run.at("ego", t)["v"] == pytest.approx(v, abs=0.01)
+    assert min(e["a"] for e in run.states("ego")) > -8.0

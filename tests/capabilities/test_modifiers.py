@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tests.capabilities.kit import DT, ROUNDED, Perform, Trapezoid, quintic, quintic_duration
+from tests.capabilities.kit import DT, ROUNDED, Perform, Trapezoid, cosine, cosine_duration
 
 
 def test_c19_speeds_of_its_own_and_of_others(perform: Perform) -> None:
@@ -135,12 +135,12 @@ def test_c26_headings_against_road_world_and_others(perform: Perform) -> None:
 def test_c19_shapes_give_the_course_of_the_speed(perform: Perform) -> None:
     run = perform("C19_speed_shape")
     assert run.status == "success"
-    smooth = quintic_duration(6.0, 2.0)
+    smooth = cosine_duration(6.0, 2.0)
     for line in run.states("even"):
         v = min(10.0 + 1.6 * line["t"], 18.0)
         assert line["v"] == pytest.approx(v, abs=ROUNDED)
     for line in run.states("gentle"):
-        assert line["v"] == pytest.approx(quintic(10.0, 16.0, smooth, line["t"]), abs=ROUNDED)
+        assert line["v"] == pytest.approx(cosine(10.0, 16.0, smooth, line["t"]), abs=ROUNDED)
 
 
 def test_c20_shapes_give_the_course_of_the_acceleration(perform: Perform) -> None:

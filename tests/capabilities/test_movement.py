@@ -9,9 +9,9 @@ from tests.capabilities.kit import (
     ROUNDED,
     Perform,
     Trapezoid,
+    cosine,
+    cosine_duration,
     next_step,
-    quintic,
-    quintic_duration,
 )
 
 
@@ -36,7 +36,7 @@ def test_c05_vehicles_drive_things_move_persons_walk(perform: Perform) -> None:
 def test_c06_three_rate_profiles(perform: Perform) -> None:
     run = perform("C06_speed_control")
     assert run.status == "success"
-    smooth = quintic_duration(10.0, 2.5)
+    smooth = cosine_duration(10.0, 2.5)
     hasty = Trapezoid(10.0, acceleration=4.0, jerk=10.0).duration  # a car: 4 m/s^2, 10 m/s^3
     for actor, duration, peak in (
         ("even", 10.0 / 2.5, 2.5),
@@ -52,7 +52,7 @@ def test_c06_three_rate_profiles(perform: Perform) -> None:
         way = 15.0 * duration + 20.0 * (states[-1]["t"] - duration)
         assert states[-1]["s"] - states[0]["s"] == pytest.approx(way, abs=5e-3)
     for line in run.states("gentle"):
-        assert line["v"] == pytest.approx(quintic(10, 20, smooth, line["t"]), abs=ROUNDED)
+        assert line["v"] == pytest.approx(cosine(10, 20, smooth, line["t"]), abs=ROUNDED)
 
 
 def test_c07_acceleration_is_reached_held_and_assigned(perform: Perform) -> None:
@@ -111,9 +111,9 @@ def test_c05_a_trailer_comes_along_as_long_as_it_is_coupled(perform: Perform) ->
         [behind(couple.end)] * len(coupled), abs=0.01
     )
     assert run.at("load", uncouple.start)["v"] == pytest.approx(10.0, abs=1e-3)
-    # The truck gains 10 m/s smoothly with half of the 1.5 m/s^2 of a truck.
+    # The truck gains 10 m/s smoothly, with 90 % of half of the 1.5 m/s^2 of a truck.
     pull = run.span("truck change_speed")
-    assert pull.length == next_step(quintic_duration(10.0, 0.75))
+    assert pull.length == next_step(cosine_duration(10.0, 0.75 * 0.9))
     assert behind(run.last("truck")["t"]) > behind(uncouple.end) + 1.0
 
 

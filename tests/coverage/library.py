@@ -43,7 +43,9 @@ def heirs(kind: str) -> Sequence[str]:
     """Return an actor and all that inherit from it, in the order of the library."""
     found = [kind]
     for statement in stdlib.library_file(stdlib.DOMAIN, STANDARDS[-1]).statements:
-        if isinstance(statement, ast.ActorDeclaration) and str(statement.base) in found:
+        if not isinstance(statement, ast.ActorDeclaration | ast.StructDeclaration):
+            continue
+        if str(statement.base) in found:
             found.append(str(statement.name))
     return found
 

@@ -9,12 +9,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from osc2tx.backends.py_trees.naming import identifier
-from osc2tx.backends.py_trees.runtime_api import (
-    CONSTRUCTOR_KEYWORDS,
-    STRUCT_CLASSES,
-    constructor_keyword,
-    runtime_support,
-)
+from osc2tx.backends.py_trees.runtime_api import STRUCT_CLASSES, runtime_support
 from tests.coverage.library import Item, heirs
 from tests.coverage.sources import Source
 
@@ -70,14 +65,11 @@ class PyTrees:
     def _field(self, item: Item) -> str:
         owner, _, name = item.name.partition(".")
         runtime = runtime_support()
-        is_part = (owner, name) in CONSTRUCTOR_KEYWORDS
         kind = next((heir for heir in heirs(owner) if heir in runtime.objects), None)
-        if kind is None and not is_part:
+        if kind is None:
             return "OSC501"
         readable = owner in STRUCT_CLASSES or item.name in runtime.fields
-        paths = {path for path in CONSTRUCTOR_KEYWORDS if path[0] == name} | {(name,)}
-        keywords = runtime.objects.get(kind or "", frozenset())
-        settable = is_part or any(constructor_keyword(path) in keywords for path in paths)
+        settable = identifier(name) in runtime.objects[kind]
         ways = [way for way, can in (("read", readable), ("fixed", settable)) if can]
         codes = [code for code, can in (("OSC503", readable), ("OSC502", settable)) if not can]
         return "; ".join(part for part in (" and ".join(ways), ", ".join(codes)) if part)

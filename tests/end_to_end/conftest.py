@@ -34,7 +34,7 @@ def load(
             for value in vars(module).values()
             if isinstance(value, type) and issubclass(value, Scenario) and value is not Scenario
         ]
-        return classes[-1]
+        return next((each for each in classes if each.name == "top"), classes[-1])
 
     yield import_module
     for name in names:

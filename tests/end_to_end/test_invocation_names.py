@@ -40,3 +40,57 @@ def test_names_go_by_place(
         "gain_speed_2.faster",
     }
     assert permuted.text == plain.text
+
+
+ALIKE = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario wander:
+    car: vehicle
+    pace: speed with:
+        keep(it in [5mps..25mps])
+    do car.drive(duration: 1s) with:
+        speed(pace)
+
+scenario alike:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    do parallel:
+        wander()
+        serial:
+            wander()
+            wander(duration: 1s)
+        wander()
+"""
+
+
+def test_draws_go_by_place(
+    load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
+) -> None:
+    """Those that are written alike draw different values, each its own in any order."""
+    module = asam(ALIKE, tmp_path)
+    plain, permuted = run(load(emit(module))), run(load(permuted_module(module)))
+    assert permuted.text == plain.text
+    speeds = {line["actor"]: line["v"] for line in plain.of_kind("state") if line["t"] == 0.5}
+    assert len(speeds) == len(set(speeds.values())) >= 3
+
+
+def test_a_draw_stays_when_members_change_places(
+    load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
+) -> None:
+    """What is written stays what it is, wherever it stands in a `parallel`."""
+    text = ALIKE.replace("wander(duration: 1s)", "wander()").replace(
+        "        wander()\n        serial:\n            wander()\n            wander()\n",
+        "        wander(duration: 1s)\n        wander()\n",
+    )
+    swapped = text.replace(
+        "        wander(duration: 1s)\n        wander()\n",
+        "        wander()\n        wander(duration: 1s)\n",
+    )
+    assert text != swapped
+    found = []
+    for each in (text, swapped):
+        trace = run(load(emit(asam(each, tmp_path))))
+        found.append(sorted(line["v"] for line in trace.of_kind("state") if line["t"] == 0.5))
+    assert found[0] == found[1]

@@ -132,7 +132,7 @@ def test_two_actions_on_one_slot_are_reported(
     assert done.stderr == (
         "slow.osc:18: error: ego.creep (slow.osc:17) and ego.change_speed: 5mps (slow.osc:18)"
         " control the longitudinal slot of ego at the same time; let them run one after the"
-        " other\n"
+        " other (at 0.000 s)\n"
     )
 
 

@@ -117,16 +117,10 @@ def refused(body: str, tmp_path: Path) -> list[tuple[str, int, str]]:
             "modifier `starting` does not apply to `vehicle.change_lane`",
         ),
         (
-            "ego.drive(duration: 1s) with:\n        bare()\n",
-            "OSC501",
-            FIRST + 1,
-            "parameter `limit` of modifier `bare` has no value",
-        ),
-        (
             "ego.drive(duration: 1s) with:\n        again()\n",
             "OSC508",
             HEAD[: HEAD.index("    again()")].count("\n") + 1,
-            "modifier `again`, which applies itself, is not supported yet",
+            "modifier `again`, which applies itself, is not supported",
         ),
         (
             "serial:\n        ego.drive(duration: 1s) with:\n            careful(25mps)\n",
@@ -140,6 +134,13 @@ def test_what_does_not_fit_is_refused(
     body: str, code: str, line: int, message: str, tmp_path: Path
 ) -> None:
     assert (code, line, message) in refused(body, tmp_path)
+
+
+def test_what_nobody_says_of_a_modifier_is_left_to_settings(load: Load, tmp_path: Path) -> None:
+    body = "ego.drive(duration: 1s) with:\n        bare()\n"
+    scenario = load(emit(asam(HEAD + body, tmp_path)))
+    with pytest.raises(ScenarioError, match=r"leaves drive\.bare\.limit open"):
+        run(scenario)
 
 
 def test_a_constraint_of_a_modifier_is_checked_before_the_run(load: Load, tmp_path: Path) -> None:

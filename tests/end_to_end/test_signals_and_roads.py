@@ -268,7 +268,7 @@ def test_roads_that_the_map_does_not_have(trace_of: Callable[[str], Trace]) -> N
     assert caught.value.source == "case.osc:13"
 
 
-def test_modifiers_that_cannot_be_honoured_are_refused(tmp_path: Path) -> None:
+def test_modifiers_of_the_map_without_what_they_need(tmp_path: Path) -> None:
     modifier = "net.crossing_connects(start_lane: inner, end_lane: outer, start_s_coord: 10m)"
     text = NETWORK.replace("LANES", "4").replace(
         "    ego, other", f"    {modifier}\n    ego, other"
@@ -277,7 +277,8 @@ def test_modifiers_that_cannot_be_honoured_are_refused(tmp_path: Path) -> None:
     path.write_text(text, encoding="utf-8")
     compilation = Compilation(path, path.name, CompileOptions())
     assert compilation.module is None
-    (refused,) = [each for each in compilation.diagnostics if each.code == "OSC508"]
+    (refused,) = [each for each in compilation.diagnostics if each.code == "OSC509"]
+    assert refused.message == "modifier `crossing_connects` needs `crossing`"
     assert refused.primary is not None and refused.primary.line == 15
 
 

@@ -10,13 +10,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from traceback import extract_tb, format_exception
 
+from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all
 from osc2tx.driver import Compilation
+from osc2tx.loading import scenarios_of_module
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
+from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
 
 SECONDS = 5.0
 SECONDS_OF_A_LINE = 0.05
+SIMULATED_SECONDS = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +46,7 @@ def try_text(text: str, options: CompileOptions, *, execute: bool = False) -> Fi
     Args:
         text: The program, or anything; lone surrogates stand for bytes that are no UTF-8.
         options: How to compile it.
-        execute: Import the module, if there is one, and make its tree.
+        execute: Import the module, if there is one, and run its scenarios for a moment.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "fuzzed.osc")
@@ -67,7 +71,7 @@ def is_built(text: str, options: CompileOptions) -> bool:
         return Compilation(path, path.name, options).module is not None
 
 
-def _compile(path: Path, options: CompileOptions) -> str | None:
+def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
     compilation = Compilation(path, path.name, options)
     for product in PRODUCT_NAMES:
         compilation.dump(product)
@@ -87,16 +91,20 @@ def _compile(path: Path, options: CompileOptions) -> str | None:
     again = Compilation(path, path.name, options).module
     if again is None or again.python != module.python:
         raise Refuted("another module the second time")
-    return module.python
+    return module
 
 
-def _execute(python: str) -> None:
-    variables: dict[str, object] = {"__name__": "fuzzed"}
-    exec(compile(python, "fuzzed.py", "exec"), variables)
-    create_root = variables.get("create_root")
-    if not callable(create_root):
-        raise Refuted("the module has no create_root()")
-    create_root()
+def _execute(module: GeneratedModule) -> None:
+    """Run the scenarios of a module: to a verdict, or to an error that the runtime explains."""
+    with scenarios_of_module(module) as scenarios:
+        if not scenarios:
+            raise Refuted("a module without scenarios")
+        for scenario in scenarios.values():
+            try:
+                run_scenario(scenario, RunSettings(max_time=SIMULATED_SECONDS), keep_trace=False)
+            except ScenarioError as error:
+                if not error.message:
+                    raise Refuted("an error that says nothing") from error
 
 
 def _key(error: Exception) -> str:

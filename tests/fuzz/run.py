@@ -8,9 +8,9 @@ It makes texts in turn by
 - `mutations` of scenarios, goldens and the library (tests/fuzz/mutations.py);
 - `grammar`: from grammar/OpenSCENARIO2.g4, every rule but no types (tests/fuzz/grammar.py);
 
-and compiles each through all stages, imports the module if there is one, and makes its tree. What
-must not happen is in tests/fuzz/oracle.py: an exception, a module that Python does not take or
-that differs the second time, a diagnostic that points nowhere, slowness.
+and compiles each through all stages, imports the module if there is one, and runs its scenarios
+for a moment. What must not happen is in tests/fuzz/oracle.py: an exception, a module that Python
+does not take or that differs the second time, a diagnostic that points nowhere, slowness.
 
 Findings go to `--out`, one folder for each kind of failure and place: `input.osc`, the smallest
 text of that kind, cut down line by line, and `report.txt` with options, seed and traceback. The
@@ -110,7 +110,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "fuzz")
     parser.add_argument("--only", choices=("programs", "mutations", "grammar"), action="append")
-    parser.add_argument("--compile-only", action="store_true", help="do not make the trees")
+    parser.add_argument("--compile-only", action="store_true", help="do not run the modules")
     options = parser.parse_args()
     makers = options.only or ["programs", "mutations", "grammar"]
     execute = not options.compile_only

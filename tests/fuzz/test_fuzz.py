@@ -73,4 +73,4 @@ def test_any_bytes(data: bytes, options: CompileOptions) -> None:
 def test_programs_reach_the_back_end() -> None:
     options = CompileOptions()
     built = sum(is_built(write_program(Random(seed)), options) for seed in range(50))
-    assert built >= 10, "random programs are mostly refused; see MODIFIERS in programs.py"
+    assert built >= 10, "random programs are mostly refused; see MODIFIERS in vocabulary.py"

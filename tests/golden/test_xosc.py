@@ -20,7 +20,7 @@ from osc2tx.backends.xosc import XmlScenario
 from osc2tx.config import GivenOptions
 from osc2tx.driver import Compilation
 from osc2tx.options import XML_VERSIONS, XmlVersion
-from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems
+from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems, untraced
 
 HERE = Path(__file__).parent / "xosc"
 CASES = sorted(HERE.glob("*.osc"))
@@ -111,6 +111,7 @@ def test_documents_are_valid_and_can_end(case: Path, version: XmlVersion) -> Non
     if found.xml is not None:
         assert schema_errors(found.xml, version) == []
         assert story_problems(found.xml) == []
+        assert untraced(found.xml) == []
     if found.parameters is not None:
         assert schema_errors(found.parameters, version) == []
 

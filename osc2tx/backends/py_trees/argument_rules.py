@@ -43,7 +43,7 @@ def _violation(
     found = [name for name in rule.of if name in given]
     shown = cause
     if cause is not None and rule.values:
-        shown = f"{cause}: {_member(given[cause])}"
+        shown = f"{cause}: {word(given[cause])}"
     match rule.kind:
         case "at_most_one" if len(found) > 1:
             yield _span(given, found[1], span), f"`{found[0]}` and `{found[1]}` exclude each other"
@@ -51,22 +51,32 @@ def _violation(
             yield span, f"`{shown or what}` needs {_or(rule.of)}"
         case "none" if found:
             yield _span(given, found[0], span), f"`{shown}` leaves no room for `{found[0]}`"
-        case "at_least":
+        case "at_least" | "above":
             for name in found:
                 argument = given[name]
                 value = ir.constant(argument.value) if isinstance(argument, ir.Argument) else None
-                if value is not None and value < rule.least:
+                if value is None or value > rule.least:
+                    continue
+                if rule.kind == "above":
+                    yield _span(given, name, span), f"`{name}` must be above {rule.least}"
+                elif value < rule.least:
                     yield _span(given, name, span), f"`{name}` must not be less than {rule.least}"
 
 
 def _counts(rule: ArgumentRule, name: str, given: Given) -> bool:
-    return name in given and (not rule.values or _member(given[name]) in rule.values)
+    return name in given and (not rule.values or word(given[name]) in rule.values)
 
 
-def _member(argument: ir.Argument | str | None) -> str | None:
+def word(argument: ir.Argument | str | None) -> str | None:
+    """Return the word that an argument is in the source; `None` if it is something else."""
     if not isinstance(argument, ir.Argument):
         return argument
-    return argument.value.member if isinstance(argument.value, ir.EnumValue) else None
+    match argument.value:
+        case ir.EnumValue(member=member):
+            return member
+        case ir.Literal(value=bool(value)):
+            return str(value).lower()
+    return None
 
 
 def _span(given: Given, name: str, call: Span) -> Span:

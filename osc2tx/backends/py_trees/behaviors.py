@@ -54,10 +54,12 @@ class BehaviorTreeBuilder:
         self._written: list[MethodView] = []
         self._wanted: set[str] = set()
         self._invoked: dict[int, str] = {}
+        self._draws: dict[int, str] = {}
 
     def write(self, scenario: ir.Scenario) -> tuple[MethodView, ...]:
         """Return `behavior` and the methods it calls, in source order."""
         self._invoked = invocation_names(scenario.body)
+        self._draws = draw_keys(scenario.body)
         self._method(PyName("behavior"), scenario.body)
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
         return (first, *self._written[1:])
@@ -125,8 +127,9 @@ class BehaviorTreeBuilder:
                 return self._calls.runtime_call("Call", function, *self._label(node.label))
             case ir.On(trigger=trigger, reactions=reactions):
                 written = tuple(self._node(reaction, depth=depth + 1) for reaction in reactions)
-                occurrence = self._calls.occurrence(trigger)
-                call = self._calls.runtime_call("On", occurrence, *written)
+                what, *condition = self._calls.trigger(trigger)
+                only_if = (replace(part, keyword=PyName("condition")) for part in condition)
+                call = self._calls.runtime_call("On", what, *written, *only_if)
                 return replace(call, exploded=True)
             case _:
                 assert_never(node)
@@ -162,6 +165,7 @@ class BehaviorTreeBuilder:
 
     def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
         self._source_map.invocations.append(self._invoked[node.span.start])
+        self._source_map.draws.append(self._draws[node.span.start])
         arguments = [code(name_expression(self._classes[node.key]))]
         if node.actor is not None:
             arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
@@ -184,6 +188,24 @@ def _override(override: ir.Override) -> StatementView:
 def until_name(triggers: tuple[ir.Trigger, ...]) -> str:
     """Return `until rise(npc.speed > limit)`: what ends a member, not what it is."""
     return shorten(f"until {' or '.join(condensed(t.span.text) for t in triggers)}")
+
+
+def draw_keys(body: ir.Behavior) -> dict[int, str]:
+    """Return what the random values of invoked scenarios depend on, by place.
+
+    That is the label, else the invocation as it is written; those that are written alike are
+    numbered down the text. So it depends neither on the order of parallel members nor on others.
+    """
+    nodes = [node for node in ir.walk_behaviors(body) if isinstance(node, ir.InvokeScenario)]
+    keys: dict[int, str] = {}
+    for node in sorted(nodes, key=lambda node: node.span.start):
+        actor = "" if node.actor is None else f"{ir.show(node.actor)} "
+        arguments = ir.show_arguments(node.arguments)
+        key = node.label or f"{actor}{node.scenario}({arguments})"
+        taken = set(keys.values())
+        numbered = (key if n == 1 else f"{key} {n}" for n in itertools.count(1))
+        keys[node.span.start] = next(each for each in numbered if each not in taken)
+    return keys
 
 
 def invocation_names(body: ir.Behavior) -> dict[int, str]:

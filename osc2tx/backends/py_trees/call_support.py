@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import Given, by_name, violations
+from osc2tx.backends.py_trees.combinations import CombinationCheck
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.runtime_api import RuntimeSupport
 from osc2tx.diagnostics import DiagnosticSink, Span
@@ -22,6 +23,7 @@ class CallCheck:
         runtime: Its tables.
         sink: Where complaints go.
         expressions: Checks expressions.
+        lineages: The types of the scenario's objects, each with its bases.
     """
 
     def __init__(
@@ -29,8 +31,11 @@ class CallCheck:
         runtime: RuntimeSupport,
         sink: DiagnosticSink,
         expressions: Callable[[Iterable[ir.Expression]], None],
+        lineages: Mapping[str, tuple[str, ...]],
     ) -> None:
         """See the class."""
+        self._lineages = lineages
+        self._combinations = CombinationCheck(runtime, sink, lineages)
         self._runtime = runtime
         self._sink = sink
         self._expressions = expressions
@@ -44,6 +49,7 @@ class CallCheck:
             return
         known = self._runtime.placement[modifier.name]
         self._arguments(modifier.arguments, known, f"modifier `{modifier.name}`")
+        self._asked(modifier)
         self._rules(modifier.name, modifier.span, modifier.arguments)
 
     def invocation(self, node: ir.Invoke) -> None:
@@ -65,8 +71,7 @@ class CallCheck:
         self._required(node, key, support.required)
         self._rules(key, node.span, node.arguments, {"with": None} if node.modifiers else {})
         if support.moves:
-            self._exclusive(node)
-            self._conflicting(node)
+            self._combinations.check(node, physical=support.physical)
             for modifier in node.modifiers:
                 self._moving(modifier)
         self._modifiers(node, key, support.modifiers)
@@ -91,40 +96,10 @@ class CallCheck:
         self._expressions((node.actor, *(argument.value for argument in node.arguments)))
         self._modifiers(node, key, frozenset(self._runtime.modifiers))
 
-    # --- modifiers ---
-
     def _modifiers(self, node: ir.Invoke, key: str, accepted: frozenset[str]) -> None:
-        for index, modifier in enumerate(node.modifiers):
+        for modifier in node.modifiers:
             self._modifier(modifier, key, accepted)
-            earlier = (m for m in node.modifiers[:index] if m.name == modifier.name)
-            if any(other.at == modifier.at for other in earlier):
-                self._sink.report(
-                    "OSC508", modifier.span, f"modifier `{modifier.name}` stands here twice"
-                )
-
-    def _exclusive(self, node: ir.Invoke) -> None:
-        for group in self._runtime.exclusive:
-            found = [m for m in node.modifiers if m.name in group and m.at != "start"]
-            for other in found[1:]:
-                if other.name != found[0].name:
-                    self._same_thing(found[0], other)
-
-    def _conflicting(self, node: ir.Invoke) -> None:
-        """Report what leaves no room for other modifiers, though those go together."""
-        lasting = [m for m in node.modifiers if m.at != "start"]
-        for modifier in lasting:
-            others = self._runtime.conflicts.get(_sort_of(modifier), frozenset())
-            for other in lasting:
-                if other.name in others and not _arrives(node, modifier, other):
-                    self._same_thing(modifier, other)
-
-    def _same_thing(self, one: ir.ModifierCall, other: ir.ModifierCall) -> None:
-        self._sink.report(
-            "OSC508",
-            other.span,
-            f"`{one.name}` and `{other.name}` speak of the same thing",
-            help="give one of them",
-        )
+        self._combinations.twice(node)
 
     def _modifier(self, modifier: ir.ModifierCall, action: str, accepted: frozenset[str]) -> None:
         starts = modifier.at == "start" and modifier.name in self._runtime.placement
@@ -143,7 +118,14 @@ class CallCheck:
                 f"modifier `{modifier.name}` cannot be asked for `at: end` yet",
             )
         self._arguments(modifier.arguments, known, f"modifier `{modifier.name}`")
+        self._asked(modifier)
         self._rules(modifier.name, modifier.span, modifier.arguments)
+        self._shape(modifier)
+
+    def _asked(self, modifier: ir.ModifierCall) -> None:
+        given = {identifier(argument.parameter) for argument in modifier.arguments}
+        for name in sorted(self._runtime.asked.get(modifier.name, frozenset()) - given):
+            self._sink.report("OSC509", modifier.span, f"modifier `{modifier.name}` needs `{name}`")
 
     def _moving(self, modifier: ir.ModifierCall) -> None:
         if modifier.at == "start" and modifier.name in self._runtime.no_start:
@@ -153,8 +135,36 @@ class CallCheck:
                 f"modifier `{modifier.name}` says nothing about a start",
                 help="leave `at: start` out",
             )
-        what = f"{modifier.name} while moving"
+        what = "a start" if modifier.at == "start" else f"{modifier.name} while moving"
         self._rules(what, modifier.span, modifier.arguments, {"at": modifier.at})
+
+    def _shape(self, modifier: ir.ModifierCall) -> None:
+        """Report a shape of something else than the modifier is about."""
+        for argument in modifier.arguments:
+            if argument.parameter != "shape" or modifier.name not in self._runtime.shapes:
+                continue
+            wanted, value = self._runtime.shapes[modifier.name], argument.value
+            if wanted not in (*self._kinds(value), "any_shape"):
+                self._sink.report(
+                    "OSC513",
+                    argument.span,
+                    f"a shape of `{modifier.name}` is an `{wanted}`, not a `{value.type.name}`",
+                )
+            elif wanted == "any_shape" and not isinstance(value, ir.OwnShape):
+                self._sink.report(
+                    "OSC513",
+                    argument.span,
+                    f"a shape of `{modifier.name}` computes an angle, unlike a `{value.type.name}`",
+                    help="derive one from `any_shape` with `def compute(time: time) -> angle`",
+                )
+
+    def _kinds(self, shape: ir.Expression) -> tuple[str, ...]:
+        """Return the types of a shape, as those of the bases that the library has."""
+        if isinstance(shape, ir.OwnShape):
+            return (shape.kind,)
+        name = shape.name if isinstance(shape, ir.FieldRef) else ""
+        lineage = self._lineages.get(name, (shape.type.name,))
+        return tuple(type_.replace("common_", "any_") for type_ in lineage)
 
     # --- arguments ---
 
@@ -190,22 +200,3 @@ class CallCheck:
         short = what.partition(" ")[0].rpartition(".")[2]
         for where, text in violations(short, self._runtime.rules.get(what, ()), span, given):
             self._sink.report("OSC513", where, text)
-
-
-def _sort_of(modifier: ir.ModifierCall) -> str:
-    """Return the name under which the runtime lists what a modifier leaves no room for."""
-    values = (a.value for a in modifier.arguments if a.parameter == "direction")
-    lateral = any(isinstance(v, ir.EnumValue) and v.member == "lateral" for v in values)
-    return f"lateral {modifier.name}" if lateral else modifier.name
-
-
-def _arrives(node: ir.Invoke, one: ir.ModifierCall, other: ir.ModifierCall) -> bool:
-    """Whether a place is for the end: it comes while the speed is held, or both come then.
-
-    Without a duration of its own the action may end with its phase; the runtime sees to that.
-    """
-    place = other if other.name == "position" else one
-    rate = one if place is other else other
-    ranges = isinstance(node.duration, ir.RangeValue)
-    at_end = place.name == "position" and place.at == "end"
-    return at_end and (rate.at == "all" or (rate.name == "speed" and not ranges))

@@ -145,7 +145,7 @@ class CallWriter:
                 late = code(writer.late(writer.write(expression)))
                 return ArgumentView(call=self.runtime_call("rise" if rising else "fall", late))
             case ir.Elapsed(duration=duration):
-                time = code(writer.write(duration))
+                time = code(writer.value(duration))
                 return ArgumentView(call=self.runtime_call("elapsed", time))
             case ir.Every(period=period, offset=offset):
                 shift = () if offset is None else (code(writer.write(offset), "offset"),)

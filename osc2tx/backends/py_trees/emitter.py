@@ -10,10 +10,11 @@ from osc2tx.backends.py_trees.code import PyDocLine, PyName
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
-from osc2tx.backends.py_trees.own_types import class_key, write_types
+from osc2tx.backends.py_trees.own_types import write_types
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, API_LEVEL, STRUCT_CLASSES
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
+from osc2tx.backends.py_trees.type_table import TypeTable, class_key
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
 from osc2tx.portable import is_portable
@@ -21,7 +22,20 @@ from osc2tx.portable import is_portable
 # Names a module may import; a scenario class must not hide them.
 RUNTIME_CLASSES = frozenset(
     {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()}
-    | {"Behaviour", "Call", "Emit", "End", "Event", "Fail", "On", "OneOf", "Parallel", "Range"}
+    | {
+        "Actor",
+        "Behaviour",
+        "Call",
+        "Emit",
+        "End",
+        "Event",
+        "Fail",
+        "On",
+        "OneOf",
+        "OwnShape",
+        "Parallel",
+        "Range",
+    }
     | {"Any", "Scenario", "Serial", "Unit", "Until", "Wait"}
 )
 
@@ -56,8 +70,9 @@ def emit(module: ir.Module) -> GeneratedModule:
         classes.add(scenario.key, class_name(plain), "Scenario")
     for own in module.types:
         classes.add(class_key(own.name), class_name(own.name), "Type")
-    types = write_types(module.types, classes, uses)
-    writers = [ScenarioWriter(s, module.one_of, classes, uses) for s in module.scenarios]
+    table = TypeTable(module.types, classes, uses)
+    types = write_types(module.types, table, uses)
+    writers = [ScenarioWriter(s, module.one_of, classes, table, uses) for s in module.scenarios]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
         docstring=_docstring(module),
@@ -87,10 +102,19 @@ def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
 
 
 def shown_scenario(module: ir.Module) -> ir.Scenario:
-    """Return the scenario whose tree viewers get: `top`, `main`, else the last."""
-    by_name = {scenario.name: scenario for scenario in own_scenarios(module)}
+    """Return the scenario whose tree viewers get: `top`, `main`, else the last that can run."""
+    own = own_scenarios(module)
+    by_name = {scenario.name: scenario for scenario in own}
     wanted = next((name for name in ("top", "main") if name in by_name), None)
-    return by_name[wanted] if wanted else own_scenarios(module)[-1]
+    if wanted:
+        return by_name[wanted]
+    able = [scenario for scenario in own if not any(map(_is_given, scenario.declarations))]
+    return (able or own)[-1]
+
+
+def _is_given(declaration: ir.Declaration) -> bool:
+    """Whether only an invoker can say what an object is."""
+    return isinstance(declaration, ir.Actor) and declaration.is_given
 
 
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:

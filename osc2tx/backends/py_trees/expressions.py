@@ -52,6 +52,7 @@ class ExpressionWriter:
         use_name: Told of each name that must be imported from the runtime library.
         class_of: Gives the class of an actor type.
         methods: The scenario's methods; their parameters must not hide what their bodies use.
+        member: Names a member of an object of some type.
     """
 
     def __init__(
@@ -61,6 +62,7 @@ class ExpressionWriter:
         use_name: Callable[[str], PyName],
         class_of: Callable[[str], PyName] | None = None,
         methods: tuple[ir.Method, ...] = (),
+        member: Callable[[str, str], PyName] | None = None,
     ) -> None:
         """See the class."""
         bodies = (method.expression for method in methods)
@@ -70,6 +72,7 @@ class ExpressionWriter:
         self._fields = fields
         self._use_unit = use_unit
         self._use_name = use_name
+        self._member = member or (lambda _, name: PyName(identifier(name)))
         self._class_of = class_of or (lambda type_: use_name(ACTOR_CLASSES[type_]))
 
     def value(self, expression: ir.Expression) -> PyExpr:
@@ -110,9 +113,12 @@ class ExpressionWriter:
             case ir.ScenarioSelf():
                 return PyExpr("self", Level.ATOM)
             case ir.EventArgument(event=event, parameter=parameter):
-                return PyExpr(f"{self.field(event)}[{literal(parameter)}]", Level.ATOM)
-            case ir.Attribute(base=base, name=name):
-                return PyExpr(f"{self._atom(base)}.{PyName(identifier(name))}", Level.ATOM)
+                return PyExpr(f"{self._event(event)}[{literal(parameter)}]", Level.ATOM)
+            case ir.InvokedValue(label=label, name=name):
+                field = PyName(identifier(name))
+                return PyExpr(f"self.invoked({literal(label)}).{field}", Level.ATOM)
+            case ir.Attribute(base=base, owner=owner, name=name):
+                return PyExpr(f"{self._atom(base)}.{self._member(owner, name)}", Level.ATOM)
             case ir.MethodCall():
                 return self._method_call(expression)
             case ir.Unary():
@@ -153,6 +159,12 @@ class ExpressionWriter:
                 class_ = self._class_of(type_.name)
                 as_type = self._use_name("as_type")
                 return PyExpr(f"{as_type}({self.write(operand)}, {class_})", Level.ATOM)
+            case ir.OwnShape(operand=operand, compute=compute, duration=duration):
+                methods = [name for name in (compute, duration) if name is not None]
+                inner = ", ".join(
+                    (str(self.write(operand)), *(str(self.field(m)) for m in methods))
+                )
+                return PyExpr(f"{self._use_name('OwnShape')}({inner})", Level.ATOM)
             case ir.HalfRange(bound=bound, is_lower=is_lower):
                 half = self._use_name("at_least" if is_lower else "at_most")
                 return PyExpr(f"{half}({self.write(bound)})", Level.ATOM)
@@ -161,6 +173,12 @@ class ExpressionWriter:
                 return PyExpr(f"{self._use_name('any_of')}({inner})", Level.ATOM)
             case _:
                 assert_never(expression)
+
+    def _event(self, name: str) -> PyExpr:
+        """Write an event of the scenario, or `label.event` of one that it invokes."""
+        if name in self._fields:
+            return self.field(name)
+        return PyExpr(f"self.event({literal(name)})", Level.ATOM)
 
     def _atom(self, expression: ir.Expression) -> str:
         return self.write(expression).within(Level.ATOM)
@@ -178,7 +196,8 @@ class ExpressionWriter:
             return self._plain_method(call)
         arguments = ", ".join(self._argument(argument, own) for argument in call.arguments)
         method = self._fields[call.method] if own else PyName(identifier(call.method))
-        return PyExpr(f"{self._atom(call.base)}.{method}({arguments})", Level.ATOM)
+        object_ = self._class_of(call.owner) if call.needs_no_object else self._atom(call.base)
+        return PyExpr(f"{object_}.{method}({arguments})", Level.ATOM)
 
     def _plain_method(self, call: ir.MethodCall) -> PyExpr:
         """Write a method of a string or range (2.2)."""
@@ -270,6 +289,10 @@ class ExpressionWriter:
         return PyExpr(f"not {written.within(Level.NOT)}", Level.NOT)
 
     def _in_range(self, left: PyExpr, bounds: ir.RangeValue) -> PyExpr:
+        if None in (ir.constant(bounds.lower), ir.constant(bounds.upper)):
+            # Only the run tells which of them is the lower one.
+            text = f"{left.within(Level.SUM)} in {self.write(bounds)}"
+            return PyExpr(text, Level.COMPARISON)
         lower, upper = self.write(bounds.lower), self.write(bounds.upper)
         text = f"{lower.within(Level.SUM)} <= {left.within(Level.SUM)} <= {upper.within(Level.SUM)}"
         return PyExpr(text, Level.COMPARISON)

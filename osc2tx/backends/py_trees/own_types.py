@@ -6,36 +6,32 @@ from collections.abc import Sequence
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
-from osc2tx.backends.py_trees.code import PyDocLine, PyName, literal
+from osc2tx.backends.py_trees.code import PyDocLine, literal
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
-from osc2tx.backends.py_trees.naming import NameTable, identifier
-from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, ANNOTATIONS, STRUCT_CLASSES
+from osc2tx.backends.py_trees.naming import NameTable
+from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import FieldView, TypeView
 
 
-def class_key(type_: str) -> str:
-    """Return the key of a type in the table of the module's classes."""
-    return f"type {type_}"
-
-
-def write_types(
-    types: Sequence[ir.OwnType], classes: NameTable, uses: Uses
-) -> tuple[TypeView, ...]:
+def write_types(own: Sequence[ir.OwnType], table: TypeTable, uses: Uses) -> tuple[TypeView, ...]:
     """Return the view models of the types, in their order.
 
     Args:
-        types: The types, bases first.
-        classes: Names of the module's classes.
+        own: The types, bases first.
+        table: All types that the module knows.
         uses: What the module has to import.
     """
     writer = ExpressionWriter(NameTable(), uses.unit, uses.name)
-    own = {each.name for each in types}
-    return tuple(_write(each, own, classes, uses, writer) for each in types)
+    names = [each.name for each in own]
+    return tuple(
+        _write(each, frozenset(names[index:]), table, uses, writer)
+        for index, each in enumerate(own)
+    )
 
 
 def _write(
-    own: ir.OwnType, names: set[str], classes: NameTable, uses: Uses, writer: ExpressionWriter
+    own: ir.OwnType, later: frozenset[str], table: TypeTable, uses: Uses, writer: ExpressionWriter
 ) -> TypeView:
     if not own.is_actor:
         uses.standard("dataclasses", "dataclass")
@@ -44,26 +40,18 @@ def _write(
     word = "Actor" if own.is_actor else "Struct"
     about = [f"{word} `{own.name}` ({own.span}).", *(["", *own.comments] if own.comments else [])]
     return TypeView(
-        class_name=classes[class_key(own.name)],
-        base=_base(own, names, classes, uses),
+        class_name=table.class_of((own.name,)),
+        base=table.base_of(own),
         kind=literal(own.name),
         is_actor=own.is_actor,
         docstring=tuple(PyDocLine.of(line) for line in about),
         fields=tuple(
             FieldView(
-                name=PyName(identifier(field.name)),
-                annotation=PyName(ANNOTATIONS[field.type.kind.value]),
+                name=table.member(own.name, field.name),
+                annotation=table.annotation(field.type, later),
                 default=None if field.default is None else writer.write(field.default),
                 comments=comments(field.comments),
             )
             for field in own.fields
         ),
     )
-
-
-def _base(own: ir.OwnType, names: set[str], classes: NameTable, uses: Uses) -> PyName | None:
-    if own.base is None:
-        return None
-    if own.base in names:
-        return classes[class_key(own.base)]
-    return uses.name({**ACTOR_CLASSES, **STRUCT_CLASSES}[own.base])

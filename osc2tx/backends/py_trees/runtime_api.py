@@ -6,7 +6,7 @@ The compiler does not import the runtime; a test compares these tables with the 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -31,53 +31,109 @@ ACTOR_CLASSES = {
 
 # Struct type of the standard library -> value class of the runtime.
 STRUCT_CLASSES = {
+    "acceleration_6d": "Acceleration",
+    "air": "Air",
+    "axle": "Axle",
+    "behavioral_model": "BehavioralModel",
+    "bm_engine": "BmEngine",
+    "bounding_box": "BoundingBox",
+    "celestial_light_source": "CelestialLightSource",
+    "celestial_position_2d": "CelestialPosition",
+    "clouds": "Clouds",
+    "any_acceleration_shape": "AnyAccelerationShape",
+    "any_lateral_shape": "AnyLateralShape",
+    "any_position_shape": "AnyPositionShape",
+    "any_shape": "AnyShape",
+    "any_speed_shape": "AnySpeedShape",
     "common_acceleration_shape": "CommonAccelerationShape",
     "common_lateral_shape": "CommonLateralShape",
+    "common_position_shape": "CommonPositionShape",
     "common_speed_shape": "CommonSpeedShape",
-    "odr_point": "OdrPoint",
     "compound_lane": "CompoundLane",
     "compound_route": "CompoundRoute",
+    "crossing": "Crossing",
+    "crossing_type": "CrossingType",
+    "geodetic_point": "GeodeticPoint",
+    "fog": "Fog",
+    "geodetic_position_2d": "GeodeticPosition",
+    "hitch_coupler": "HitchCoupler",
+    "hitch_receiver": "HitchReceiver",
     "junction": "Junction",
     "lane": "Lane",
     "lane_section": "LaneSection",
+    "odr_point": "OdrPoint",
     "orientation_3d": "Orientation",
-    "path": "Path",
+    "orientation_acceleration_3d": "OrientationAcceleration",
+    "orientation_rate_3d": "OrientationRate",
     "Path": "RoadPath",
+    "path": "Path",
     "pose_3d": "Pose",
     "position_3d": "Point",
-    "road": "Road",
+    "precipitation": "Precipitation",
     "relative_path_odr": "RelativePathOdr",
     "relative_path_pose_3d": "RelativePathPose3d",
     "relative_path_st": "RelativePathSt",
     "relative_trajectory_odr": "RelativeTrajectoryOdr",
     "relative_trajectory_pose_3d": "RelativeTrajectoryPose3d",
     "relative_trajectory_st": "RelativeTrajectorySt",
+    "road": "Road",
+    "route": "Route",
     "route_point": "RoutePoint",
     "traffic_light": "TrafficLight",
     "traffic_light_bulb": "TrafficLightBulb",
     "traffic_light_cycle": "TrafficLightCycle",
     "traffic_light_group": "TrafficLightGroup",
     "traffic_light_phase": "TrafficLightPhase",
+    "traffic_light_stop_line": "TrafficLightStopLine",
     "trajectory": "Trajectory",
+    "translational_acceleration_3d": "TranslationalAcceleration",
+    "translational_velocity_3d": "TranslationalVelocity",
+    "velocity_6d": "Velocity",
+    "weather": "Weather",
+    "wind": "Wind",
     "xyz_point": "XyzPoint",
 }
 
-# Paths below an object that a constructor takes under another name.
-CONSTRUCTOR_KEYWORDS: Mapping[tuple[str, ...], str] = {
-    ("bounding_box", "height"): "height",
-    ("bounding_box", "length"): "length",
-    ("bounding_box", "width"): "width",
-    ("orientation", "pitch"): "pitch",
-    ("orientation", "roll"): "roll",
-    ("orientation", "yaw"): "yaw",
-    ("position", "x"): "x",
-    ("position", "y"): "y",
-    ("position", "z"): "z",
+# Members whose own members the constructor of the object takes itself: `Vehicle(length=4 * m)`.
+FLAT_MEMBERS = frozenset(
+    {
+        ("physical_object", "bounding_box"),
+        ("pose_3d", "orientation"),
+        ("pose_3d", "position"),
+    }
+)
+
+# Members of objects that are values of a struct themselves, with their types.
+NESTED_OBJECTS: Mapping[tuple[str, str], str] = {
+    ("acceleration_6d", "angular"): "orientation_acceleration_3d",
+    ("acceleration_6d", "translational"): "translational_acceleration_3d",
+    ("behavioral_model", "bm_engine"): "bm_engine",
+    ("bounding_box", "center"): "position_3d",
+    ("crossing", "crossing_type"): "crossing_type",
+    ("environment", "geodetic_position"): "geodetic_position_2d",
+    ("physical_object", "center"): "position_3d",
+    ("physical_object", "center_of_gravity"): "position_3d",
+    ("physical_object", "initial_bm"): "behavioral_model",
+    ("traffic_light_phase", "group"): "traffic_light_group",
+    ("traffic_light_stop_line", "traffic_light_group"): "traffic_light_group",
+    ("trailer", "coupler"): "hitch_coupler",
+    ("vehicle", "trailer_receiver"): "hitch_receiver",
+    ("velocity_6d", "angular"): "orientation_rate_3d",
+    ("velocity_6d", "translational"): "translational_velocity_3d",
+    ("weather", "air"): "air",
+    ("weather", "clouds"): "clouds",
+    ("weather", "fog"): "fog",
+    ("weather", "rain"): "precipitation",
+    ("weather", "snow"): "precipitation",
+    ("weather", "wind"): "wind",
+    ("xyz_point", "position"): "position_3d",
 }
 
-# Members of values that are values themselves, with their types.
-NESTED_OBJECTS: Mapping[tuple[str, str], str] = {
-    ("xyz_point", "position"): "position_3d",
+# Lists of which a constructor takes single elements, `axles={0: Axle(…)}`, with the types of these;
+# `None` for plain values.
+LIST_ELEMENTS: Mapping[tuple[str, str], str | None] = {
+    ("traffic_participant", "intended_infrastructure"): None,
+    ("vehicle", "axles"): "axle",
 }
 
 # Python types of plain values, by what sort of value they are.
@@ -87,9 +143,28 @@ ANNOTATIONS = {"bool": "bool", "int": "int", "float": "float", "quantity": "floa
 }
 
 
-def constructor_keyword(path: tuple[str, ...]) -> str:
-    """Return the constructor's keyword for a member below an object."""
-    return CONSTRUCTOR_KEYWORDS.get(path, ".".join(path))
+def constructor_path(lineage: Sequence[str], path: tuple[str, ...]) -> tuple[str, ...]:
+    """Return a path below an object as the constructors have it, keyword by keyword."""
+    is_flat = len(path) > 1 and any((type_, path[0]) in FLAT_MEMBERS for type_ in lineage)
+    return path[1:] if is_flat else path
+
+
+def nested_object(lineage: Sequence[str], member: str) -> str | None:
+    """Return the type of a member that is a value of a struct of the library."""
+    found = (NESTED_OBJECTS.get((type_, member)) for type_ in lineage)
+    return next((type_ for type_ in found if type_ is not None), None)
+
+
+def list_element(lineage: Sequence[str], member: str) -> tuple[str, ...] | None:
+    """Return the type of the elements of a list that are taken one by one, if it is such a list.
+
+    It is empty for plain values.
+    """
+    for type_ in lineage:
+        if (type_, member) in LIST_ELEMENTS:
+            element = LIST_ELEMENTS[type_, member]
+            return () if element is None else (element,)
+    return None
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,12 +176,14 @@ class ActionSupport:
         required: Those it cannot do without.
         modifiers: Modifiers that it honours.
         moves: Whether it moves as its modifiers say, so that they must go together.
+        physical: Whether it cannot let the actor jump.
     """
 
     arguments: frozenset[str]
     required: frozenset[str]
     modifiers: frozenset[str]
     moves: bool
+    physical: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +192,7 @@ class ArgumentRule:
 
     Attributes:
         kind: `at_most_one` or `at_least_one` of the parameters is given, `none` of them, or each
-            that is given is `at_least` some number.
+            that is given is `at_least` some number, or `above` it.
         of: Parameters.
         when: It only holds if one of these is given,
         values: with one of these values,
@@ -132,6 +209,25 @@ class ArgumentRule:
 
 
 @dataclass(frozen=True, slots=True)
+class Sort:
+    """Modifiers with something in common; see `combinations` of the runtime.
+
+    Attributes:
+        name: Of the sort.
+        modifier: Name of the modifier.
+        given: Parameters of which one is given,
+        value: with this value; empty: with any.
+        lacks: None of these is given.
+    """
+
+    name: str
+    modifier: str
+    given: tuple[str, ...] = ()
+    value: str = ""
+    lacks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class RuntimeSupport:
     """What the runtime carries out, by the names of the language.
 
@@ -144,8 +240,15 @@ class RuntimeSupport:
         fields: Members one can read, `movable_object.speed`.
         objects: Type of actor or struct to what its constructor takes.
         needed: Type of actor or struct to what its constructor cannot do without.
+        asked: Modifier to the parameters that it cannot do without.
+        unknown: Members of actors that only the scenario can say.
         conflicts: Modifiers to those that they leave no room for.
         no_start: Modifiers that say nothing of a start.
+        on_lanes: Modifiers for actors that follow lanes.
+        lane_bound: Those actors.
+        sorts: Sorts of modifiers, under which `conflicts` lists them as well.
+        contradictions: Pairs of an argument and its value that cannot be in one action.
+        shapes: Modifiers to the base of the shapes that they take.
         rules: Modifier or action to which of its arguments go together.
         reserved: What actors of the runtime have besides actions.
     """
@@ -158,8 +261,15 @@ class RuntimeSupport:
     fields: frozenset[str]
     objects: Mapping[str, frozenset[str]]
     needed: Mapping[str, frozenset[str]]
+    asked: Mapping[str, frozenset[str]]
+    unknown: frozenset[str]
     conflicts: Mapping[str, frozenset[str]]
     no_start: frozenset[str]
+    on_lanes: frozenset[str]
+    lane_bound: frozenset[str]
+    sorts: tuple[Sort, ...]
+    contradictions: tuple[tuple[tuple[str, str], ...], ...]
+    shapes: Mapping[str, str]
     rules: Mapping[str, tuple[ArgumentRule, ...]]
     reserved: frozenset[str]
 
@@ -180,6 +290,7 @@ def runtime_support() -> RuntimeSupport:
                 frozenset(entry["required"]),
                 frozenset(entry["modifiers"]),
                 entry["moves"],
+                entry["physical"],
             )
             for name, entry in table["actions"].items()
         },
@@ -190,8 +301,17 @@ def runtime_support() -> RuntimeSupport:
         fields=frozenset(table["fields"]),
         objects=sets("objects"),
         needed=sets("needed"),
+        asked=sets("asked"),
+        unknown=frozenset(table["unknown"]),
         conflicts=sets("conflicts"),
         no_start=frozenset(table["no_start"]),
+        on_lanes=frozenset(table["on_lanes"]),
+        lane_bound=frozenset(table["lane_bound"]),
+        sorts=tuple(Sort(**{k: _frozen(v) for k, v in sort.items()}) for sort in table["sorts"]),
+        contradictions=tuple(
+            tuple((name, value) for name, value in pair) for pair in table["contradictions"]
+        ),
+        shapes=table["shapes"],
         rules={
             name: tuple(ArgumentRule(**{k: _frozen(v) for k, v in rule.items()}) for rule in rules)
             for name, rules in table["rules"].items()

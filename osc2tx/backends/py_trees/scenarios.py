@@ -20,15 +20,9 @@ from osc2tx.backends.py_trees.code import (
 from osc2tx.backends.py_trees.coverage import CoverageWriter
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
-from osc2tx.backends.py_trees.own_types import class_key
-from osc2tx.backends.py_trees.runtime_api import (
-    ACTOR_CLASSES,
-    ANNOTATIONS,
-    NESTED_OBJECTS,
-    STRUCT_CLASSES,
-    constructor_keyword,
-)
+from osc2tx.backends.py_trees.objects import ObjectWriter
 from osc2tx.backends.py_trees.source_map import ScenarioMap, scenario_map
+from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
@@ -47,10 +41,18 @@ class ScenarioWriter:
         scenario: The scenario.
         one_of: Policy of `one_of` in this module.
         classes: Names of the module's scenario classes, by key of the scenario.
+        types: All types that the module knows.
         uses: What the module has to import.
     """
 
-    def __init__(self, scenario: ir.Scenario, one_of: str, classes: NameTable, uses: Uses) -> None:
+    def __init__(
+        self,
+        scenario: ir.Scenario,
+        one_of: str,
+        classes: NameTable,
+        types: TypeTable,
+        uses: Uses,
+    ) -> None:
         """See the class."""
         self._scenario = scenario
         self._one_of = one_of
@@ -58,11 +60,17 @@ class ScenarioWriter:
         self._names = NameTable(SCENARIO_ATTRIBUTES)
         for member in (*scenario.declarations, *scenario.methods):
             self._names.add(member.name, identifier(member.name))
-        self._uses = uses
+        self._types = types
         expressions = ExpressionWriter(
-            self._names, uses.unit, uses.name, lambda type_: self._class((type_,)), scenario.methods
+            self._names,
+            uses.unit,
+            uses.name,
+            lambda type_: types.class_of((type_,)),
+            scenario.methods,
+            types.member,
         )
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
+        self._objects = ObjectWriter(expressions, types)
         self.source_map: ScenarioMap = scenario_map(scenario)
 
     def write(self) -> ScenarioView:
@@ -98,7 +106,8 @@ class ScenarioWriter:
 
     def _docstring(self) -> tuple[PyDocLine, ...]:
         scenario = self._scenario
-        lines = [f"Scenario `{scenario.name}` ({scenario.span})."]
+        word = "Action" if scenario.is_action else "Scenario"
+        lines = [f"{word} `{scenario.name}` ({scenario.span})."]
         if scenario.comments:
             lines += ["", *scenario.comments]
         return tuple(PyDocLine.of(line) for line in lines)
@@ -163,8 +172,12 @@ class ScenarioWriter:
 
     def _declared_value(self, declaration: ir.Declaration) -> ArgumentView:
         match declaration:
+            case ir.Actor(name=name, lineage=lineage, is_given=True):
+                class_ = name_expression(self._types.class_of(lineage))
+                call = CallView(_self("required_argument"), (code(literal(name)), code(class_)))
+                return ArgumentView(call=call)
             case ir.Actor(lineage=lineage):
-                return self._constructor(lineage, declaration.values)
+                return self._objects.write(lineage, declaration.values)
             case ir.Struct():
                 return self._struct(declaration)
             case ir.Variable():
@@ -181,36 +194,10 @@ class ScenarioWriter:
         if struct.value is not None:
             value = code(self._calls.expressions.write(struct.value))
         else:
-            value = self._constructor(struct.lineage, struct.values)
+            value = self._objects.write(struct.lineage, struct.values)
         if not self._scenario.is_invoked:
             return value
         return ArgumentView(call=CallView(_self("argument"), (code(literal(struct.name)), value)))
-
-    def _constructor(
-        self, lineage: tuple[str, ...], values: tuple[ir.FieldValue, ...]
-    ) -> ArgumentView:
-        nested = {v.path[0]: NESTED_OBJECTS.get((lineage[0], v.path[0])) for v in values}
-        arguments: dict[str, ArgumentView] = {}
-        for value in values:
-            first = value.path[0]
-            inner = nested[first]
-            if inner is None or len(value.path) == 1:
-                arguments[constructor_keyword(value.path)] = ArgumentView(
-                    code=self._calls.expressions.write(value.value),
-                    comments=comments(value.comments),
-                )
-            elif first not in arguments:
-                below = tuple(replace(v, path=v.path[1:]) for v in values if v.path[0] == first)
-                arguments[first] = self._constructor((inner,), below)
-        written = (replace(a, keyword=PyName(keyword)) for keyword, a in arguments.items())
-        return ArgumentView(call=CallView(name_expression(self._class(lineage)), tuple(written)))
-
-    def _class(self, lineage: tuple[str, ...]) -> PyName:
-        """Name the class of an object: one of the module, or of the runtime."""
-        if class_key(lineage[0]) in self._classes:
-            return self._classes[class_key(lineage[0])]
-        known = {**ACTOR_CLASSES, **STRUCT_CLASSES}
-        return self._calls.use_name(next(known[name] for name in lineage if name in known))
 
     def _variable(self, variable: ir.Variable) -> ArgumentView:
         """Write the value, or how the variable is sampled."""
@@ -219,8 +206,9 @@ class ScenarioWriter:
         if variable.sample is None:
             return initial[0]  # the verifier saw to it that there is one
         what = code(writer.late(writer.write(variable.sample.expression)))
-        when = self._calls.occurrence(variable.sample.trigger)
-        return ArgumentView(call=CallView(_self("sample"), (what, when, *initial)))
+        when, *condition = self._calls.trigger(variable.sample.trigger)
+        only_if = (replace(part, keyword=PyName("condition")) for part in condition)
+        return ArgumentView(call=CallView(_self("sample"), (what, when, *initial, *only_if)))
 
     def _event_parameters(
         self, parameters: tuple[ir.MethodParameter, ...]
@@ -243,15 +231,16 @@ class ScenarioWriter:
         if parameter.value is not None and parameter.type.element is not None:
             name, value = code(literal(parameter.name)), code(write(parameter.value))
             return ArgumentView(call=CallView(_self("argument"), (name, value)))
-        arguments = [code(literal(parameter.name))]
+        known_as = parameter.name.removeprefix("global ") if parameter.is_global else parameter.name
+        arguments = [code(literal(known_as))]
         is_plain = parameter.type.element is None and parameter.type.kind is not ir.Kind.STRUCT
         method = "global_parameter" if parameter.is_global else "parameter"
         if parameter.is_required and not is_plain:
             method = "required_argument"
-            arguments.append(code(self._annotation(parameter.type)))
+            arguments.append(code(self._types.annotation(parameter.type)))
         elif parameter.is_required:
             method = "required_global" if parameter.is_global else "required"
-            arguments.append(code(self._annotation(parameter.type)))
+            arguments.append(code(self._types.annotation(parameter.type)))
         arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
         return ArgumentView(call=CallView(_self(method), tuple(arguments)))
 
@@ -264,7 +253,9 @@ class ScenarioWriter:
             name = self._names[method.name]
             path = f"{method.external.module}.{method.external.function}"
             self.source_map.fields[path] = method.span.line
-            kind = code(self._annotation(method.result)) if method.result is not None else None
+            kind = (
+                code(self._types.annotation(method.result)) if method.result is not None else None
+            )
             arguments = (code(literal(path)),) if kind is None else (code(literal(path)), kind)
             statements.append(
                 StatementView(
@@ -287,28 +278,16 @@ class ScenarioWriter:
             parameters=tuple(
                 FunctionParameterView(
                     self._calls.expressions.parameter(parameter.name),
-                    self._annotation(parameter.type),
+                    self._types.annotation(parameter.type),
                     None if parameter.default is None else write(parameter.default),
                 )
                 for parameter in method.parameters
             ),
-            result=self._annotation(method.result),
+            result=self._types.annotation(method.result),
             value=write(body),
             location=PyComment.of(str(method.span)),
             comments=comments(method.comments),
         )
-
-    def _annotation(self, type_: ir.ValueType | None) -> PyExpr:
-        if type_ is None:
-            return PyExpr("object", Level.ATOM)  # called for what it does
-        if type_.element is not None:
-            is_list = type_.kind is ir.Kind.LIST
-            outer = "list" if is_list else str(self._calls.use_name("Range"))
-            return PyExpr(f"{outer}[{self._annotation(type_.element)}]", Level.ATOM)
-        plain = ANNOTATIONS.get(type_.kind.value)
-        if plain is not None:
-            return name_expression(PyName(plain))
-        return name_expression(self._class((type_.name,)))
 
     def _placement(self, placement: ir.Placement) -> StatementView:
         self.source_map.placements.append(placement.span.line)

@@ -27,6 +27,7 @@ class ScenarioMap:
         placements: Line of each placement, in order.
         nodes: Line and readable name of each node of the tree, in pre-order.
         invocations: Names of the invoked scenarios, in the same order.
+        draws: What their random values depend on besides the seed, in the same order.
     """
 
     file: str
@@ -36,6 +37,7 @@ class ScenarioMap:
     placements: list[int] = field(default_factory=list)
     nodes: list[tuple[int, str]] = field(default_factory=list)
     invocations: list[str] = field(default_factory=list)
+    draws: list[str] = field(default_factory=list)
 
 
 def scenario_map(scenario: ir.Scenario) -> ScenarioMap:
@@ -57,12 +59,15 @@ def _scenario(entry: ScenarioMap) -> str:
     placements = ", ".join(map(str, entry.placements))
     names = ", ".join(map(_string, entry.invocations))
     invocations = f'    "invocations": [{names}],\n' if names else ""
+    keys = _lines(map(_string, entry.draws))
+    draws = f'    "draws": [{keys}],\n' if keys else ""
     return (
         f'{{"file": {_string(entry.file)}, "line": {entry.line},\n'
         f'    "fields": {{{fields}}},\n'
         f"{kept}"
         f'    "placements": [{placements}],\n'
         f"{invocations}"
+        f"{draws}"
         f'    "nodes": [{nodes}]}}'
     )
 

@@ -7,12 +7,11 @@ from collections.abc import Iterable
 from osc2tx import ir
 from osc2tx.backends.py_trees.call_support import CallCheck
 from osc2tx.backends.py_trees.naming import identifier
+from osc2tx.backends.py_trees.object_support import ObjectCheck
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
-    NESTED_OBJECTS,
     STRUCT_CLASSES,
-    constructor_keyword,
     runtime_support,
 )
 from osc2tx.diagnostics import DiagnosticSink, Span
@@ -21,28 +20,14 @@ from osc2tx.diagnostics import DiagnosticSink, Span
 MAX_PARTS = 1000
 
 # Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
-INVOKE_KEYWORDS = frozenset({"caller", "label", "settings"})
+INVOKE_KEYWORDS = frozenset({"caller", "label", "self", "settings"})
 
 
 def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
     """Report every part of a module that the runtime does not know."""
     own = {each.name: each for each in module.types}
-    for each in module.types:
-        if each.is_actor:
-            check_fields(each, sink)
     for scenario in module.scenarios:
         _SupportCheck(scenario, own, sink).run()
-
-
-def check_fields(own: ir.OwnType, sink: DiagnosticSink) -> None:
-    """Report fields of an own actor that would hide what the runtime keeps there."""
-    for field in own.fields:
-        if identifier(field.name) in runtime_support().reserved | {"fields", "self"}:
-            sink.report(
-                "OSC501",
-                field.span,
-                f"the runtime has something else by the name `{field.name}`; rename the field",
-            )
 
 
 class _SupportCheck:
@@ -54,7 +39,9 @@ class _SupportCheck:
         self.own = own
         self.sink = sink
         self.runtime = runtime_support()
-        self.calls = CallCheck(self.runtime, sink, self.expressions)
+        objects = (d for d in scenario.declarations if isinstance(d, ir.Actor | ir.Struct))
+        lineages = {each.name: each.lineage for each in objects}
+        self.calls = CallCheck(self.runtime, sink, self.expressions, lineages)
 
     def run(self) -> None:
         for declaration in self.scenario.declarations:
@@ -73,11 +60,8 @@ class _SupportCheck:
 
     def declaration(self, declaration: ir.Declaration) -> None:
         match declaration:
-            case ir.Actor(lineage=lineage):
-                kind = next((name for name in lineage if name in ACTOR_CLASSES), None)
-                self.object(declaration, kind)
-            case ir.Struct(lineage=lineage):
-                self.object(declaration, next((n for n in lineage if n in STRUCT_CLASSES), None))
+            case ir.Actor() | ir.Struct():
+                self.object(declaration)
             case ir.Parameter(value=value, domain=domain):
                 self.expressions(part for part in (value, domain) if part is not None)
             case ir.Variable(value=value, sample=sample):
@@ -106,53 +90,14 @@ class _SupportCheck:
         if method.expression is not None:
             self.expressions((method.expression,))
 
-    def object(self, declaration: ir.Actor | ir.Struct, kind: str | None) -> None:
-        bases = [name for name in declaration.lineage if name not in self.own]
-        is_own = isinstance(declaration, ir.Struct) and not bases
-        if not is_own and (kind is None or kind not in self.runtime.objects):
-            self.sink.report(
-                "OSC501",
-                declaration.span,
-                f"the runtime has no objects of type `{declaration.type}`",
-            )
+    def object(self, declaration: ir.Actor | ir.Struct) -> None:
+        if isinstance(declaration, ir.Actor) and declaration.is_given:
             return
-        if isinstance(declaration, ir.Struct):
-            if declaration.value is not None:
-                self.expressions((declaration.value,))
-                return
-            if kind is not None:
-                self.needed(declaration, kind)
-        for value in declaration.values:
-            own = len(value.path) == 1 and any(
-                (name, value.path[0]) in self.own_fields for name in declaration.lineage
-            )
-            if not own and (kind is None or not self.can_fix(kind, value.path)):
-                self.sink.report(
-                    "OSC502",
-                    value.span,
-                    f"the runtime cannot fix `{'.'.join(value.path)}` of a `{declaration.type}`",
-                )
-            self.expressions((value.value,))
-
-    def can_fix(self, kind: str, path: tuple[str, ...]) -> bool:
-        """Whether a constructor takes a member."""
-        inner = NESTED_OBJECTS.get((kind, path[0]))
-        if inner is not None and len(path) > 1:
-            return self.can_fix(inner, path[1:])
-        return constructor_keyword(path) in self.runtime.objects[kind]
-
-    def needed(self, declaration: ir.Struct, kind: str) -> None:
-        """Report members that a value cannot do without."""
-        given = {constructor_keyword(value.path) for value in declaration.values}
-        given |= {value.path[0] for value in declaration.values}
-        missing = ", ".join(f"`{name}`" for name in sorted(self.runtime.needed[kind] - given))
-        if missing:
-            self.sink.report(
-                "OSC501",
-                declaration.span,
-                f"`{declaration.name}` does not say its {missing}",
-                help="give it a whole value, or `keep(it.member == value)` for each member",
-            )
+        if isinstance(declaration, ir.Struct) and declaration.value is not None:
+            self.expressions((declaration.value,))
+            return
+        ObjectCheck(self.own, self.runtime, self.sink).check(declaration)
+        self.expressions(value.value for value in declaration.values)
 
     def behavior(self, node: ir.Behavior) -> None:
         match node:
@@ -161,6 +106,7 @@ class _SupportCheck:
                 self.limits(node.duration, node.until)
             case ir.InvokeScenario():
                 self.free_names(node)
+                self.known_before(node)
                 self.expressions(argument.value for argument in node.arguments)
                 self.limits(node.duration, node.until)
             case ir.Wait(trigger=trigger):
@@ -190,6 +136,17 @@ class _SupportCheck:
                     f"`{argument.parameter}` is a word of the runtime's own here; rename it",
                 )
 
+    def known_before(self, node: ir.InvokeScenario) -> None:
+        for argument in node.arguments:
+            if ir.is_live(argument.value):
+                self.sink.report(
+                    "OSC503",
+                    argument.span,
+                    f"parameter `{argument.parameter}` of a scenario cannot depend on the state of"
+                    " the world: it is fixed before the run",
+                    help="hand in the actor, and read its state where it is needed",
+                )
+
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
         if duration is not None:
             self.time(duration)
@@ -207,32 +164,30 @@ class _SupportCheck:
         """Check a time that the tree is built with."""
         if ir.is_live(value):
             self.sink.report(
-                "OSC503", value.span, "a time limit cannot depend on the state of the world yet"
+                "OSC503",
+                value.span,
+                "a time limit cannot depend on the state of the world",
+                help="end it at a condition instead: `until expression`, or `until elapsed(…)`",
             )
         self.expressions((value,))
 
     def trigger(self, trigger: ir.Trigger) -> None:
-        if trigger.event is not None and not isinstance(trigger.condition, ir.Level | None):
-            self.sink.report(
-                "OSC506",
-                trigger.span,
-                "an event can only be combined with a plain condition yet",
-            )
         match trigger.condition:
-            case ir.Elapsed() | ir.Every():
+            case ir.Every():
                 self.period(trigger.condition)
                 for value in ir.condition_expressions(trigger.condition):
                     self.time(value)
-            case ir.Level() | ir.Edge():
+            case ir.Level() | ir.Edge() | ir.Elapsed():
+                if isinstance(trigger.condition, ir.Elapsed):
+                    self.at_least_zero(trigger.condition.duration)
                 self.expressions(ir.condition_expressions(trigger.condition))
             case None:
                 pass
 
-    def period(self, condition: ir.Elapsed | ir.Every) -> None:
-        if isinstance(condition, ir.Every):
-            seconds = ir.constant(condition.period)
-            if seconds is not None and seconds <= 0.0:
-                self.sink.report("OSC513", condition.period.span, "a period must be above zero")
+    def period(self, condition: ir.Every) -> None:
+        seconds = ir.constant(condition.period)
+        if seconds is not None and seconds <= 0.0:
+            self.sink.report("OSC513", condition.period.span, "a period must be above zero")
 
     def expressions(self, expressions: Iterable[ir.Expression]) -> None:
         for expression in expressions:
@@ -259,6 +214,8 @@ class _SupportCheck:
                     )
                 elif not self.is_readable(part) and self.is_readable(base):
                     self.unreadable(part.span, f"member `{name}` of `{owner}`")
+                elif f"{owner}.{name}" in self.runtime.unknown:
+                    self.said(part, base)
             case ir.MethodCall(base=ir.ScenarioSelf()):
                 pass  # checked where it is declared
             case ir.MethodCall(owner="string" | "range"):
@@ -279,6 +236,19 @@ class _SupportCheck:
                             )
             case _:
                 pass  # everything else is plain Python
+
+    def said(self, part: ir.Attribute, base: ir.Expression) -> None:
+        """Report a member of an actor that nothing says: no catalogue knows it."""
+        name = base.name if isinstance(base, ir.FieldRef) else None
+        actors = (d for d in self.scenario.declarations if isinstance(d, ir.Actor))
+        actor = next((each for each in actors if each.name == name), None)
+        if actor is not None and all(value.path[0] != part.name for value in actor.values):
+            self.sink.report(
+                "OSC503",
+                part.span,
+                f"nothing says the `{part.name}` of `{name}`",
+                help=f"`keep({name}.{part.name} == value)`",
+            )
 
     def is_readable(self, part: ir.Expression) -> bool:
         if not isinstance(part, ir.Attribute):

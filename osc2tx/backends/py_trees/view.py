@@ -90,7 +90,7 @@ class FieldView:
     """A field of a class."""
 
     name: PyName
-    annotation: PyName
+    annotation: PyExpr
     default: PyExpr | None = None
     comments: tuple[PyComment, ...] = ()
 

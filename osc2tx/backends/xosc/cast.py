@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from osc2tx import ir
-from osc2tx.backends.xosc.facts import Limits, Shape, limits_of, shape_of
+from osc2tx.backends.xosc.constants import Constant, Member
+from osc2tx.backends.xosc.facts import CATEGORIES, Limits, Shape, limits_of, shape_of
 from osc2tx.backends.xosc.names import plain
-from osc2tx.backends.xosc.values import Constant, Member, Values
+from osc2tx.backends.xosc.values import Values
 from osc2tx.light_dataclass import dataclass
 
 VEHICLE, PEDESTRIAN, MISC = "Vehicle", "Pedestrian", "MiscObject"
@@ -60,6 +61,20 @@ class CastMember:
         """Whether it moves freely, not along lanes."""
         return self.kind != VEHICLE
 
+    @property
+    def sizes(self) -> Mapping[tuple[str, ...], float]:
+        """Members of the actor that its shape says, as the runtime has them."""
+        shape = self.shape
+        sizes: dict[tuple[str, ...], float] = {
+            ("bounding_box", "length"): shape.length,
+            ("bounding_box", "width"): shape.width,
+            ("bounding_box", "height"): shape.height,
+            ("bounding_box", "center", "x"): shape.centre,
+            ("bounding_box", "center", "y"): 0.0,
+            ("bounding_box", "center", "z"): 0.5 * shape.height,
+        }
+        return {**sizes, ("rear_overhang",): shape.rear} if self.kind == VEHICLE else sizes
+
 
 def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None:
     """Return an actor as an entity; `None` if it is no physical object."""
@@ -69,6 +84,7 @@ def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None
     library_kind = next(t for t in actor.lineage if t in KINDS)
     chosen = values.field(actor.name, ("vehicle_category",))
     category = chosen.name if isinstance(chosen, Member) else None
+    sized = category if category in CATEGORIES else None  # others have no counterpart anyway
     model = values.field(actor.name, ("model",))
     model_name = model if isinstance(model, str) else None
     return CastMember(
@@ -77,8 +93,8 @@ def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None
         kind=kind,
         category=category or ("car" if library_kind == "vehicle" else library_kind),
         model=model_name,
-        shape=_shape(actor, library_kind, category, model_name, values),
-        limits=limits_of(library_kind, category, model_name),
+        shape=_shape(actor, library_kind, sized, model_name, values),
+        limits=limits_of(library_kind, sized, model_name),
     )
 
 
@@ -90,14 +106,15 @@ def _shape(
         name: _number(values.field(actor.name, ("bounding_box", name)))
         for name in ("length", "width", "height")
     }
-    if all(size is None for size in sizes.values()):
-        return shape
+    overhang = _number(values.field(actor.name, ("rear_overhang",)))
+    centre = _number(values.field(actor.name, ("bounding_box", "center", "x")))
     length = sizes["length"] or shape.length
+    rear = shape.rear * length / shape.length if overhang is None else overhang
     return Shape(
         length=length,
         width=sizes["width"] or shape.width,
         height=sizes["height"] or shape.height,
-        rear=shape.rear * length / shape.length,
+        rear=rear if centre is None else 0.5 * length - centre,
         wheelbase=shape.wheelbase * length / shape.length,
     )
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TypeGuard
 
 from osc2tx import ir
+from osc2tx.backends.xosc.constants import Constant, Named
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flow import NEVER, Edge, Flow, Test
-from osc2tx.backends.xosc.measures import FINITE, MEASURES, Comparison, Groups, relative_speed
+from osc2tx.backends.xosc.measured import Comparison, Groups
+from osc2tx.backends.xosc.measures import FINITE, MEASURES, relative_speed
+from osc2tx.backends.xosc.payloads import carries
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.signals import shows
-from osc2tx.backends.xosc.values import Constant, Named
 
 RULES = {
     ">": "greaterThan",
@@ -80,6 +82,8 @@ def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge)
             return first & second if (operator == "and") is not negated else first | second
         case ir.Binary(operator=operator) if operator in RULES and ir.is_live(expression):
             return _comparison(ctx, expression, OPPOSITE[operator] if negated else operator, edge)
+    if isinstance(expression, ir.EventArgument):  # a truth value
+        return Flow(((Test(carries(ctx, expression, "equalTo", not negated), edge),),))
     if _is_light(expression) and not negated:
         return Flow((tuple(Test(each, edge) for each in shows(ctx, expression)),))
     if not ir.is_live(expression):
@@ -115,7 +119,9 @@ def _comparison(ctx: Context, expression: ir.Binary, operator: str, edge: Edge) 
         operator, edge = OPPOSITE[operator], "rising"
     rule = _rule(ctx, operator, expression)
     speeds = _speeds(ctx, left, right)
-    if speeds is not None:
+    if isinstance(left, ir.EventArgument) and not ir.is_live(right):
+        groups: Groups = ((carries(ctx, left, rule, ctx.values.of(right)),),)
+    elif speeds is not None:
         actor, other, difference = speeds
         groups = relative_speed(ctx, actor, other, rule, difference)
     elif ir.is_live(right):
@@ -190,11 +196,12 @@ def _measured(ctx: Context, measure: ir.Expression, rule: str, value: float, edg
                 f"`{measure.span.text}` is computed, and OpenSCENARIO XML does not compute",
                 measure.span,
             )
+    path = name
     while isinstance(base, ir.Attribute):
-        if isinstance(measure, ir.Attribute):
-            name = f"{base.name}.{name}"
-        base = base.base
+        path, base = f"{base.name}.{path}", base.base
     actor = ctx.values.of(base)
+    if path in MEASURES or isinstance(measure, ir.Attribute):
+        name = path
     found = MEASURES.get(name)
     if found is None or not isinstance(actor, Named) or actor.name not in ctx.cast:
         raise Inexpressible(f"there is no condition on `{owner}.{name}`", measure.span)

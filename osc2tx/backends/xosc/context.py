@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from osc2tx import ir
 from osc2tx.backends.xosc.cast import CastMember
-from osc2tx.backends.xosc.facts import Roads, map_places, roads_of
+from osc2tx.backends.xosc.choosing import NOTHING_OPEN, Choosing
+from osc2tx.backends.xosc.facts_map import Stretch
+from osc2tx.backends.xosc.facts_roads import Roads, map_places, roads_of
 from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.parameters import OpenParameter
 from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
@@ -32,8 +33,9 @@ class Context:
         profile: The tool that reads it.
         report: What became of the constructs.
         names: Of elements.
-        parameters: Open parameters that are parameters of the document.
-        scope: The scenario, or the one it invokes that is being written down.
+        choosing: Open parameters, and which of them are parameters of the document.
+        root: The scenario, with its actors and values.
+        scope: The same, or of the scenario it invokes that is being written down.
         entities: All physical actors.
         roads: The map, if it was found.
         map_places: Where it was looked for, outside of the runtime library.
@@ -41,6 +43,8 @@ class Context:
         states: What is known about the actors at the present place of the tree.
         at_start: The states after the initial placement.
         init_gaps: Metres by which an actor starts behind another one.
+        automatic_lights: What shines of vehicles whose lights follow the weather, by name.
+        stretches: Where declared roads and lanes are on the map, once they have been looked for.
         init_globals: Actions of `Init` that concern no entity.
         weather: What the scenario has said about it up to the present place of the tree.
         monitors: Value at the start of monitors, by name.
@@ -56,8 +60,7 @@ class Context:
         module: ir.Module,
         options: XmlOptions,
         folder: Path | None,
-        parameters: Sequence[OpenParameter] = (),
-        given: Mapping[str, float] | None = None,
+        choosing: Choosing = NOTHING_OPEN,
     ) -> None:
         """Take the scenario.
 
@@ -66,8 +69,7 @@ class Context:
             module: Where it stands.
             options: What was chosen.
             folder: Where the source lies, if it has a folder.
-            parameters: Open parameters that are to be parameters of the document.
-            given: Numbers for others.
+            choosing: Its open parameters, and what stands for them.
         """
         self.scenario = scenario
         self.module = module
@@ -76,9 +78,9 @@ class Context:
         self.profile: ToolProfile = PROFILES[options.profile]
         self.report = LossReport(options)
         self.names = Names()
-        self.parameters = tuple(parameters)
-        symbols = {p.declaration.name: p.symbol(self.version) for p in parameters}
-        self.scope = open_scopes(scenario, module, {**(given or {}), **symbols})
+        self.choosing = choosing
+        self.root = open_scopes(scenario, module, choosing.given(self.version))
+        self.scope = self.root
         self.entities: list[CastMember] = self.scope.members()
         self.map_file = self._map_file()
         folders = [*([folder] if folder else []), *map(Path, options.map_path)]
@@ -90,12 +92,14 @@ class Context:
         self.weather: dict[str, float] = {}
         self.init_globals: list[Element] = []
         self.init_gaps: dict[tuple[str, str], float] = {}
+        self.stretches: dict[str, Stretch] | None = None
+        self.automatic_lights: dict[str, str] = {}
         self.variables: dict[str, tuple[str, str]] = {}
         self.lamps: dict[str, tuple[str, ...] | None] = {}
         self.controllers: list[Element] = []
         self._variable_names: dict[str, str] = {}
-        for name in given or ():  # parameters, whether they are kept or not
-            self.names.new(name)
+        for parameter in choosing.parameters:  # whether they are kept or not
+            self.names.new(parameter.name)
         for member in self.entities:
             self.names.new(member.name)
 
@@ -124,6 +128,12 @@ class Context:
                 value = self.values.field(declaration.name, ("map_file",))
                 if isinstance(value, str):
                     return value
+        for placement in self.scenario.placements:
+            for call in placement.modifiers:
+                if call.name == "set_map_file":
+                    (argument,) = call.arguments
+                    value = self.values.of(argument.value)
+                    return value if isinstance(value, str) else None
         return None
 
     def comment(self, span: Span, text: str) -> str:

@@ -7,13 +7,13 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.backends.xosc.flow import NEVER, Edge, Flow
 from osc2tx.backends.xosc.loom import Loom, one_line
+from osc2tx.backends.xosc.models import no_model
 from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.own import command_of
+from osc2tx.backends.xosc.payloads import carried
+from osc2tx.backends.xosc.periods import MANY_TIMES, react_periodically
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.tree import element
-
-MANY_TIMES = 1000000
-"""Executions of an event that may start again for as long as its act runs."""
 
 VERDICT = "verdict"
 """Name of the monitor that says whether the scenario has succeeded."""
@@ -24,12 +24,10 @@ OPPOSITE: dict[Edge, Edge] = {"rising": "falling", "falling": "rising", "none": 
 def emit(loom: Loom, node: ir.Emit, start: Flow) -> Flow:
     """Let an event occur; return when it has."""
     ctx, events = loom.ctx, loom.events
-    if node.arguments:
-        raise Inexpressible("events with parameters have no counterpart here", node.span)
     name = ctx.names.new(f"emit_{ctx.scope.prefix}{node.event.name}")
     comment = ctx.comment(node.span, one_line(node.span.text))
     setting = events.setting(node.event.name)
-    done = loom.add(name, (setting,), start, comment, actor=loom.voice)
+    done = loom.add(name, (*carried(ctx, node), setting), start, comment, actor=loom.voice)
     if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
         reset = events.setting(node.event.name, "false")
         loom.add(ctx.names.new(f"after_{name}"), (reset,), done)
@@ -46,6 +44,8 @@ def call(loom: Loom, node: ir.Call, start: Flow) -> Flow:
     called = node.call
     if not isinstance(called, ir.MethodCall):
         raise Inexpressible("only methods are called", node.span)
+    if called.method == "set_bm" and called.owner == "physical_object":
+        raise no_model("another behavioral model", node.span)
     arguments = {each.parameter: ctx.values.of(each.value) for each in called.arguments}
     name = ctx.names.new(f"call_{plain(called.method)}")
     comment = ctx.comment(node.span, one_line(node.span.text))
@@ -74,11 +74,17 @@ def finish(loom: Loom, node: ir.Finish, start: Flow) -> Flow:
 def react(loom: Loom, node: ir.On, start: Flow) -> Flow:
     """Write down reactions as an event that starts again at each occurrence."""
     ctx, events = loom.ctx, loom.events
-    emitted = []
+    emitted, actions = [], []
     for reaction in node.reactions:
-        if not isinstance(reaction, ir.Emit) or reaction.arguments:
-            raise Inexpressible("only `emit` without arguments can react", reaction.span)
+        if not isinstance(reaction, ir.Emit):
+            raise Inexpressible("only `emit` can react", reaction.span)
         emitted.append(reaction.event.name)
+        actions += [*carried(ctx, reaction), events.setting(reaction.event.name)]
+    condition = node.trigger.condition
+    if isinstance(condition, ir.Every) and node.trigger.event is None:
+        react_periodically(loom, node, condition, loom.latched(start, "on"), tuple(actions))
+        ctx.report.exact("on", node.span)
+        return NEVER
     once = node.trigger.event is not None  # such an event has one edge
     if not once and not isinstance(node.trigger.condition, ir.Edge):
         raise Inexpressible("only an event or an edge can be reacted to", node.span)
@@ -86,7 +92,7 @@ def react(loom: Loom, node: ir.On, start: Flow) -> Flow:
     repeats = None if once else MANY_TIMES
     name = ctx.names.new(f"on_{plain(node.trigger.span.text)}")
     comment = ctx.comment(node.span, one_line(node.span.text))
-    loom.add(name, tuple(map(events.setting, emitted)), occurs, comment, repeats=repeats)
+    loom.add(name, tuple(actions), occurs, comment, repeats=repeats)
     if not once:  # the opposite edge makes room for the next occurrence
         over = Flow(
             tuple(

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import PurePosixPath
+
 from osc2tx import ir
+from osc2tx.backends.xosc.adapting import adapted
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities import scenario_objects
-from osc2tx.backends.xosc.facts import DEFAULT_MAP
+from osc2tx.backends.xosc.environment import initial_environment
+from osc2tx.backends.xosc.facts_roads import DEFAULT_MAP
 from osc2tx.backends.xosc.flatten import Flattener
 from osc2tx.backends.xosc.flow import Flow, at_time, single
 from osc2tx.backends.xosc.parameters import declaration
 from osc2tx.backends.xosc.placement import initial_actions
 from osc2tx.backends.xosc.storyboard import StoryboardWriter
-from osc2tx.backends.xosc.tree import Element, element
+from osc2tx.backends.xosc.tree import Element, comment_text, element
 
 DATE = "2000-01-01T00:00:00"
 """The schema asks for a date; a real one would change the file each day."""
@@ -25,23 +29,25 @@ MOST_TIME = 300.0
 def make_document(ctx: Context) -> Element:
     """Return the document; what it cannot say is in the report."""
     objects = scenario_objects(ctx)
+    ctx.init_globals.extend(initial_environment(ctx))
     privates = initial_actions(ctx)
     flattener = Flattener(ctx)
     end = flattener.run()
     writer = StoryboardWriter(ctx.names, ctx.version)
-    story = writer.story(f"story_{ctx.scenario.name}", flattener.acts)
+    end = _end(ctx, end)
+    story = writer.story(f"story_{ctx.scenario.name}", adapted(ctx, flattener.acts, end))
     storyboard = element(
         "Storyboard",
         element("Init", element("Actions", *ctx.init_globals, *privates)),
         story,
-        writer.trigger("StopTrigger", _end(ctx, end), "end"),
+        writer.trigger("StopTrigger", end, "end"),
     )
     major, minor = ctx.version.split(".")
     return element(
         "OpenSCENARIO",
         element(
             "FileHeader",
-            _source(ctx),
+            _properties(ctx),
             revMajor=major,
             revMinor=minor,
             date=DATE,
@@ -76,20 +82,37 @@ def _monitors(ctx: Context) -> Element | None:
     return element("MonitorDeclarations", *declarations)
 
 
-def _source(ctx: Context) -> Element | None:
+def _properties(ctx: Context) -> Element | None:
+    """Return where the scenario stands, and what it samples for coverage: XML samples nothing."""
+    sampled = []
+    for item in ctx.scenario.coverage:
+        note = "runs of the XML sample nothing; the header keeps what was asked for"
+        ctx.report.exact(f"{item.kind} {item.name}", item.span, note)
+        text = " ".join(comment_text(item.span.text).split())
+        sampled.append(element("Property", name=f"{item.kind} {item.name}", value=text))
     if ctx.version < "1.2":
         return None
-    return element("Properties", element("Property", name="source", value=str(ctx.scenario.span)))
+    source = element("Property", name="source", value=str(ctx.scenario.span))
+    return element("Properties", source, *sampled)
 
 
 def _road_network(ctx: Context) -> Element:
     signals = element("TrafficSignals", *ctx.controllers) if ctx.controllers else None
-    map_file = element("LogicFile", filepath=ctx.map_file or DEFAULT_MAP)
-    return element("RoadNetwork", map_file, signals)
+    return element("RoadNetwork", element("LogicFile", filepath=_map_file(ctx)), signals)
+
+
+def _map_file(ctx: Context) -> str:
+    """Return the map as a tool has to look for it: most of them open a file of just that name."""
+    wanted = ctx.map_file or DEFAULT_MAP
+    if ctx.roads is None or ctx.profile.knows_towns:
+        return wanted
+    return PurePosixPath(wanted).with_name(ctx.roads.file.name).as_posix()
 
 
 def _parameters(ctx: Context) -> Element | None:
-    given = [declaration(parameter, ctx.version) for parameter in ctx.parameters]
+    values = {scope.path: scope.values for scope in ctx.scope.all()}
+    point, version = ctx.choosing.point, ctx.version
+    given = [declaration(p, point[p.key], values[p.path], version) for p in ctx.choosing.kept]
     if ctx.version < "1.2":
         given += [
             element("ParameterDeclaration", name=name, parameterType=type_, value=value)

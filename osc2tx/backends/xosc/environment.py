@@ -1,4 +1,4 @@
-"""Environment (§8.11) as global actions, and lights of vehicles.
+"""Environment (§8.10, §8.11) as global actions.
 
 An action of the DSL says one thing about the weather and leaves the rest. From 1.1 on the XML can
 leave out the rest too; in 1.0 it has to be stated again, so all that was said before is kept.
@@ -7,24 +7,23 @@ leave out the rest too; in 1.0 it has to be stated again, so all that was said b
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 
 from osc2tx import ir
+from osc2tx.backends.xosc.clock import environments, time_of_day
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts import ADHESION, road_condition
-from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.registry import action, global_action
+from osc2tx.backends.xosc.leaf import Arguments
+from osc2tx.backends.xosc.neighbours import is_first, runs_beside
+from osc2tx.backends.xosc.registry import global_action
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.tree import Element, element
+from osc2tx.backends.xosc.shape import actors_of
+from osc2tx.backends.xosc.tree import Element, commented, element
 
 NOON = "2000-01-01T12:00:00"
 """Time of day where 1.0 asks for one and the scenario says none."""
 
 FULL_SUN = 100000.0
 """Lux of the sun in the zenith; the DSL knows no brightness."""
-
-DARK = math.radians(15.0)
-"""Elevation of the sun (rad) below which automatic lights are on."""
 
 MMPH = 1e-3 / 3600.0
 """Millimetres per hour in m/s."""
@@ -37,14 +36,6 @@ FAR = 100000.0
 
 OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
-LIGHTS: Mapping[str, Mapping[str, str]] = {
-    "off": {"lowBeam": "off", "highBeam": "off", "daytimeRunningLights": "off"},
-    "daytime": {"daytimeRunningLights": "on", "lowBeam": "off", "highBeam": "off"},
-    "low_beam": {"lowBeam": "on", "highBeam": "off"},
-    "high_beam": {"lowBeam": "on", "highBeam": "on"},
-}
-"""Mode of `set_lights` -> state of each light."""
-
 
 # --- sun and air --------------------------------------------------------------------------------
 
@@ -55,14 +46,12 @@ def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> 
     source = arguments.expression("light_source")
     if source is not None and source.span.text.endswith("moon"):
         raise Inexpressible("there is no moon in OpenSCENARIO XML", node.span)
-    if azimuth is None:
-        azimuth = ctx.weather.get("sun_azimuth")
-    if elevation is None:
-        elevation = ctx.weather.get("sun_elevation")
-    if azimuth is None or elevation is None:
-        raise Inexpressible("the XML asks for both azimuth and elevation", node.span)
-    ctx.weather["sun_elevation"] = elevation
-    ctx.weather["sun_azimuth"] = azimuth
+    if azimuth is None and elevation is None:
+        raise Inexpressible("it says neither azimuth nor elevation", node.span)
+    if azimuth is not None:  # what nobody has said is open, and the XML says some value
+        ctx.weather["sun_azimuth"] = azimuth
+    if elevation is not None:
+        ctx.weather["sun_elevation"] = elevation
     return (environment_action(ctx, node, _sun(ctx)),)
 
 
@@ -163,6 +152,8 @@ def _precipitation_action(
     intensity = arguments.number("intensity")
     if intensity is None:
         raise Inexpressible("it says no intensity", node.span)
+    if node.action == "snow" and intensity > 0.0:
+        ctx.require_support("Precipitation/snow", node.span)
     ctx.weather[f"{node.action}_intensity"] = intensity
     if ctx.weather.get("rain_intensity", 0.0) > 0.0 and ctx.weather.get("snow_intensity", 0.0) > 0:
         raise Inexpressible("OpenSCENARIO XML has one precipitation, not rain and snow", node.span)
@@ -192,9 +183,33 @@ def _precipitation(ctx: Context) -> Element:
 # --- the environment as a whole -----------------------------------------------------------------
 
 
+def initial_environment(ctx: Context) -> tuple[Element, ...]:
+    """Return the actions for what the environment is from the start on, whoever acts."""
+    actions: list[Element] = []
+    for actor in environments(ctx):
+        said = {value.path[0] for value in actor.values}
+        if "geodetic_position" in said:
+            ctx.report.approximate(
+                f"actor {actor.type}",
+                actor.span,
+                "where the world lies on the globe is a matter of the map in OpenSCENARIO XML",
+                "`geodetic_position` is dropped; nothing moves otherwise",
+            )
+        if "datetime" in said:
+            with ctx.report_as(f"actor {actor.type}", actor.span):
+                told = (
+                    environment_action(ctx, actor)  # in 1.0 all of it has to be stated
+                    if ctx.version == "1.0"
+                    else _environment(ctx, actor.name, time_of_day(ctx))
+                )
+                comment = ctx.comment(actor.span, f"date and time of {actor.name}")
+                actions.append(commented(told, comment))
+    return tuple(actions)
+
+
 def environment_action(
     ctx: Context,
-    node: ir.Invoke,
+    source: ir.Invoke | ir.Actor,
     *weather: Element,
     temperature: float | None = None,
     pressure: float | None = None,
@@ -203,71 +218,67 @@ def environment_action(
 ) -> Element:
     """Return the action that changes parts of the weather; 1.0 has to state all of it."""
     parts = {part.name: part for part in weather}
-    time_of_day = None
+    clock = None
     if ctx.version == "1.0":
         everything = (_sun(ctx), _fog(ctx), _precipitation(ctx))
         parts = {part.name: part for part in everything}
         state = _cloud_state(ctx)
-        time_of_day = element("TimeOfDay", animation=False, dateTime=NOON)
-    return element(
-        "GlobalAction",
-        element(
-            "EnvironmentAction",
-            element(
-                "Environment",
-                time_of_day,
-                element(
-                    "Weather",
-                    *parts.values(),
-                    temperature=temperature,
-                    atmosphericPressure=pressure,
-                    fractionalCloudCover=cover,
-                    cloudState=state,
-                ),
-                _road(ctx),
-                name=ctx.names.new(f"environment_{node.action}"),
-            ),
-        ),
+        clock = _stated_again(ctx, source)
+    told = element(
+        "Weather",
+        *parts.values(),
+        temperature=temperature,
+        atmosphericPressure=pressure,
+        fractionalCloudCover=cover,
+        cloudState=state,
     )
+    name = source.name if isinstance(source, ir.Actor) else source.action
+    return _environment(ctx, name, told, clock, _road(ctx, source))
 
 
-def _road(ctx: Context) -> Element | None:
+def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> Element:
+    """Return the time of day that 1.0 asks for with each word about the weather."""
+    clock = time_of_day(ctx)
+    if clock is None:
+        return element("TimeOfDay", animation=False, dateTime=NOON)
+    if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+        ctx.report.approximate(
+            f"action {source.action}",
+            source.span,
+            "OpenSCENARIO XML 1.0 sets the time of day with the weather",
+            "the clock goes back to the start of the scenario",
+            Remedy(version="1.1"),
+        )
+    return clock
+
+
+def _environment(ctx: Context, name: str, *parts: Element | None) -> Element:
+    environment = element("Environment", *parts, name=ctx.names.new(f"environment_{name}"))
+    return element("GlobalAction", element("EnvironmentAction", environment))
+
+
+def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> Element | None:
     """Return how slippery roads are: the DSL leaves that to the world, tools have to be told."""
     adhesion = ADHESION.get(road_condition(ctx.weather))
     if adhesion is None and ctx.version > "1.0" and "was_slippery" not in ctx.weather:
         return None
     if adhesion is not None:
         ctx.weather["was_slippery"] = 1.0
+        if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+            _report_lost_grip(ctx, source, adhesion)
     return element("RoadCondition", frictionScaleFactor=1.0 if adhesion is None else adhesion)
 
 
-# --- lights of vehicles -------------------------------------------------------------------------
-
-
-@action("set_lights")
-def _set_lights(leaf: Leaf) -> Performance:
-    ctx = leaf.ctx
-    mode = leaf.arguments.text("mode") or leaf.arguments.member("mode", "auto")
-    if mode == "auto":
-        mode = "low_beam" if ctx.weather.get("sun_elevation", DARK) < DARK else "off"
-    if mode not in LIGHTS:
-        raise Inexpressible(f"there is no counterpart of the light mode `{mode}`", leaf.node.span)
-    # The schema of 1.2 asks for both alternatives of each choice at once.
-    ctx.require("a light", "1.3", leaf.node.span)
-    ctx.require_support("LightStateAction", leaf.node.span)
-    actions = tuple(_light(light, state) for light, state in LIGHTS[mode].items())
-    return Performance((Change("lights", actions, 0.0, leaf.state, leaf.state),), "instant")
-
-
-def _light(light: str, state: str) -> Element:
-    return element(
-        "PrivateAction",
-        element(
-            "AppearanceAction",
-            element(
-                "LightStateAction",
-                element("LightType", element("VehicleLight", vehicleLightType=light)),
-                element("LightState", mode=state),
-            ),
-        ),
-    )
+def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
+    """Report that vehicles lose grip amid an action: the XML does not say what becomes of it."""
+    beside = runs_beside(ctx.scenario.body, source)
+    names = {name for member in beside for name in actors_of(member)}
+    if any(name in ctx.cast and not ctx.cast[name].walks for name in names):
+        ctx.report.approximate(
+            f"action {source.action}",
+            source.span,
+            "the road becomes slippery while vehicles move; what that does to an action that has"
+            " begun the XML leaves to the tool",
+            f"vehicles keep the acceleration that they were told, beyond {adhesion:g} of the grip"
+            " of a dry road",
+        )

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions import condition_flow
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts import read_signal
+from osc2tx.backends.xosc.facts_runs import read_signal
 from osc2tx.backends.xosc.flow import Flow, Test, at_time, single
 from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
@@ -53,6 +53,8 @@ class EventTable:
                     yield trigger.event.label, trigger.event.moment
         for override in self._scope.scenario.overrides:
             yield override.by, ir.Moment.START
+            if override.mode == "when_active":
+                yield override.by, ir.Moment.END
 
     def _fleeting_events(self) -> Iterator[str]:
         """Yield the events whose variables are taken back, for they may occur again."""
@@ -97,6 +99,13 @@ class EventTable:
     def of_label(self, label: str, moment: ir.Moment, *, is_early: bool) -> Flow:
         """Return the tests for the start or the end of a member."""
         return self._is_set(self._marks[label, moment], is_early=is_early)
+
+    def activity(self, label: str) -> tuple[str, str]:
+        """Return the variables that are set when a labelled member starts and ends, declared."""
+        marks = self._marks[label, ir.Moment.START], self._marks[label, ir.Moment.END]
+        for mark in marks:
+            self._ctx.declare(mark, "boolean", "false")
+        return marks
 
     def mark(self, node: ir.Behavior, moment: ir.Moment) -> str | None:
         """Return the event that keeps the start or end of a labelled member, if one is needed."""

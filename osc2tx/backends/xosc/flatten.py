@@ -8,23 +8,25 @@ a stop trigger.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from typing import assert_never
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.directives import call, emit, finish, react
-from osc2tx.backends.xosc.flow import NEVER, Flow, single, state_of
+from osc2tx.backends.xosc.durations import Role, over
+from osc2tx.backends.xosc.flow import NEVER, Flow, chosen, single, state_of
 from osc2tx.backends.xosc.leaves import invoke
 from osc2tx.backends.xosc.loom import RUN_START, Loom, construct_of
 from osc2tx.backends.xosc.names import plain
-from osc2tx.backends.xosc.overlaps import is_open, length_of, starts_of
+from osc2tx.backends.xosc.overlaps import starts_of
+from osc2tx.backends.xosc.overrides import unless_active
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.settling import settle
-from osc2tx.backends.xosc.shape import is_instant, is_single
+from osc2tx.backends.xosc.shape import is_instant, is_single, is_timed
 from osc2tx.backends.xosc.state import either
 from osc2tx.backends.xosc.storyboard import Act
+from osc2tx.diagnostics import Span
 
 
 class Flattener:
@@ -34,6 +36,8 @@ class Flattener:
         """Take the scenario; the states of its actors are those after the placement."""
         self._ctx = ctx
         self._loom = Loom(ctx)
+        self._entrants: set[Span] = set()  # members of races that have an act of their own
+        self._is_racing = False  # the present place is inside a member of a race
 
     @property
     def acts(self) -> Sequence[Act]:
@@ -49,12 +53,16 @@ class Flattener:
 
     def _member(self, node: ir.Behavior, start: Flow) -> Flow:
         """Flatten a member that starts with a flow; return when it ends, `NEVER` if it does not."""
+        outer, self._loom.place = self._loom.place, node.span
         try:
-            return self._flatten(node, self._loom.begun(node, start))
+            start, skipped = unless_active(self._loom, node, start)
+            return self._flatten(node, self._loom.begun(node, start)) | skipped
         except Inexpressible as error:
             span = error.span or node.span
             self._ctx.report.cannot(construct_of(node), span, error.reason, error.remedy)
             return start
+        finally:
+            self._loom.place = outer
 
     def _flatten(self, node: ir.Behavior, start: Flow) -> Flow:
         match node:
@@ -131,23 +139,27 @@ class Flattener:
         if policy == "first":
             self._ctx.report.exact("one_of", node.span)
             return self._member(node.members[0], start)
-        if policy != "race":
-            raise Inexpressible(f"`--one-of {policy}` chooses one member for each run", node.span)
+        if policy == "seeded":
+            return self._choice(node, start)
         if len(node.members) > 1:
             start = self._loom.latched(start, node.name)
-        races = not all(is_single(member) for member in node.members)
+        is_race = len(node.members) > 1
+        single = [
+            is_single(member) and not (is_race and is_timed(member)) for member in node.members
+        ]
+        races = not all(single)
         before, after, voice = dict(self._ctx.states), None, self._loom.voice
         acts: list[Act] = []
         ends: dict[str, Flow] = {}
-        for member in node.members:
+        for member, is_leaf in zip(node.members, single, strict=True):
             self._ctx.states = dict(before)
             self._loom.voice = next(iter(self._loom.acting(member)), voice)
-            if not is_single(member):
-                act, mark = self._region(member, start, partial(self._member, member))
+            if not is_leaf:
+                act, mark = self._region(member, start, partial(self._entrant, member, is_race))
                 acts.append(act)
                 if mark is not None:
                     ends[mark] = self._loom.is_set(mark)
-            elif not (end := self._racer(member, start, len(node.members) > 1)).is_never:
+            elif not (end := self._racer(member, start, is_race)).is_never:
                 mark = self._ctx.names.new(f"end_of_{plain(member.name)}")
                 ends[mark] = self._loom.keep(mark, end) if races else end
             states = self._ctx.states
@@ -162,11 +174,41 @@ class Flattener:
         self._ctx.report.exact("one_of", node.span)
         return end
 
+    def _choice(self, node: ir.OneOf, start: Flow) -> Flow:
+        """Flatten members of which a parameter of the document chooses one for each run."""
+        branch = self._ctx.choosing.branch(self._ctx.scope, node)
+        if branch is None:
+            return self._member(node.members[0], start)
+        start = self._loom.latched(start, node.name)
+        before, after, voice = dict(self._ctx.states), None, self._loom.voice
+        end = NEVER
+        for member, choice in zip(node.members, branch.choices, strict=True):
+            self._ctx.states = dict(before)
+            self._loom.voice = next(iter(self._loom.acting(member)), voice)
+            end = end | self._member(member, start & chosen(branch.name, str(choice)))
+            states = self._ctx.states
+            after = dict(states) if after is None else either(after, states)
+        self._ctx.states = after or before
+        self._loom.voice = voice
+        self._ctx.report.exact("one_of", node.span, f"the parameter {branch.name} chooses")
+        return end
+
+    def _entrant(self, member: ir.Behavior, is_race: bool, start: Flow) -> Flow:
+        """Flatten a member of a race that has an act of its own."""
+        outer, self._is_racing = self._is_racing, is_race or self._is_racing
+        if is_race:
+            self._entrants.add(member.span)
+        end = self._member(member, start)
+        self._is_racing = outer
+        return end
+
     def _racer(self, member: ir.Behavior, start: Flow, is_race: bool) -> Flow:
         """Flatten a member of a race that is no act of its own."""
-        outer, self._loom.is_race = self._loom.is_race, is_race or self._loom.is_race
+        loom = self._loom
+        outer = loom.is_race, self._is_racing
+        loom.is_race, self._is_racing = is_race or loom.is_race, is_race or self._is_racing
         end = self._member(member, start)
-        self._loom.is_race = outer
+        loom.is_race, self._is_racing = outer
         return end
 
     def _scenario(self, node: ir.InvokeScenario, start: Flow) -> Flow:
@@ -187,29 +229,16 @@ class Flattener:
         if not node.until and node.duration is None and not loom.overriding(node):
             return loom.ended(node, body(start))
         start = loom.latched(start, node.name)
-        self._check_length(node)
+        if node.span in self._entrants:  # the act is its own already
+            return loom.ended(node, over(loom, node, start, body(start), "racer"))
+        role: Role = "in a race" if self._is_racing else "alone"
         if is_single(node):
             outer, loom.is_race = loom.is_race, True
-            end = body(start) | loom.limit(node, start)
+            end = over(loom, node, start, body(start), role)
             loom.is_race = outer
             return loom.ended(node, end)
-        _, mark = self._region(node, start, lambda at: body(at) | loom.limit(node, at))
+        _, mark = self._region(node, start, lambda at: over(loom, node, at, body(at), role))
         return loom.ended(node, NEVER if mark is None else loom.is_set(mark))
-
-    def _check_length(self, node: ir.Composition | ir.InvokeScenario) -> None:
-        """Report a duration that the content may not keep: the DSL fails, the XML cuts it short."""
-        if node.duration is None or isinstance(node, ir.InvokeScenario):
-            return
-        bare = replace(node, duration=None)
-        length, written = length_of(self._ctx, bare), self._loom.length_of(node)
-        if is_open(bare) or (length is not None and written is not None and length <= written):
-            return
-        self._ctx.report.approximate(
-            f"duration of a {construct_of(node)}",
-            node.duration.span,
-            "what takes longer fails in the DSL; the XML knows no failure and cuts it short",
-            "the same if the content is over in time",
-        )
 
     def _region(
         self, node: ir.Behavior, start: Flow, body: Callable[[Flow], Flow]

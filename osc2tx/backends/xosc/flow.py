@@ -27,6 +27,7 @@ class Test:
         delay: Seconds for which its value is held back.
         latched: It stays true.
         reached: The time at which it comes true (s), if it is a point in time.
+        is_constant: It is the same during the whole run.
     """
 
     condition: Element
@@ -34,9 +35,12 @@ class Test:
     delay: float = 0.0
     latched: bool = False
     reached: float | None = None
+    is_constant: bool = False
 
     def later(self, seconds: float) -> Test:
         """Return the test that comes true so much later."""
+        if self.is_constant:
+            return self
         if self.reached is not None:
             return at_time(self.reached + seconds)
         return replace(self, delay=self.delay + seconds)
@@ -88,6 +92,12 @@ def _joined(left: Group, right: Group) -> Group:
 def single(test: Test) -> Flow:
     """Return the flow of one test."""
     return Flow(((test,),))
+
+
+def chosen(parameter: str, value: str) -> Flow:
+    """Return the flow of a parameter of the document that has a value."""
+    condition = element("ParameterCondition", parameterRef=parameter, rule="equalTo", value=value)
+    return single(Test(element("ByValueCondition", condition), latched=True, is_constant=True))
 
 
 def run_start() -> Test:

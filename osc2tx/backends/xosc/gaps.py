@@ -12,7 +12,7 @@ from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.cast import CastMember
-from osc2tx.backends.xosc.entities import TOP_SPEED
+from osc2tx.backends.xosc.facts import TOP_SPEED
 from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.modify import modified
 from osc2tx.backends.xosc.neighbours import predecessor
@@ -22,8 +22,8 @@ from osc2tx.backends.xosc.speeds import longitudinal
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.backends.xosc.tree import Element, element
 
-GAP_STIFFNESS = 5.0
-"""Limit of the acceleration (m/s^2) with which tools follow about as closely as the world."""
+HOW = "how it closes the gap is up to the tool; the gap itself is exact"
+"""What reports say about gaps: the standard has no law for their control."""
 
 SIDES = {
     "ahead": "leadingReferencedEntity",
@@ -62,6 +62,14 @@ class Gap:
 def _change_gap(leaf: Leaf) -> Performance:
     gap = _asked_for(leaf, leaf.node, leaf.arguments)
     change = reach(leaf, gap, keeps=False)
+    leaf.ctx.report.exact(leaf.construct, leaf.node.span, HOW)
+    if leaf.node.duration is not None:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.duration.span,
+            "an action on a distance takes as long as the tool wants",
+            "the distance is reached, but not at that time",
+        )
     return Performance((change, *modified(leaf)), "goal")
 
 
@@ -80,7 +88,9 @@ def _keep_gap(leaf: Leaf) -> Performance:
             "the present gap is not known before the run, and the XML has no action that keeps it",
             leaf.node.span,
         )
-    return Performance((reach(leaf, found, keeps=True), *modified(leaf)), "open")
+    change = reach(leaf, found, keeps=True)
+    leaf.ctx.report.exact(leaf.construct, leaf.node.span, HOW)
+    return Performance((change, *modified(leaf)), "open")
 
 
 def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
@@ -169,7 +179,7 @@ def hold(
             "LongitudinalDistanceAction",
             element(
                 "DynamicConstraints",
-                maxAcceleration=GAP_STIFFNESS if keeps else limits.acceleration,
+                maxAcceleration=limits.acceleration,
                 maxDeceleration=limits.deceleration,
                 maxSpeed=None if newer else TOP_SPEED,
             ),

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions import lane_change, lanes_to, offset_change
+from osc2tx.backends.xosc.cast import CastMember
+from osc2tx.backends.xosc.constants import Member, Named
 from osc2tx.backends.xosc.gaps import Gap, reach
+from osc2tx.backends.xosc.lanes import drawn_side, lane_change, lanes_to, offset_change
 from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.registry import modifier
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.sideways import offset_in_lane
 from osc2tx.backends.xosc.speed_modifiers import may_jump
 from osc2tx.backends.xosc.state import known
-from osc2tx.backends.xosc.values import Member, Named
 
 
 @modifier("change_lane")
 def _change_lane(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     number = arguments.number("lane")
     count = 1 if number is None else round(number)
-    side = arguments.member("side", "")
-    if side not in ("left", "right"):
-        raise Inexpressible("the side is drawn for each run; say `left` or `right`", call.span)
+    side = arguments.member("side", "") or drawn_side(leaf, call, count)
     lanes = count if side == "left" else -count
     return (_to(leaf, call, arguments, lanes, None, None),)
 
@@ -97,27 +97,27 @@ def _shape(leaf: Leaf, arguments: Arguments) -> tuple[str, float | None]:
 
 @modifier("lateral")
 def _lateral(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    reference = arguments.entity("side_of")
+    if reference is not None:
+        return _beside_another(leaf, call, arguments, reference)
+    offset = offset_in_lane(leaf.ctx, arguments, leaf.member, leaf.state.lane)
+    profile, peak = _shape(leaf, arguments)
+    if leaf.state.offset == known(offset):
+        return ()
+    return (offset_change(leaf, offset, profile, peak),)
+
+
+def _beside_another(
+    leaf: Leaf, call: ir.ModifierCall, arguments: Arguments, reference: CastMember
+) -> tuple[Change, ...]:
     distance = arguments.number("distance")
     if distance is None:
         distance = arguments.number("distance_range")
     if distance is None:
         raise Inexpressible("it says no distance", call.span)
-    reference = arguments.entity("side_of")
-    is_left = arguments.member("side", "left") == "left"
-    if reference is not None:
-        return _beside(
-            leaf,
-            call,
-            arguments,
-            Gap(reference, "left" if is_left else "right", distance, False, False),
-        )
-    if "measure_by" in arguments:
-        raise Inexpressible("`measure_by` needs a reference", call.span)
-    offset = distance if is_left else -distance
-    profile, peak = _shape(leaf, arguments)
-    if leaf.state.offset == known(offset):
-        return ()
-    return (offset_change(leaf, offset, profile, peak),)
+    side = "left" if arguments.member("side", "left") == "left" else "right"
+    gap = Gap(reference, side, distance, is_time=False, is_headway=False)
+    return _beside(leaf, call, arguments, gap)
 
 
 def _beside(

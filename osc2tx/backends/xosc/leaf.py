@@ -12,12 +12,12 @@ from typing import Literal, Protocol, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.cast import CastMember
+from osc2tx.backends.xosc.constants import Constant, Member, Named
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts import Limits, held_by, road_condition
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Constant, Member, Named
 
 Ending: TypeAlias = Literal["goal", "open", "instant"]
 
@@ -39,6 +39,14 @@ class Change:
     time: float | None
     during: ActorState
     after: ActorState
+
+
+@dataclass(frozen=True, slots=True)
+class Later:
+    """A global action that is carried out so many seconds after its invocation began."""
+
+    seconds: float
+    action: Element
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +153,7 @@ class Leaf:
         course: Of the speed, where the changes say it.
         way: Metres after which it is over.
         reached: Conditions that hold when it is over.
+        others: Who does what from its end on, and a word for it.
     """
 
     def __init__(
@@ -168,6 +177,7 @@ class Leaf:
         self.course: Course | None = None
         self.way: float | None = None
         self.reached: tuple[Element, ...] = ()
+        self.others: list[tuple[CastMember, Element, str]] = []
 
     def on_me(self, condition: Element) -> Element:
         """Return a condition on the actor."""
@@ -190,7 +200,7 @@ class Leaf:
 
 
 Perform: TypeAlias = Callable[[Leaf], Performance]
-PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Element, ...]]
+PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Element | Later, ...]]
 """Returns `GlobalAction` elements."""
 
 Modify: TypeAlias = Callable[[Leaf, ir.ModifierCall, Arguments], tuple[Change, ...]]

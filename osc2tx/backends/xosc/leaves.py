@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.flow import Flow, Test
-from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.leaf import Arguments, Change, Later, Leaf, Performance
+from osc2tx.backends.xosc.lights import followed_lights
 from osc2tx.backends.xosc.loom import RUN_START, Loom, construct_of, one_line
 from osc2tx.backends.xosc.neighbours import is_first
 from osc2tx.backends.xosc.own import own_action
-from osc2tx.backends.xosc.registry import ACTIONS, GLOBAL_ACTIONS
+from osc2tx.backends.xosc.registry import ACTIONS, GLOBAL_ACTIONS, OF_THE_RUNTIME
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.settling import take
 from osc2tx.backends.xosc.shape import OPEN_GLOBALS
+from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.backends.xosc.tree import Element, commented
 
 
@@ -22,7 +25,8 @@ def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     if node.action in GLOBAL_ACTIONS:
         return _invoke_global(loom, node, start)
     ctx = loom.ctx
-    leaf_handler = own_action if node.is_own else ACTIONS.get(node.action)
+    is_known = not node.is_own or f"{node.owner}.{node.action}" in OF_THE_RUNTIME
+    leaf_handler = ACTIONS.get(node.action) if is_known else own_action
     if leaf_handler is None:
         raise Inexpressible(f"there is no counterpart of `{node.owner}.{node.action}`")
     member = ctx.cast.get(ctx.values.actor(node.actor))
@@ -38,13 +42,21 @@ def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     leaf = Leaf(ctx, node, member, name, is_start=is_start)
     performance = Performance((), "instant")
     with ctx.report_as(leaf.construct, node.span):
-        performance = leaf_handler(leaf)
+        try:
+            performance = leaf_handler(leaf)
+        except ArithmeticError as error:
+            raise Inexpressible("its values are no movement: they divide by zero") from error
         leaf.arguments.finish()
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     if actions:
         comment = ctx.comment(node.span, one_line(node.span.text))
         goal = loom.add(name, actions, start, comment, actor=member.name)
+        for other, action, word in leaf.others:
+            follows = ctx.names.new(f"{other.name}_{word}")
+            loom.add(follows, (action,), goal, f"{comment}: {other.name} {word}", actor=other.name)
+            state = replace(ctx.states[other.name], speed=None)
+            ctx.states[other.name] = state.finished(LONGITUDINAL)
     ends = _ends(loom, node, start, goal, performance)
     lasting = _least_length(loom, node, performance)
     successors = loom.claimed_by(overriding)
@@ -96,7 +108,7 @@ def _is_over(change: Change, lasting: float | None) -> bool:
 def _invoke_global(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
     ctx = loom.ctx
-    actions: tuple[Element, ...] = ()
+    actions: tuple[Element | Later, ...] = ()
     with ctx.report_as(construct_of(node), node.span):
         arguments = Arguments(ctx, node.arguments, node)
         actions = GLOBAL_ACTIONS[node.action](ctx, node, arguments)
@@ -107,18 +119,29 @@ def _invoke_global(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     if node.modifiers or (not lasts and (node.until or node.duration is not None)):
         raise Inexpressible("it takes no time, so it has no duration and no modifiers")
     goal = _act_globally(loom, node, actions, start)
+    for name, lights in followed_lights(ctx).items():
+        loom.add(ctx.names.new(f"{name}_lights"), lights, start, actor=name)
     if not lasts:
         return loom.ended(node, goal)
     return loom.ended(node, loom.limit(node, start))
 
 
-def _act_globally(loom: Loom, node: ir.Invoke, actions: tuple[Element, ...], start: Flow) -> Flow:
+def _act_globally(
+    loom: Loom, node: ir.Invoke, actions: tuple[Element | Later, ...], start: Flow
+) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
     ctx = loom.ctx
-    if not actions:
-        return start
-    comment = ctx.comment(node.span, one_line(node.span.text))
+    name, comment = node.label or node.action, ctx.comment(node.span, one_line(node.span.text))
+    at_once = tuple(action for action in actions if isinstance(action, Element))
+    later: dict[float, list[Element]] = {}
+    for action in actions:
+        if isinstance(action, Later):
+            later.setdefault(action.seconds, []).append(action.action)
+    done = start
     if start == RUN_START and loom.is_outermost:
-        ctx.init_globals.extend(commented(action, comment) for action in actions)
-        return start
-    return loom.add(ctx.names.new(node.label or node.action), actions, start, comment)
+        ctx.init_globals.extend(commented(action, comment) for action in at_once)
+    elif at_once:
+        done = loom.add(ctx.names.new(name), at_once, start, comment)
+    for seconds, switches in later.items():
+        loom.add(ctx.names.new(name), tuple(switches), start.later(seconds), comment)
+    return done

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions import condition_flow
+from osc2tx.backends.xosc.constants import Bounds
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.events import EventTable
 from osc2tx.backends.xosc.flow import NEVER, Flow, Test, run_start, single, state_of
@@ -15,7 +16,6 @@ from osc2tx.backends.xosc.shape import actors_of, claims
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
 from osc2tx.backends.xosc.storyboard import Act, Event
 from osc2tx.backends.xosc.tree import Element
-from osc2tx.backends.xosc.values import Bounds
 
 RUN_START = single(run_start())
 
@@ -31,6 +31,7 @@ class Loom:
         voice: The actor whose maneuver holds marks and emissions.
         finished: When the scenario ends before its tree does.
         is_race: The action that is written down now may lose a race before it is done.
+        place: Where the member stands that is written down now.
     """
 
     def __init__(self, ctx: Context) -> None:
@@ -40,6 +41,7 @@ class Loom:
         self.voice: str | None = None
         self.finished = NEVER
         self.is_race = False
+        self.place = ctx.scenario.span
         self._outermost = self.act
         self._closed: list[Act] = []
         self._around: list[Act] = []
@@ -74,7 +76,10 @@ class Loom:
         repeats: int | None = None,
     ) -> Flow:
         """Add an event to the maneuver of an actor; return when it is complete."""
-        self.act.add(actor, Event(name, actions, start, comment, repeats=repeats))
+        if comment is None:
+            comment = self.ctx.comment(self.place, one_line(self.place.text))
+        event = Event(name, actions, start, comment, repeats=repeats, place=self.place)
+        self.act.add(actor, event)
         return single(state_of("event", name))
 
     def add_signals(self) -> None:
@@ -112,8 +117,11 @@ class Loom:
         for act in self.acts:
             if not act.events:
                 name = self.ctx.names.new(f"mark_{act.name}")
-                start = single(state_of("act", act.name, "runningState"))
-                act.add(None, Event(name, (self.ctx.mark(name),), start, None))
+                is_outermost = act is self._outermost
+                running = single(state_of("act", act.name, "runningState"))
+                start = RUN_START if is_outermost else running
+                comment = self.ctx.comment(self.ctx.scenario.span, name)
+                act.add(None, Event(name, (self.ctx.mark(name),), start, comment))
             around = dict.fromkeys(act.stops_around())
             for mark in around:  # what is complete because it was stopped must start nothing
                 condition = self.ctx.variable_is(mark, "equalTo", "false")
@@ -179,6 +187,8 @@ class Loom:
         event = trigger.event
         if not isinstance(event, ir.InnerEvent):
             return self.events.occurrence(trigger)
+        if "." in event.name:
+            raise Inexpressible("an event deep inside of an invoked scenario", event.span)
         with self.ctx.within(self.ctx.scope.by_label[event.label]):
             return self.events.of_event(event.name, event, is_early=False)
 
@@ -195,7 +205,8 @@ class Loom:
             ends = ends | self.after(trigger, start)
             self.ctx.report.exact("until", trigger.span)
         for label in self.overriding(node):
-            ends = ends | start & self.events.of_label(label, ir.Moment.START, is_early=True)
+            is_first = start == RUN_START  # else the other one may have started before
+            ends = ends | start & self.events.of_label(label, ir.Moment.START, is_early=is_first)
         return ends
 
     def overriding(self, node: ir.Behavior) -> list[str]:
@@ -204,12 +215,14 @@ class Loom:
         for override in self.ctx.scope.scenario.overrides:
             if node.label is None or override.overridden != node.label:
                 continue
-            if override.mode != "on_start":
-                reason = f"an override `{override.mode}` also keeps a member from starting"
-                raise Inexpressible(reason, override.span)
             self.ctx.report.exact("override", override.span)
             found.append(override.by)
         return found
+
+    def is_unset(self, variable: str) -> Flow:
+        """Return the flow of a variable that is not set, or not yet."""
+        self.ctx.declare(variable, "boolean", "false")
+        return single(Test(self.ctx.variable_is(variable, "equalTo", "false")))
 
     def length_of(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario) -> float | None:
         """Return the duration (s) that is written for a member; of a range the least."""

@@ -39,6 +39,19 @@ def is_first(body: ir.Behavior, node: ir.Invoke) -> bool:
     return body is node
 
 
+def runs_beside(body: ir.Behavior, node: ir.Invoke) -> tuple[ir.Behavior, ...]:
+    """Return the members of compositions that may run while an invocation does."""
+    if not isinstance(body, ir.Serial | ir.Parallel | ir.OneOf):
+        return ()
+    (mine,) = (each for each in body.members if _holds(each, node))
+    others = () if isinstance(body, ir.Serial) else body.members
+    return (*(each for each in others if each is not mine), *runs_beside(mine, node))
+
+
+def _holds(body: ir.Behavior, node: ir.Invoke) -> bool:
+    return any(each is node for each in ir.walk_behaviors(body))
+
+
 def is_last(body: ir.Behavior, node: ir.Invoke) -> bool:
     """Whether the run ends with an invocation."""
     if isinstance(body, ir.Serial):

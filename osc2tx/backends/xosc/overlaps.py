@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from osc2tx import ir
+from osc2tx.backends.xosc.constants import Bounds
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts import plan_starts
+from osc2tx.backends.xosc.facts_runs import plan_starts
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.shape import MOVEMENTS, is_instant
-from osc2tx.backends.xosc.values import Bounds
 
 OPEN = MOVEMENTS | {
     "follow_lane",

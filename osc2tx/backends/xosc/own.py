@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from osc2tx.backends.xosc.constants import Constant, Member, Named
 from osc2tx.backends.xosc.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import WAY, ActorState
 from osc2tx.backends.xosc.tree import Element, element, text_of
-from osc2tx.backends.xosc.values import Constant, Member, Named
 
 
 def own_action(leaf: Leaf) -> Performance:

@@ -1,365 +1,303 @@
-"""Open parameters: declarations of the document, and a document with the values they may have.
+"""Open parameters: what a scenario leaves to be chosen for each run.
 
-A range stays a parameter where the document says the same for every value in it. That is tested,
-not assumed: the document is evaluated for values of the range and compared with what is written
-down for the scenario with just these values. A parameter that fails keeps its nominal value, and
-the report says so.
-
-Values are listed deterministically, at equal steps with both ends: runs can be repeated, the
-ends are what one tests, and not every tool carries out stochastic distributions.
+A parameter is open if constraints leave it a range or several values, and nobody gives it one; in
+an invoked scenario it is open once for each invocation. Where `one_of` chooses a member for each
+run, that choice is an open parameter too.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import product
-from math import floor, isclose
+from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.constants import Constant, Member
+from osc2tx.backends.xosc.names import Names, plain
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.scopes import Scope, key_of, open_scopes
 from osc2tx.backends.xosc.symbols import Symbol
-from osc2tx.backends.xosc.tree import Element, element
+from osc2tx.backends.xosc.tree import Element, element, text_of
 from osc2tx.backends.xosc.values import Values
+from osc2tx.diagnostics import Span
 from osc2tx.light_dataclass import dataclass
 from osc2tx.options import XmlVersion
 
-MOST_COMBINATIONS = 100
-"""Rows of a table of values for parameters that depend on each other."""
-
 STEPS = 4
-"""Steps from end to end of a range."""
+"""Steps from end to end of a range of which a few values are listed."""
 
 INSIDE = 0.3137
 """A place in a range where nothing special is to be expected."""
 
-Point: TypeAlias = Mapping[str, float]
-Write: TypeAlias = Callable[[Mapping[str, float]], Element | None]
-"""Writes the scenario down with values of its open parameters; `None` if that cannot be."""
+MOST_WHOLE = 20
+"""Whole numbers that are listed one by one."""
+
+Point: TypeAlias = Mapping[str, Constant]
+"""Values of open parameters, by their keys."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OpenParameter:
-    """A numeric parameter that may have several values.
+    """A parameter that may have several values.
 
     Attributes:
-        declaration: The parameter.
+        key: What tells it apart: labels of invocations and its name, as for `--set`.
         name: Its name in the document.
-        low: The least value.
-        high: The greatest one.
-        choices: All values, if they are a set; else empty.
-        nominal: The value that the declaration has.
+        path: Of the scope that it belongs to.
+        span: Where it is declared, or the choice stands.
+        construct: What it is called in reports.
+        choices: All its values, if they are a set.
+        range_: Its bounds, if it has any.
+        is_whole: It has no fractions.
+        node: The `one_of` whose member it chooses.
+        change: The change of the lane whose side it chooses.
     """
 
-    declaration: ir.Parameter
+    key: str
     name: str
-    low: float
-    high: float
-    choices: tuple[float, ...]
-    nominal: float
+    path: str
+    span: Span
+    construct: str
+    choices: tuple[Constant, ...] = ()
+    range_: ir.RangeValue | None = None
+    is_whole: bool = False
+    node: ir.OneOf | None = None
+    change: ir.Invoke | ir.ModifierCall | None = None
 
     @property
-    def is_integer(self) -> bool:
-        """Whether it has no fractions."""
-        return self.declaration.type.kind is ir.Kind.INTEGER
+    def is_number(self) -> bool:
+        """Whether attributes can be computed from it."""
+        return all(
+            isinstance(choice, (int, float)) and not isinstance(choice, bool)
+            for choice in self.choices
+        )
+
+    @property
+    def is_dependent(self) -> bool:
+        """Whether its bounds are computed from other parameters."""
+        return self.range_ is not None and any(
+            isinstance(part, ir.FieldRef)
+            for bound in (self.range_.lower, self.range_.upper)
+            for part in ir.walk(bound)
+        )
+
+    @property
+    def type(self) -> str:
+        """The type of its declaration: `double`, `int`, `boolean` or `string`."""
+        if self.is_number:
+            return "int" if self.is_whole else "double"
+        return "boolean" if isinstance(self.choices[0], bool) else "string"
+
+    def limits(self, values: Values) -> tuple[float, float]:
+        """Return the bounds of a range, for values of the others."""
+        if self.range_ is None:
+            numbers = [float(n) for n in self.choices if isinstance(n, (int, float))]
+            return min(numbers), max(numbers)
+        low, high = float(values.number(self.range_.lower)), float(values.number(self.range_.upper))
+        return (low, high) if low <= high else (high, low)
+
+    def at(self, share: float, values: Values) -> Constant:
+        """Return the value at a place between its first (0) and its last one (1)."""
+        if self.choices:
+            return self.choices[min(int(share * len(self.choices)), len(self.choices) - 1)]
+        low, high = self.limits(values)
+        if self.is_whole:
+            return min(int(low + share * (high - low + 1.0)), int(high))
+        return high if share == 1.0 else low + share * (high - low)
 
     def probes(self) -> tuple[float, ...]:
-        """Values at which the document is tested."""
-        return self.choices or (self.low, self.low + INSIDE * (self.high - self.low), self.high)
+        """Return places at which a document is tested: all that are listed, and one more."""
+        count = len(self.choices)
+        if count:
+            return tuple(index / count for index in range(count))
+        return (*(step / STEPS for step in range(STEPS + 1)), INSIDE)
 
-    def steps(self, count: int = STEPS) -> tuple[float, ...]:
-        """Values at equal distances."""
-        if self.choices:
-            return self.choices
-        step = (self.high - self.low) / count
-        return (*(self.low + index * step for index in range(count)), self.high)
-
-    def symbol(self, version: XmlVersion) -> Symbol:
-        """Return the number that stands for it."""
-        return Symbol(self.nominal, f"${self.name}", has_expressions=version >= "1.1")
-
-    def told(self) -> str:
+    def told(self, values: Values) -> str:
         """Return its values for people."""
         if self.choices:
-            return f"[{', '.join(f'{choice:g}' for choice in self.choices)}]"
-        return f"[{self.low:g}..{self.high:g}]"
+            return f"[{', '.join(map(told, self.choices))}]"
+        if self.range_ is not None and self.is_dependent:
+            return f"[{self.range_.lower.span.text}..{self.range_.upper.span.text}]"
+        low, high = self.limits(values)
+        return f"[{low:g}..{high:g}]"
+
+    def symbol(self, nominal: Constant, version: XmlVersion) -> Constant:
+        """Return the number that stands for it; what is no number has no expressions."""
+        if not self.is_number or not isinstance(nominal, (int, float)):
+            return nominal
+        return Symbol(nominal, f"${self.name}", has_expressions=version >= "1.1")
 
 
-def open_parameters(scenario: ir.Scenario, names: Names) -> tuple[OpenParameter, ...]:
-    """Return the numeric parameters that a scenario leaves open, in source order.
+def told(value: Constant) -> str:
+    """Return a value for people."""
+    return f"{value:g}" if isinstance(value, float) else value_text(value)
 
-    Those whose range depends on another open one are not among them, and keep their nominal value.
+
+def value_text(value: Constant) -> str:
+    """Return a value as the text of an attribute.
+
+    Raises:
+        Inexpressible: Readers would take it for a parameter, or it is no text of XML.
     """
-    values = Values(scenario)
-    found = []
-    for declaration in scenario.declarations:
-        if isinstance(declaration, ir.Parameter) and declaration.value is None:
-            parameter = _open(declaration, values, names)
+    if isinstance(value, Member):
+        return value.name
+    if isinstance(value, (bool, int, float, str)):
+        return text_of(value)
+    raise Inexpressible("such values are no parameters of OpenSCENARIO XML")
+
+
+def open_parameters(scenario: ir.Scenario, module: ir.Module) -> tuple[OpenParameter, ...]:
+    """Return the open parameters of a scenario and of those that it invokes.
+
+    Those from which the bounds of others are computed come first.
+    """
+    names = Names()
+    found: dict[str, OpenParameter] = {}
+    for scope in open_scopes(scenario, module).all():
+        for declaration in _in_order(scope.scenario):
+            if scope.values.is_given(declaration.name):
+                continue
+            parameter = _open(declaration, scope, names)
             if parameter is not None:
-                found.append(parameter)
-    return _within_constraints(scenario, found)
+                found.setdefault(parameter.key, parameter)
+        found.update((side.key, side) for side in _sides(scope, names))
+        if module.one_of == "seeded":
+            found.update((branch.key, branch) for branch in _branches(scope, names))
+    return tuple(found.values())
 
 
-def _open(declaration: ir.Parameter, values: Values, names: Names) -> OpenParameter | None:
-    match declaration.domain:
-        case ir.RangeValue(lower=lower, upper=upper) if not _refers(lower) and not _refers(upper):
-            low, high = values.number(lower), values.number(upper)
-            if declaration.type.kind is ir.Kind.INTEGER or low == high:
+def _in_order(scenario: ir.Scenario) -> list[ir.Parameter]:
+    """Return the parameters, those first that others are computed from."""
+    declared = {d.name: d for d in scenario.declarations if isinstance(d, ir.Parameter)}
+    ordered: dict[str, ir.Parameter] = {}
+
+    def add(name: str, above: frozenset[str]) -> None:
+        if name not in declared or name in above or name in ordered:
+            return
+        declaration = declared[name]
+        for source in (declaration.value, declaration.domain):
+            for part in () if source is None else ir.walk(source):
+                if isinstance(part, ir.FieldRef):
+                    add(part.name, above | {name})
+        ordered[name] = declaration
+
+    for name in declared:
+        add(name, frozenset())
+    return list(ordered.values())
+
+
+def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParameter | None:
+    """Return a parameter if it is open."""
+    if declaration.value is not None:
+        return None
+    domain, name, span = declaration.domain, declaration.name, declaration.span
+    key = key_of(scope.path, declaration)
+    is_whole = declaration.type.kind is ir.Kind.INTEGER
+    choices: tuple[Constant, ...] = ()
+    range_ = None
+    try:
+        match domain:
+            case ir.RangeValue():
+                range_ = domain
+            case ir.Choices(elements=elements):
+                choices = tuple(scope.values.of(each) for each in elements)
+                if not is_whole and all(type(each) in (int, float) for each in choices):
+                    choices = tuple(float(n) for n in choices if isinstance(n, (int, float)))
+                for choice in choices:
+                    value_text(choice)
+            case _:
                 return None
-            middle = 0.5 * (low + high)
-            return OpenParameter(declaration, names.new(declaration.name), low, high, (), middle)
-        case ir.Choices(elements=elements) if not any(map(_refers, elements)):
-            numbers = [values.of(each) for each in elements]
-            if any(isinstance(n, bool) or not isinstance(n, (int, float)) for n in numbers):
-                return None
-            choices = tuple(float(n) for n in numbers if isinstance(n, (int, float)))
-            name = names.new(declaration.name)
-            return OpenParameter(declaration, name, min(choices), max(choices), choices, choices[0])
-    return None
-
-
-def _refers(expression: ir.Expression) -> bool:
-    return any(isinstance(part, ir.FieldRef) for part in ir.walk(expression))
-
-
-def _within_constraints(
-    scenario: ir.Scenario, found: Sequence[OpenParameter]
-) -> tuple[OpenParameter, ...]:
-    """Choose nominal values that agree with each other."""
-    if not scenario.constraints or is_allowed(scenario, nominal_values(found)):
-        return tuple(found)
-    rows = allowed_rows(scenario, found)
-    if not rows:
-        return tuple(found)
-    row = rows[len(rows) // 2]
-    return tuple(
-        OpenParameter(p.declaration, p.name, p.low, p.high, p.choices, row[p.declaration.name])
-        for p in found
+    except Inexpressible:  # it keeps one value, and where that is used it is reported
+        return None
+    made = OpenParameter(
+        key=key,
+        name="",
+        path=scope.path,
+        span=span,
+        construct=f"parameter {key}",
+        choices=choices,
+        range_=range_,
+        is_whole=is_whole,
+    )
+    if range_ is not None and not made.is_dependent:
+        low, high = made.limits(scope.values)
+        if low == high:
+            return None
+        if is_whole and high - low < MOST_WHOLE:
+            choices, range_ = tuple(range(int(low), int(high) + 1)), None
+    wish = name if declaration.is_global else f"{scope.prefix}{name}"
+    return OpenParameter(
+        key=key,
+        name=names.new(wish),
+        path=scope.path,
+        span=span,
+        construct=made.construct,
+        choices=choices,
+        range_=range_,
+        is_whole=is_whole,
     )
 
 
-def nominal_values(parameters: Sequence[OpenParameter]) -> dict[str, float]:
-    """Return the nominal values by name in the scenario."""
-    return {p.declaration.name: p.nominal for p in parameters}
-
-
-def is_allowed(scenario: ir.Scenario, point: Point) -> bool:
-    """Whether values agree with the constraints between them."""
-    values = Values(scenario, point)
-    try:
-        return all(bool(values.of(each.expression)) for each in scenario.constraints)
-    except Inexpressible:  # it is about something else, which is only known during the run
-        return True
-
-
-def allowed_rows(scenario: ir.Scenario, parameters: Sequence[OpenParameter]) -> list[Point]:
-    """Return combinations of values that agree with the constraints."""
-    count = STEPS
-    while count > 1 and (count + 1) ** len(parameters) > MOST_COMBINATIONS:
-        count -= 1
-    names = [p.declaration.name for p in parameters]
-    grids = [p.steps(count) for p in parameters]
-    rows = (dict(zip(names, row, strict=True)) for row in product(*grids))
-    return [row for row in rows if is_allowed(scenario, row)]
-
-
-# --- is the document right for all values? ---
-
-
-def unfaithful(
-    document: Element, parameters: Sequence[OpenParameter], scenario: ir.Scenario, write: Write
-) -> tuple[OpenParameter, ...]:
-    """Return the parameters for whose other values the document says something else.
-
-    If each of them alone is right and all together are not, they all are returned.
-    """
-    nominal = nominal_values(parameters)
-
-    def holds(point: Point) -> bool:
-        if not is_allowed(scenario, point):
-            return True
-        expected = write(point)
-        shown = {p.name: point[p.declaration.name] for p in parameters}
-        if expected is None:
-            return False
-        return all(
-            _same(part, other, shown)
-            for part, other in zip(_story(document), _story(expected), strict=True)
+def _branches(scope: Scope, names: Names) -> Iterator[OpenParameter]:
+    """Yield the choices between members."""
+    for node in ir.walk_behaviors(scope.scenario.body):
+        if not isinstance(node, ir.OneOf) or len(node.members) < 2:
+            continue
+        members = Names()
+        name = names.new(f"{scope.prefix}{node.label or 'branch'}")
+        yield OpenParameter(
+            key=f"{scope.path}.{name}",
+            name=name,
+            path=scope.path,
+            span=node.span,
+            construct=f"parameter {name}",
+            choices=tuple(
+                members.new(plain(member.label or member.name)) for member in node.members
+            ),
+            node=node,
         )
 
-    wrong = tuple(
-        p
-        for p in parameters
-        if not all(holds({**nominal, p.declaration.name: value}) for value in p.probes())
-    )
-    if wrong or len(parameters) < 2:
-        return wrong
-    ends = [{p.declaration.name: p.probes()[index] for p in parameters} for index in (0, 1, -1)]
-    return () if all(map(holds, ends)) else tuple(parameters)
+
+def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
+    """Yield the sides of changes of the lane that say none: they are drawn for each run."""
+    for node in ir.walk_behaviors(scope.scenario.body):
+        if not isinstance(node, ir.Invoke):
+            continue
+        calls: tuple[ir.Invoke | ir.ModifierCall, ...] = (node, *node.modifiers)
+        for call in calls:
+            called = call.action if isinstance(call, ir.Invoke) else call.name
+            said = {argument.parameter for argument in call.arguments}
+            if called != "change_lane" or said & {"side", "target"}:
+                continue
+            name = names.new(f"{scope.prefix}{node.label or called}_side")
+            yield OpenParameter(
+                key=f"{scope.path}.{name}",
+                name=name,
+                path=scope.path,
+                span=call.span,
+                construct=f"parameter {name}",
+                choices=("left", "right"),
+                change=call,
+            )
 
 
-def _story(document: Element) -> list[Element]:
-    """Return the parts that say what happens."""
-    return [part for part in document.children if part.name in ("Entities", "Storyboard")]
-
-
-def _same(a: Element, b: Element, shown: Point) -> bool:
-    """Whether two elements say the same once parameters have their values."""
-    if a.name != b.name or len(a.children) != len(b.children):
-        return False
-    left, right = dict(a.attributes), dict(b.attributes)
-    if left.keys() != right.keys():
-        return False
-    if not all(_same_text(left[key], right[key], shown) for key in left):
-        return False
-    return all(_same(x, y, shown) for x, y in zip(a.children, b.children, strict=True))
-
-
-def _same_text(a: str, b: str, shown: Point) -> bool:
-    if a == b:
-        return True
-    value, expected = _evaluated(a, shown), _evaluated(b, shown)
-    if value is None or expected is None:
-        return False
-    return isclose(value, expected, rel_tol=1e-6, abs_tol=2e-6)
-
-
-_TOKEN = re.compile(r"\s*(\$[A-Za-z_]\w*|\d+\.?\d*|[-+*/()])")
-
-
-def _evaluated(text: str, shown: Point) -> float | None:
-    """Return the number of an attribute; `None` if it is none."""
-    if text.startswith("${"):
-        return _Evaluation(_TOKEN.findall(text[2:-1]), shown).sum()
-    if text.startswith("$"):
-        return shown.get(text[1:])
-    try:
-        return float(text)
-    except ValueError:
-        return None
-
-
-class _Evaluation:
-    """Computes an expression as `Symbol` writes it."""
-
-    def __init__(self, tokens: Sequence[str], shown: Point) -> None:
-        self._tokens: Iterator[str] = iter([*tokens, ""])
-        self._shown = shown
-        self._next = next(self._tokens)
-
-    def sum(self) -> float:
-        value = self._product()
-        while self._next in ("+", "-"):
-            sign = self._take()
-            other = self._product()
-            value = value + other if sign == "+" else value - other
-        return value
-
-    def _product(self) -> float:
-        value = self._atom()
-        while self._next in ("*", "/"):
-            sign = self._take()
-            other = self._atom()
-            value = value * other if sign == "*" else value / other
-        return value
-
-    def _atom(self) -> float:
-        token = self._take()
-        if token == "-":
-            return -self._atom()
-        if token == "(":
-            value = self.sum()
-            self._take()
-            return value
-        return self._shown[token[1:]] if token.startswith("$") else float(token)
-
-    def _take(self) -> str:
-        token, self._next = self._next, next(self._tokens, "")
-        return token
-
-
-# --- documents ---
-
-
-def declaration(parameter: OpenParameter, version: XmlVersion) -> Element:
-    """Return the declaration, from 1.1 on with its limits."""
+def declaration(
+    parameter: OpenParameter, nominal: Constant, values: Values, version: XmlVersion
+) -> Element:
+    """Return the declaration, from 1.1 on with its limits if they are constants."""
     limits = None
-    if version >= "1.1" and not parameter.choices:
+    if version >= "1.1" and not parameter.choices and not parameter.is_dependent:
+        low, high = parameter.limits(values)
         limits = element(
             "ConstraintGroup",
-            element("ValueConstraint", rule="greaterOrEqual", value=parameter.low),
-            element("ValueConstraint", rule="lessOrEqual", value=parameter.high),
+            element("ValueConstraint", rule="greaterOrEqual", value=low),
+            element("ValueConstraint", rule="lessOrEqual", value=high),
         )
-    return element(
-        "ParameterDeclaration",
-        limits,
-        name=parameter.name,
-        parameterType="double",
-        value=parameter.nominal,
-    )
+    return declared(parameter.name, parameter.type, value_text(nominal), version, limits)
 
 
-def distribution(
-    header: Element, parameters: Sequence[OpenParameter], scenario: ir.Scenario, file: str
+def declared(
+    name: str, type_: str, value: str, version: XmlVersion, limits: Element | None = None
 ) -> Element:
-    """Return the document with the values that the parameters may have.
-
-    Args:
-        header: The `FileHeader`.
-        parameters: Those of the document.
-        scenario: The scenario; constraints between its parameters hold in every row.
-        file: Name of the document of the scenario.
-    """
-    if scenario.constraints:
-        rows = allowed_rows(scenario, parameters)
-        given: list[Element] = [_table(parameters, rows)]
-    else:
-        given = [_single(parameter) for parameter in parameters]
-    return element(
-        "OpenSCENARIO",
-        header,
-        element(
-            "ParameterValueDistribution",
-            element("ScenarioFile", filepath=file),
-            element("Deterministic", *given),
-        ),
-    )
-
-
-def _single(parameter: OpenParameter) -> Element:
-    if parameter.choices:
-        values = element(
-            "DistributionSet", *(element("Element", value=value) for value in parameter.choices)
-        )
-    else:
-        values = element(
-            "DistributionRange",
-            element("Range", lowerLimit=parameter.low, upperLimit=parameter.high),
-            stepWidth=floor((parameter.high - parameter.low) / STEPS * 1e9) / 1e9,  # reach the end
-        )
-    return element("DeterministicSingleParameterDistribution", values, parameterName=parameter.name)
-
-
-def _table(parameters: Sequence[OpenParameter], rows: Sequence[Point]) -> Element:
-    return element(
-        "DeterministicMultiParameterDistribution",
-        element(
-            "ValueSetDistribution",
-            *(
-                element(
-                    "ParameterValueSet",
-                    *(
-                        element(
-                            "ParameterAssignment",
-                            parameterRef=p.name,
-                            value=row[p.declaration.name],
-                        )
-                        for p in parameters
-                    ),
-                )
-                for row in rows
-            ),
-        ),
-    )
+    """Return the declaration of a parameter; before 1.2 `int` is called `integer`."""
+    type_ = "integer" if type_ == "int" and version < "1.2" else type_
+    return element("ParameterDeclaration", limits, name=name, parameterType=type_, value=value)

@@ -8,16 +8,20 @@ from dataclasses import replace
 from itertools import pairwise
 
 from osc2tx import ir
-from osc2tx.backends.xosc.facts import Pose, Waypoint, drawn
+from osc2tx.backends.xosc.constants import Constant, Named
+from osc2tx.backends.xosc.facts_map import Stretch, crossing_of
+from osc2tx.backends.xosc.facts_roads import Pose
+from osc2tx.backends.xosc.facts_ways import Waypoint, drawn
 from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.modify import modified
-from osc2tx.backends.xosc.points import Line, line_of, relative_line
+from osc2tx.backends.xosc.points import Line, at_place, line_of, relative_line
 from osc2tx.backends.xosc.registry import action, modifier
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.searched import stretch_of
 from osc2tx.backends.xosc.speed_modifiers import may_jump
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Constant, Named
+from osc2tx.backends.xosc.ways import assign_route, line_of_way
 
 
 @action("follow_path", "replay_path", "follow_trajectory", "replay_trajectory")
@@ -50,8 +54,24 @@ def _along_trajectory(
 @modifier("along")
 def _along(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
-    line = line_of(leaf.ctx, arguments.get("route"))
-    return along_line(leaf, line, offsets, is_exact=may_jump(leaf))
+    route = arguments.get("route")
+    stretch = stretch_of(leaf.ctx, route)
+    if stretch is not None and crossing_of(stretch) is None:
+        return _along_stretch(leaf, stretch, offsets)
+    return along_line(leaf, line_of_way(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
+
+
+def _along_stretch(
+    leaf: Leaf, stretch: Stretch, offsets: tuple[float, float]
+) -> tuple[Change, ...]:
+    """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
+    if offsets[1]:
+        raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
+    action, goal = assign_route(leaf, stretch)
+    if leaf.duration is None:
+        leaf.reached = (leaf.on_me(at_place(leaf.ctx, goal)),)
+    after = replace(leaf.state, lane=None).finished(LATERAL)
+    return (Change(LATERAL, (action,), None, after, after),)
 
 
 def along_line(
@@ -65,7 +85,7 @@ def along_line(
         points = (_here(leaf), *points)
     corners = drawn(points, is_timed=line.is_timed, is_smooth=line.is_smooth, offsets=offsets)
     vertices = [_vertex(leaf, line, each) for each in corners]
-    if not (line.is_timed or is_exact) and line.frame is None:
+    if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
     action = follow(leaf, vertices, line.is_timed, is_exact)
     end = corners[-1]
@@ -104,6 +124,14 @@ def _here(leaf: Leaf) -> Waypoint:
     if pose is None:
         raise Inexpressible("where it starts from is only known during the run", leaf.node.span)
     return Waypoint(0.0, pose.x, pose.y, pose.z, None)
+
+
+def _is_there(leaf: Leaf, point: Waypoint) -> bool:
+    """Whether an actor surely begins where a line does: tools set out on no line of no length."""
+    pose, lane, roads = leaf.state.pose, leaf.state.lane, leaf.ctx.roads
+    if pose is None and lane is not None and roads is not None and leaf.is_start:
+        pose = roads.pose(lane)
+    return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
 def _own_place(leaf: Leaf) -> Element:

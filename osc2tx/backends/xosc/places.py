@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.cast import CastMember
+from osc2tx.backends.xosc.facts import Linear
 from osc2tx.backends.xosc.gaps import Gap, hold
 from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf
-from osc2tx.backends.xosc.points import spot_of
-from osc2tx.backends.xosc.positions import REACHED
+from osc2tx.backends.xosc.points import REACHED, at_place, spot_of
 from osc2tx.backends.xosc.registry import modifier
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.speeds import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.speeds import PROFILE_ACTION, speed_action, through_points
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.tree import element
 
@@ -27,7 +27,10 @@ def _position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     ahead, behind = arguments.entity("ahead_of"), arguments.entity("behind")
     reference = ahead or behind
     if reference is None:
-        raise Inexpressible("a distance from the start of the route", call.span)
+        along = _size(arguments, "distance")
+        if along is None:
+            raise Inexpressible("it says no distance", call.span)
+        return _along_road(leaf, call, along)
     for name in ("movement_mode", "track"):
         if name in arguments and arguments.member(name, "") not in ("other", "actual"):
             raise Inexpressible(f"`{name}` has no counterpart", call.span)
@@ -62,15 +65,29 @@ def _at_point(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     if call.at != "end" or leaf.duration is not None:
         raise Inexpressible("a point that is not the end of the way", call.span)
     leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
-    condition = element(
-        "DistanceCondition",
-        element("Position", spot.element),
-        value=REACHED,
-        freespace=False,
-        rule="lessThan",
-        alongRoute=False if leaf.ctx.version == "1.0" else None,
+    leaf.reached = (leaf.on_me(at_place(leaf.ctx, spot.element)),)
+    return ()
+
+
+def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Change, ...]:
+    """End an invocation so far (m) along the road; it keeps its lane until then."""
+    lane, roads = leaf.state.lane, leaf.ctx.roads
+    if call.at != "end" or leaf.duration is not None:
+        raise Inexpressible("a distance from the start of the road that is not the end of the way")
+    if lane is None or roads is None:
+        raise Inexpressible("which road it is on is only known during the run", call.span)
+    place = roads.from_entry(lane, distance)
+    if place is None:
+        raise Inexpressible(f"the road ends before {distance:g} m", call.span)
+    leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
+    there = element(
+        "LanePosition",
+        roadId=place.road,
+        laneId=place.lane,
+        s=round(place.s, 6),
+        offset=round(place.offset, 6) or None,
     )
-    leaf.reached = (leaf.on_me(condition),)
+    leaf.reached = (leaf.on_me(at_place(leaf.ctx, there)),)
     return ()
 
 
@@ -118,19 +135,18 @@ def _in_time(leaf: Leaf, call: ir.ModifierCall, gap: Gap) -> Change:
     assert time is not None
     way = apart + (gap.size if gap.side == "ahead" else -gap.size)
     arrival = Arrival(speed.low, way + (theirs - speed.low) * time, time)
-    end = arrival.value(time)
-    if min(end, arrival.value(0.0)) < 0.0 or not ctx.can(PROFILE_ACTION, "1.2"):
-        ctx.report.approximate(
-            f"modifier {call.name}",
-            call.span,
-            "a course of the speed needs SpeedProfileAction",
-            "the place is reached, but when is up to the tool",
-        )
-        return _held(leaf, gap, keeps=False)
+    can_draw = ctx.can(PROFILE_ACTION, "1.2")
+    # Without courses of the speed an even change leads to the same place in the same time.
+    end = arrival.value(time) if can_draw else speed.low + 2.0 * arrival.missing / time
+    if end < 0.0:
+        raise Inexpressible("it would have to go backwards", call.span)
     after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
     during = replace(after, speed=speed.over(known(end)))
-    leaf.course = arrival
-    return Change(LONGITUDINAL, (through_points(arrival),), time, during, after)
+    leaf.course = arrival if can_draw else Linear(speed.low, end, time)
+    action = (
+        through_points(arrival) if can_draw else speed_action(round(end, 9), "linear", "time", time)
+    )
+    return Change(LONGITUDINAL, (action,), time, during, after)
 
 
 def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
+from osc2tx.backends.xosc.constants import Constant, Made, Member, Named
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts import LanePosition, Pose, Waypoint
+from osc2tx.backends.xosc.facts_roads import LanePosition, Pose
+from osc2tx.backends.xosc.facts_ways import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Constant, Made, Member, Named
+
+REACHED = 1.0
+"""Metres from a place that count as being there; a step of a run is about as long."""
+
+GLOBE = "GeoPosition"
 
 UNKNOWN = "the point is only known during the run"
 
@@ -36,12 +43,14 @@ def spot_of(ctx: Context, point: Constant | None) -> Spot:
     """
     kind, parts = _parts(ctx, point)
     match kind:
+        case "route_point":
+            return _on_route(ctx, parts)
         case "position_3d" | "xyz":
             x, y, z = (_number(parts.get(name)) for name in "xyz")
             return at_world(ctx, x, y, z)
         case "odr_point":
             return _on_road(ctx, parts)
-        case "geodetic_point":
+        case "geodetic_point" | "geodetic_position_2d":
             return _on_earth(ctx, parts)
     raise Inexpressible(UNKNOWN)
 
@@ -54,6 +63,18 @@ def at_world(ctx: Context, x: float, y: float, z: float) -> Spot:
     return Spot(world_position(pose), lane, pose)
 
 
+def at_place(ctx: Context, place: Element) -> Element:
+    """Return the condition to be at a place."""
+    return element(
+        "DistanceCondition",
+        element("Position", place),
+        value=REACHED,
+        freespace=False,
+        rule="lessThan",
+        alongRoute=False if ctx.version == "1.0" else None,
+    )
+
+
 def world_position(pose: Pose) -> Element:
     """Return the element of a pose in the world."""
     return element(
@@ -62,6 +83,8 @@ def world_position(pose: Pose) -> Element:
         y=round(pose.y, 6),
         z=round(pose.z, 6),
         h=round(pose.h, 9),
+        p=round(pose.pitch, 9) or None,
+        r=round(pose.roll, 9) or None,
     )
 
 
@@ -72,6 +95,8 @@ def _on_road(ctx: Context, parts: dict[str, Constant]) -> Spot:
         raise Inexpressible("the point names no road")
     if not isinstance(lane, str) or lane == "":
         return Spot(element("RoadPosition", roadId=road, s=s, t=t), None, None)
+    if not lane.removeprefix("-").isdecimal():
+        raise Inexpressible(f"`{lane}` is no number of a lane")
     number = int(lane)
     place = element("LanePosition", roadId=road, laneId=number, s=s, offset=t or None)
     if ctx.roads is None:
@@ -81,25 +106,43 @@ def _on_road(ctx: Context, parts: dict[str, Constant]) -> Spot:
     return Spot(place, on, ctx.roads.pose(on))
 
 
+def _on_route(ctx: Context, parts: dict[str, Constant]) -> Spot:
+    """Return a place along a route and beside it."""
+    from osc2tx.backends.xosc.ways import start_of_way  # routes are made of points themselves
+
+    place = start_of_way(ctx, parts.get("route"), _number(parts.get("s")))
+    left = _number(parts.get("t"))
+    if not isinstance(place, LanePosition):
+        x, y = place.x - left * math.sin(place.h), place.y + left * math.cos(place.h)
+        pose = Pose(x, y, place.z, place.h)
+        return Spot(world_position(pose), None, pose)
+    assert ctx.roads is not None  # the route was found on it
+    offset = left * ctx.roads.map.travel_direction(place.road, place.lane)
+    where: dict[str, Constant] = {"road_id": place.road, "lane_id": str(place.lane)}
+    return _on_road(ctx, {**where, "s": place.s, "t": offset})
+
+
 def _on_earth(ctx: Context, parts: dict[str, Constant]) -> Spot:
-    ctx.require("a geodetic position", "1.1")
-    ctx.require_support("GeoPosition")
+    """Return a place on the globe; where the map says where it lies, its place in the world too."""
     latitude, longitude = _number(parts.get("latitude")), _number(parts.get("longitude"))
-    altitude = _number(parts.get("altitude")) or None
-    if ctx.version == "1.1":
-        place = element("GeoPosition", latitude=latitude, longitude=longitude, height=altitude)
-        return Spot(place, None, None)
-    degrees = 57.29577951308232
-    return Spot(
-        element(
-            "GeoPosition",
-            latitudeDeg=round(latitude * degrees, 9),
-            longitudeDeg=round(longitude * degrees, 9),
-            altitude=altitude,
-        ),
-        None,
-        None,
+    altitude = _number(parts.get("altitude"))
+    pose = None if ctx.roads is None else ctx.roads.on_earth(latitude, longitude, altitude)
+    if pose is not None and not ctx.can(GLOBE, "1.1"):
+        return at_world(ctx, pose.x, pose.y, pose.z)
+    ctx.require("a geodetic position", "1.1")
+    ctx.require_support(GLOBE)
+    lane = None
+    if ctx.roads is not None and pose is not None:
+        lane = ctx.roads.locate(pose.x, pose.y, pose.z)
+    place = element(
+        GLOBE,
+        latitudeDeg=round(math.degrees(latitude), 9),
+        longitudeDeg=round(math.degrees(longitude), 9),
+        altitude=altitude or None,
     )
+    if ctx.version == "1.1":
+        place = element(GLOBE, latitude=latitude, longitude=longitude, height=altitude or None)
+    return Spot(place, lane, pose)
 
 
 def _parts(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Constant]]:
@@ -108,16 +151,20 @@ def _parts(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Constan
         given = dict(point.arguments)
         if point.method in ("create_odr_point", "odr_to_route_point"):
             return "odr_point", given
+        if point.method == "create_route_point":
+            return "route_point", given
         if point.method == "create_xyz_point":
             return "xyz", given
-        raise Inexpressible(f"`{point.method}` needs the routes of the scenario, not only the map")
+        raise Inexpressible(f"`{point.method}` makes no place that is known before the run")
     if not isinstance(point, Named):
         raise Inexpressible(UNKNOWN)
     kind = ctx.values.type_of(point.name)
     names = {
         "position_3d": "xyz",
         "odr_point": ("road_id", "lane_id", "s", "t"),
+        "route_point": ("route", "s", "t"),
         "geodetic_point": ("latitude", "longitude", "altitude"),
+        "geodetic_position_2d": ("latitude", "longitude"),
     }
     if kind == "xyz_point":
         inner = ctx.values.field(point.name, ("position",))

@@ -6,20 +6,18 @@ import math
 from dataclasses import replace
 
 from osc2tx.backends.xosc.cast import CastMember
-from osc2tx.backends.xosc.facts import CRUISE, Pose
+from osc2tx.backends.xosc.constants import Member, Named
+from osc2tx.backends.xosc.facts import CRUISE
+from osc2tx.backends.xosc.facts_roads import Pose
 from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.modify import modified
 from osc2tx.backends.xosc.paths import follow
-from osc2tx.backends.xosc.points import Spot, spot_of, world_position
+from osc2tx.backends.xosc.points import REACHED, Spot, at_place, spot_of, world_position
 from osc2tx.backends.xosc.registry import action
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.speeds import speed_action
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Member, Named
-
-REACHED = 1.0
-"""Metres from a place that count as being there; a step of a run is about as long."""
 
 
 @action("assign_position")
@@ -129,7 +127,7 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         angles[attribute] = float(value) if isinstance(value, (int, float)) else 0.0
     h, pose = round(angles["h"], 9), leaf.state.pose
     if pose is not None:
-        pose = pose._replace(h=h)
+        pose = pose._replace(h=h, pitch=round(angles["p"], 9), roll=round(angles["r"], 9))
         place = world_position(pose)
     else:
         turn = element(
@@ -178,14 +176,7 @@ def _acquire(leaf: Leaf, spot: Spot) -> Performance:
         LATERAL, (element("PrivateAction", acquire),), None, replace(state, lane=None), after
     )
     leaf.ctx.report.exact(leaf.construct, leaf.node.span, f"it is there within {REACHED:g} m")
-    reached = element(
-        "DistanceCondition",
-        position,
-        value=REACHED,
-        freespace=False,
-        rule="lessThan",
-        alongRoute=False if leaf.ctx.version == "1.0" else None,
-    )
+    reached = at_place(leaf.ctx, spot.element)
     return Performance((change, *modified(leaf)), "goal", reached=(leaf.on_me(reached),))
 
 

@@ -18,9 +18,15 @@ class ToolProfile:
         unsupported: Names of actions, conditions and other elements that it does not carry out,
             with what it does instead.
         has_edges: It looks at `conditionEdge`.
-        has_delays: `delay` counts from when the condition came true, as in the standard.
+        has_delays: `delay` counts from when the condition came true, as in the standard, and a
+            condition that is no longer true does not count.
         has_act_stop: It ends acts by their stop triggers.
+        has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
         has_shapes: It looks at the shape of the dynamics.
+        ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
+            needs none.
+        signal_name: What it calls a traffic light, `{}` being its id in the map.
+        knows_towns: Maps have names for it, not only files.
     """
 
     name: XmlProfile
@@ -29,7 +35,11 @@ class ToolProfile:
     has_edges: bool = True
     has_delays: bool = True
     has_act_stop: bool = True
+    has_stop: bool = True
     has_shapes: bool = True
+    ego_property: str = ""
+    signal_name: str = "{}"
+    knows_towns: bool = False
 
 
 _ESMINI_IGNORES = {
@@ -42,6 +52,13 @@ _ESMINI_IGNORES = {
     "UserDefinedValueCondition": "the condition is dropped",
 }
 _SCENARIO_RUNNER_IGNORES = {
+    "AbsoluteTargetLane": "the action is not known",
+    "CustomCommandAction": "it runs a command of the shell",
+    "DistanceCondition/freespace": "it counts between reference points",
+    "LaneChangeActionDynamics/time": "only a distance is understood",
+    "Precipitation/snow": "there is no snow",
+    "RelativeTargetLane/entityRef": "lanes are counted from the actor itself",
+    "SpeedActionDynamics/rate": "the rate is taken for a time",
     "RoutePosition": "it raises an error",
     "SpeedProfileAction": "the action is not known",
     "VisibilityAction": "the action is not known",
@@ -60,6 +77,10 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         has_edges=False,
         has_delays=False,
         has_act_stop=False,
+        has_stop=False,
         has_shapes=False,
+        ego_property="ego_vehicle",
+        signal_name="id={}",
+        knows_towns=True,
     ),
 }

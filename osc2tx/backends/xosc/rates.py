@@ -10,17 +10,17 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from osc2tx import ir
-from osc2tx.backends.xosc.entities import TOP_SPEED
-from osc2tx.backends.xosc.facts import Linear, Quintic, course_of_acceleration
+from osc2tx.backends.xosc.constants import Member, Named
+from osc2tx.backends.xosc.facts import TOP_SPEED, Linear, Quintic, course_of_acceleration
 from osc2tx.backends.xosc.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.modify import modified
 from osc2tx.backends.xosc.neighbours import follower
+from osc2tx.backends.xosc.own_shapes import acceleration_by, own_shape
 from osc2tx.backends.xosc.registry import action, modifier
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.speeds import PROFILE_ACTION, speed_action, through_points
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.backends.xosc.tree import Element
-from osc2tx.backends.xosc.values import Member, Named
 
 
 @action("assign_acceleration")
@@ -64,6 +64,9 @@ def _change_acceleration(leaf: Leaf) -> Performance:
 def _acceleration(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if call.at != "all":
         raise Inexpressible(f"an acceleration at the {call.at} only", call.span)
+    own = own_shape(arguments)
+    if own is not None:
+        return (acceleration_by(leaf, own),)
     profile, peak, target = shape_of(leaf, arguments)
     for name in ("acceleration", "acceleration_range"):
         given = arguments.number(name)

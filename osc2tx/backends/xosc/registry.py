@@ -10,6 +10,9 @@ ACTIONS: dict[str, Perform] = {}
 GLOBAL_ACTIONS: dict[str, PerformGlobal] = {}
 MODIFIERS: dict[str, Modify] = {}
 
+OF_THE_RUNTIME = frozenset({"vehicle.set_lights"})
+"""Actions that the embedded world has and scenarios declare."""
+
 
 def action(*names: str) -> Callable[[Perform], Perform]:
     """Register a handler for actions of the library."""

@@ -148,6 +148,11 @@ class LossReport:
         same[:] = [e for e in same if e.grade is not Grade.EXACT and e.reason != entry.reason]
         same.append(entry)
 
+    def construct_at(self, span: Span, kind: str) -> str:
+        """Return what a construct of a kind at a place is called here."""
+        names = (name for name, place in self._entries if place == span and name.startswith(kind))
+        return next(names, kind.strip())
+
     @property
     def entries(self) -> tuple[Entry, ...]:
         """All of them, in order of place."""

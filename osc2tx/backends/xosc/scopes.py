@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.cast import CastMember, cast_member
+from osc2tx.backends.xosc.constants import Constant, Named
 from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.own_values import OwnTypes
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values import Constant, Named, Values
+from osc2tx.backends.xosc.values import Values
 
 
 @dataclass(slots=True, eq=False)
@@ -26,6 +29,7 @@ class Scope:
         values: Its constants.
         cast: Its physical actors, by their names in it.
         prefix: Before the names of what is its own.
+        path: Labels of the invocations down to it, for keys of parameters.
         inner: Scopes of the scenarios that it invokes, by the span of the invocation.
         by_label: The same by label.
         own: Those of its cast that nobody has handed in.
@@ -36,6 +40,7 @@ class Scope:
     values: Values
     cast: dict[str, CastMember]
     prefix: str
+    path: str
     inner: dict[Hashable, Scope] = field(default_factory=dict)
     by_label: dict[str, Scope] = field(default_factory=dict)
     own: list[CastMember] = field(default_factory=list)
@@ -55,33 +60,58 @@ MOST_DEPTH = 20
 
 
 def open_scopes(
-    scenario: ir.Scenario, module: ir.Module, given: Mapping[str, Constant] | None = None
+    scenario: ir.Scenario, module: ir.Module, chosen: Mapping[str, Constant] | None = None
 ) -> Scope:
     """Return the scope of a scenario, with those of what it invokes.
 
     Args:
         scenario: The scenario.
         module: Where it stands.
-        given: Values of its parameters.
+        chosen: Values of open parameters, by their keys.
     """
-    return _Opener(module).open(scenario, given or {}, {}, "", 0)
+    return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", "", 0))
+
+
+def key_of(path: str, parameter: ir.Parameter) -> str:
+    """Return what tells a parameter of a scope apart; a global one is the same everywhere."""
+    return parameter.name if not path or parameter.is_global else f"{path}.{parameter.name}"
+
+
+class _Place(NamedTuple):
+    """Where a scenario is invoked: see `Scope`, and how many scenarios are around it."""
+
+    prefix: str
+    path: str
+    depth: int
 
 
 class _Opener:
-    def __init__(self, module: ir.Module) -> None:
+    def __init__(self, module: ir.Module, chosen: Mapping[str, Constant]) -> None:
         self._by_key = {scenario.key: scenario for scenario in module.scenarios}
+        self._types = OwnTypes(module.types)
         self._names = Names()  # `|my car|` and `my_car` are two actors
+        self._paths = Names()
+        self._chosen = chosen
 
     def open(
         self,
         scenario: ir.Scenario,
         given: Mapping[str, Constant],
         handed_in: Mapping[str, CastMember],
-        prefix: str,
-        depth: int,
+        place: _Place,
+        unknown: Mapping[str, Inexpressible] | None = None,
     ) -> Scope:
-        values = Values(scenario, given)
-        scope = Scope(scenario, values, dict(handed_in), prefix)
+        keys = {
+            d.name: key_of(place.path, d)
+            for d in scenario.declarations
+            if isinstance(d, ir.Parameter)
+        }
+        chosen = {n: self._chosen[key] for n, key in keys.items() if key in self._chosen}
+        values = Values(scenario, {**chosen, **given}, self._types)
+        for name, error in (unknown or {}).items():
+            values.hide(name, error)
+        prefix = place.prefix
+        scope = Scope(scenario, values, dict(handed_in), prefix, place.path)
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 member = cast_member(declaration, prefix + declaration.name, values)
@@ -89,16 +119,18 @@ class _Opener:
                     member = replace(member, name=self._names.new(member.name))
                     scope.cast[declaration.name] = member
                     scope.own.append(member)
-        if depth < MOST_DEPTH:
+                    values.know(declaration.name, member.sizes)
+        if place.depth < MOST_DEPTH:
             first = _first_invocations(scenario.body)
             for node in ir.walk_behaviors(scenario.body):
                 if isinstance(node, ir.InvokeScenario):
-                    inner = self._invoke(node, scope, depth)
+                    inner = self._invoke(node, scope, place.depth)
                     inner.is_first = scope.is_first and node.span in first
         return scope
 
     def _invoke(self, node: ir.InvokeScenario, scope: Scope, depth: int) -> Scope:
         given: dict[str, Constant] = {}
+        unknown: dict[str, Inexpressible] = {}
         handed_in: dict[str, CastMember] = {}
         arguments = [(argument.parameter, argument.value) for argument in node.arguments]
         if node.actor is not None:
@@ -106,15 +138,18 @@ class _Opener:
         for name, expression in arguments:
             try:
                 value = scope.values.of(expression)
-            except Inexpressible:
-                continue  # where it is used it is reported
+            except Inexpressible as error:
+                unknown[name] = error  # where it is used it is reported
+                continue
             if isinstance(value, Named) and value.name in scope.cast:
                 handed_in[name] = scope.cast[value.name]
             else:
                 given[name] = value
         callee = self._by_key[node.key]
         label = node.label or callee.name.rpartition(".")[2]
-        inner = self.open(callee, given, handed_in, f"{scope.prefix}{label}_", depth + 1)
+        path = self._paths.new(f"{scope.path}_{label}" if scope.path else label)
+        place = _Place(f"{scope.prefix}{label}_", path, depth + 1)
+        inner = self.open(callee, given, handed_in, place, unknown)
         scope.inner[node.span] = inner
         if node.label is not None:
             scope.by_label[node.label] = inner

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.speeds import hold_speed
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.backends.xosc.tree import Element, element
 
-BACK_TO_CENTRE = 2.0
+BACK_TO_CENTRE = 1.5
 """Seconds for the way back after a change of lane that was cut short."""
 
 Claims = frozenset[tuple[str, str]]

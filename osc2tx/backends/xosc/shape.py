@@ -55,7 +55,7 @@ def is_instant(node: ir.Behavior) -> bool:
         case ir.Serial(members=members) | ir.Parallel(members=members):
             return node.duration is None and all(is_instant(member) for member in members)
         case ir.OneOf(members=members):
-            return any(is_instant(member) for member in members)
+            return all(is_instant(member) for member in members)
         case ir.Invoke(action=action):
             return action in INSTANT and node.duration is None
         case ir.Emit() | ir.Finish() | ir.Call() | ir.On():
@@ -69,6 +69,15 @@ def is_single(node: ir.Behavior) -> bool:
     return _leaves(node) <= 1
 
 
+def is_timed(node: ir.Behavior) -> bool:
+    """Whether a member holds others for a time, and fails if they take longer."""
+    match node:
+        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.InvokeScenario():
+            return node.duration is not None
+        case _:
+            return False
+
+
 def _leaves(node: ir.Behavior) -> int:
     match node:
         case ir.Serial(members=members) | ir.Parallel(members=members) | ir.OneOf(members=members):
@@ -79,6 +88,18 @@ def _leaves(node: ir.Behavior) -> int:
             return 1
         case ir.Emit() | ir.Finish() | ir.Call() | ir.On() | ir.InvokeScenario():
             return 2
+
+
+def may_be_cut(body: ir.Behavior, label: str) -> bool:
+    """Whether a composition around a labelled member may end before the member does."""
+    for node in ir.walk_behaviors(body):
+        if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+            continue
+        is_bounded = bool(node.until) or node.duration is not None or isinstance(node, ir.OneOf)
+        inside = (each.label for each in ir.walk_behaviors(node) if each is not node)
+        if is_bounded and label in inside:
+            return True
+    return False
 
 
 def claims(node: ir.Behavior) -> frozenset[tuple[str, str]]:

@@ -10,14 +10,13 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
+from osc2tx.backends.xosc.constants import Constant, Made, Member, Named
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts import Roads
+from osc2tx.backends.xosc.facts_roads import Roads
 from osc2tx.backends.xosc.leaf import Arguments
-from osc2tx.backends.xosc.neighbours import is_first, is_last
 from osc2tx.backends.xosc.registry import global_action
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Constant, Made, Member, Named
 
 WORDS: Mapping[str, str] = {"is_off": "off", "is_on": "on", "is_flashing": "flashing"}
 """State of a lamp -> its word."""
@@ -37,7 +36,7 @@ def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[E
     for signal in _addressed(ctx, node, arguments):
         states = _roads(ctx).meaning(signal, meaning)
         if states is not None:  # a light that cannot say it goes on as it is
-            actions.append(_switch(ctx, signal, states))
+            actions.append(switch(ctx, signal, states))
     return tuple(actions)
 
 
@@ -45,7 +44,7 @@ def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[E
 def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
     given = arguments.get("state")
     signals = _addressed(ctx, node, arguments)
-    return tuple(_switch(ctx, signal, _states(ctx, given, signal)) for signal in signals)
+    return tuple(switch(ctx, signal, states_of(ctx, given, signal)) for signal in signals)
 
 
 @global_action("set_bulb_state", "set_group_bulb_state")
@@ -65,77 +64,24 @@ def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Elem
             wanted if lamp == (color, icon) else state
             for lamp, state in zip(lamps, shown, strict=True)
         )
-        actions.append(_switch(ctx, signal, states))
+        actions.append(switch(ctx, signal, states))
     return tuple(actions)
 
 
-@global_action("play_cycles")
-def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
-    ctx.require_support("TrafficSignalControllerAction", node.span)
-    cycles = arguments.get("cycles")
-    if not isinstance(cycles, tuple):
-        raise Inexpressible("the cycles are not known before the run", node.span)
-    body = ctx.scenario.body
-    has_end = node.duration is not None or bool(node.until)
-    if not is_first(body, node) or (has_end and not is_last(body, node)):
-        ctx.report.approximate(
-            f"action {node.action}",
-            node.span,
-            "controllers of the XML play their cycles from the start of the run to its end",
-            "phases and their lengths are exact; the lights also change before and after",
-        )
-    return tuple(_cycle(ctx, cycle) for cycle in cycles)
-
-
-def _cycle(ctx: Context, cycle: Constant) -> Element:
-    if not isinstance(cycle, Named):
-        raise Inexpressible("a cycle is not known before the run")
-    phases = ctx.values.field(cycle.name, ("phases",))
-    names = (
-        [phase.name for phase in phases if isinstance(phase, Named)]
-        if isinstance(phases, tuple)
-        else []
-    )
-    if not names:
-        raise Inexpressible(f"cycle `{cycle.name}` has no phases")
-    offset = ctx.values.field(cycle.name, ("start_offset",))
-    controller = ctx.names.new(cycle.name)
-    ctx.controllers.append(
-        element(
-            "TrafficSignalController",
-            *(_phase(ctx, name) for name in names),
-            name=controller,
-            delay=float(offset) if isinstance(offset, (int, float)) and offset else None,
-        )
-    )
-    return _infrastructure(
-        element(
-            "TrafficSignalControllerAction", trafficSignalControllerRef=controller, phase=names[0]
-        )
-    )
-
-
-def _phase(ctx: Context, name: str) -> Element:
-    duration = ctx.values.field(name, ("duration",))
-    if not isinstance(duration, (int, float)):
-        raise Inexpressible(f"phase `{name}` has no duration")
-    shown = ctx.values.field(name, ("bulbs_state",))
-    states = []
-    for signal in _group(ctx, ctx.values.field(name, ("group",))):
-        text = _text(ctx, signal, _states(ctx, shown, signal))
-        states.append(element("TrafficSignalState", trafficSignalId=signal, state=text))
-        ctx.lamps[signal] = None
-    return element("Phase", *states, name=name, duration=float(duration))
-
-
-def _switch(ctx: Context, signal: str, states: States) -> Element:
+def switch(ctx: Context, signal: str, states: States) -> Element:
+    """Return the action that lets a light show something, and note that it does."""
     ctx.lamps[signal] = states
-    return _infrastructure(
-        element("TrafficSignalStateAction", name=signal, state=_text(ctx, signal, states))
+    return infrastructure(
+        element(
+            "TrafficSignalStateAction",
+            name=_name(ctx, signal),
+            state=state_text(ctx, signal, states),
+        )
     )
 
 
-def _infrastructure(action: Element) -> Element:
+def infrastructure(action: Element) -> Element:
+    """Return the global action around one on traffic lights."""
     return element(
         "GlobalAction", element("InfrastructureAction", element("TrafficSignalAction", action))
     )
@@ -153,10 +99,13 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[Element, ...]:
     owner = ctx.values.of(call.base)
     given = next((ctx.values.of(a.value) for a in call.arguments if a.parameter == "bulbs"), None)
     is_group = call.owner == "traffic_light_group"
-    signals = _group(ctx, owner) if is_group else (_map_id(ctx, owner),)
-    texts = [(signal, _text(ctx, signal, _states(ctx, given, signal))) for signal in signals]
+    signals = lights_of_group(ctx, owner) if is_group else (_map_id(ctx, owner),)
+    texts = [(signal, state_text(ctx, signal, states_of(ctx, given, signal))) for signal in signals]
     return tuple(
-        element("ByValueCondition", element("TrafficSignalCondition", name=signal, state=text))
+        element(
+            "ByValueCondition",
+            element("TrafficSignalCondition", name=_name(ctx, signal), state=text),
+        )
         for signal, text in texts
     )
 
@@ -172,15 +121,18 @@ def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str
     if light is not None:
         signal = _map_id(ctx, light)
         return _group_of(ctx, light) if "_group_" in node.action else (signal,)
-    return _group(ctx, arguments.get("traffic_light_group") or arguments.get("group"))
+    return lights_of_group(ctx, arguments.get("traffic_light_group") or arguments.get("group"))
 
 
 def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
     group = ctx.values.field(light.name, ("group",)) if isinstance(light, Named) else None
-    return _roads(ctx).group_of(_map_id(ctx, light)) if group is None else _group(ctx, group)
+    return (
+        _roads(ctx).group_of(_map_id(ctx, light)) if group is None else lights_of_group(ctx, group)
+    )
 
 
-def _group(ctx: Context, group: Constant | None) -> tuple[str, ...]:
+def lights_of_group(ctx: Context, group: Constant | None) -> tuple[str, ...]:
+    """Return the ids of the lights of a group."""
     listed = ctx.values.field(group.name, ("traffic_lights",)) if isinstance(group, Named) else None
     if isinstance(listed, tuple):
         return tuple(_map_id(ctx, light) for light in listed)
@@ -222,7 +174,7 @@ def _lamp(ctx: Context, bulb: Constant) -> tuple[str, str]:
     return color.name, icon.name
 
 
-def _states(ctx: Context, given: Constant | None, signal: str) -> States:
+def states_of(ctx: Context, given: Constant | None, signal: str) -> States:
     """Return the states of the lamps of a light, from a list or from a meaning."""
     if isinstance(given, Made) and given.method == "semantic_state_to_state":
         meaning = given.get("state")
@@ -246,12 +198,18 @@ def _state(ctx: Context, given: Constant) -> str:
     return state.name
 
 
-def _text(ctx: Context, signal: str, states: States) -> str:
+def _name(ctx: Context, signal: str) -> str:
+    """Return what the tool calls a light."""
+    return ctx.profile.signal_name.format(signal)
+
+
+def state_text(ctx: Context, signal: str, states: States) -> str:
     """Return what the tool calls the state."""
+    is_plain = ctx.profile.name != "scenario_runner"
     for state in states:
-        if state not in WORDS:
+        if state not in WORDS or (WORDS[state] == "flashing" and not is_plain):
             raise Inexpressible(f"there is no word for a lamp whose state is `{state}`")
-    if ctx.profile.name != "scenario_runner":
+    if is_plain:
         return ";".join(WORDS[state] for state in states)
     lit = [lamp[0] for lamp, s in zip(_lamps(ctx, signal), states, strict=True) if s != OFF]
     if len(lit) > 1:

@@ -6,15 +6,16 @@ from dataclasses import replace
 from math import inf
 
 from osc2tx import ir
+from osc2tx.backends.xosc.constants import Bounds
 from osc2tx.backends.xosc.facts import COMFORT
 from osc2tx.backends.xosc.leaf import Arguments, Change, Course, Leaf
+from osc2tx.backends.xosc.own_shapes import own_shape, speed_by
 from osc2tx.backends.xosc.rates import shape_of
 from osc2tx.backends.xosc.registry import modifier
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.speeds import change_speed, jump_to, longitudinal, speed_action
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.tree import element
-from osc2tx.backends.xosc.values import Bounds
 
 RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""
@@ -66,6 +67,9 @@ def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> t
 def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if arguments.member("direction", "longitudinal") != "longitudinal":
         raise Inexpressible("there is no action on a speed across the road", call.span)
+    own = own_shape(arguments)
+    if own is not None and call.at == "all":
+        return (speed_by(leaf, own),)
     profile, peak, target = shape_of(leaf, arguments)
     if "rate_profile" in arguments or "rate_peak" in arguments:
         profile = arguments.member("rate_profile", "none")

@@ -11,11 +11,11 @@ from dataclasses import replace
 
 from osc2tx.backends.xosc.facts import (
     COMFORT,
-    QUINTIC_PEAK,
+    GENTLE,
+    Cosine,
     Limits,
     Linear,
     Profile,
-    Quintic,
     course_of_speed,
 )
 from osc2tx.backends.xosc.leaf import Change, Course, Leaf
@@ -28,7 +28,6 @@ POINTS = 12
 
 
 PROFILE_ACTION = "SpeedProfileAction"
-HALF_PI = 1.5707963267948966
 
 
 def change_speed(
@@ -50,9 +49,8 @@ def change_speed(
     after = replace(state, speed=known(target)).finished(LONGITUDINAL)
     if state.speed == known(target) and not _is_changing(state):
         return Change(LONGITUDINAL, (), 0.0, after, after)
-    during = after if state.speed is None else replace(after, speed=state.speed.over(known(target)))
-    if state.speed is None:
-        during = replace(after, speed=None)
+    passed = None if state.speed is None else state.speed.over(known(target))
+    during = replace(after, speed=passed, aim=target)
     if state.speed is not None and state.speed.is_known:
         start = state.speed.low
         course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
@@ -78,13 +76,10 @@ def _from_known(
 ) -> Element:
     if isinstance(course, Linear):
         return speed_action(target, "linear", "time", course.duration)
-    can_profile = leaf.ctx.can(PROFILE_ACTION, "1.2")
-    if isinstance(course, Quintic):
-        if can_profile:
-            return through_points(course)
-        return speed_action(target, "sinusoidal", "time", course.duration)
-    if can_profile:
-        return _within_limits(target, leaf.limits, profile, peak)
+    if isinstance(course, Cosine):
+        return speed_action(target, _curve(leaf, profile), "time", course.duration)
+    if leaf.ctx.can(PROFILE_ACTION, "1.2"):
+        return within_limits(target, leaf.limits, profile, peak)
     return speed_action(target, "linear", "time", course.duration)
 
 
@@ -93,36 +88,46 @@ def _from_unknown(
 ) -> Element:
     limits = leaf.limits
     if duration is not None and profile != "asap":
-        shape = "linear" if profile == "constant" else "sinusoidal"
+        shape = "linear" if profile == "constant" else _curve(leaf, profile)
         return speed_action(target, shape, "time", duration)
     if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
-        return _within_limits(target, limits, profile, peak)
+        return within_limits(target, limits, profile, peak)
     limit = _limit_towards(leaf, target, profile)
-    rate = peak if peak is not None else limit * (1.0 if profile == "asap" else COMFORT)
-    if profile != "smooth":
-        return speed_action(target, "linear", "rate", rate)
-    # A rate is the peak of the shape; without one the change is to last as long as in the world.
-    share = 1.0 if peak is not None else HALF_PI / QUINTIC_PEAK
-    return speed_action(target, "sinusoidal", "rate", round(rate * share, 6))
+    share = {"asap": 1.0, "smooth": COMFORT * GENTLE}.get(profile, COMFORT)
+    rate = round(share * limit, 6) if peak is None else peak
+    shape = "sinusoidal" if profile == "smooth" else "linear"
+    return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
+
+
+def _curve(leaf: Leaf, profile: str) -> str:
+    """Return the shape of a smooth change; tools without shapes do as they like if they may."""
+    is_free = profile == "none" and not leaf.ctx.profile.has_shapes
+    return "linear" if is_free else "sinusoidal"
 
 
 def _limit_towards(leaf: Leaf, target: float, profile: str) -> float:
-    """Return the limit of the acceleration on the way to a target; the smaller one if unknown."""
-    limits, speed = leaf.limits, leaf.state.speed
+    """Return the limit of the acceleration on the way to a target.
+
+    If only the run shows whether it has to go faster or slower, it is taken for granted that the
+    change before has come to its end; where there is none, the smaller limit holds.
+    """
+    limits, speed, aim = leaf.limits, leaf.state.speed, leaf.state.aim
     if speed is not None and target >= speed.high:
         return limits.acceleration
     if target <= 0.0 or (speed is not None and target <= speed.low):
         return limits.deceleration
-    least = min(limits.acceleration, limits.deceleration)
+    taken = min(limits.acceleration, limits.deceleration)
+    if speed is not None and aim is not None and aim != target and speed.low <= aim <= speed.high:
+        taken = limits.acceleration if target > aim else limits.deceleration
     if profile == "asap" and limits.acceleration != limits.deceleration:
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
             "whether it has to go faster or slower is only known during the run",
-            f"it uses {least:g} m/s^2 in both directions",
+            f"it uses {taken:g} m/s^2 in both directions",
             Remedy(version="1.2"),
         )
-    return least
+    return taken
 
 
 def speed_action(target: float, shape: str, dimension: str, value: float) -> Element:
@@ -171,7 +176,7 @@ def longitudinal(action: Element) -> Element:
     return element("PrivateAction", element("LongitudinalAction", action))
 
 
-def _within_limits(target: float, limits: Limits, profile: str, peak: float | None) -> Element:
+def within_limits(target: float, limits: Limits, profile: str, peak: float | None) -> Element:
     """Return the fastest change within limits of acceleration and jerk."""
     share = 1.0 if profile == "asap" else COMFORT
     return longitudinal(
@@ -190,15 +195,15 @@ def _within_limits(target: float, limits: Limits, profile: str, peak: float | No
     )
 
 
-def through_points(course: Course) -> Element:
+def through_points(course: Course, count: int = POINTS) -> Element:
     """Return a course through points, with times since the point before."""
-    step = course.duration / POINTS
+    step = course.duration / count
     entries = [
         element(
             "SpeedProfileEntry",
             time=round(step, 9),
             speed=round(course.value(index * step), 9),
         )
-        for index in range(1, POINTS + 1)
+        for index in range(1, count + 1)
     ]
     return longitudinal(element(PROFILE_ACTION, *entries, followingMode="position"))

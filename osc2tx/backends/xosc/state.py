@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from osc2tx.backends.xosc.facts import LanePosition, Pose
+from osc2tx.backends.xosc.facts_roads import LanePosition, Pose
 
 LONGITUDINAL, LATERAL, WAY = "longitudinal", "lateral", "way"
 """Domains that actions control; `way` is the motion of those off the lanes, which just goes on."""
@@ -46,6 +46,8 @@ class ActorState:
         offset: Metres left of the centre of its lane; `None` if it may be anything.
         lane: The lane it is in; its `s` is that of the start. `None` if unknown.
         pose: Where it is, for those off the lanes; `None` if unknown.
+        aim: Speed (m/s) that its last change had as its goal; `None` without one, or if
+            there are several.
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.
@@ -55,6 +57,7 @@ class ActorState:
     offset: Interval | None = CENTRE
     lane: LanePosition | None = None
     pose: Pose | None = None
+    aim: float | None = None
     rate: float | None = 0.0
     unfinished: tuple[tuple[str, str], ...] = ()
 
@@ -86,6 +89,7 @@ def merged(a: ActorState, b: ActorState) -> ActorState:
         offset=None if a.offset is None or b.offset is None else a.offset.over(b.offset),
         lane=a.lane if a.lane == b.lane else None,
         pose=a.pose if a.pose == b.pose else None,
+        aim=b.aim if a.aim is None else a.aim if b.aim in (None, a.aim) else None,
         rate=a.rate if a.rate == b.rate else None,
         unfinished=unfinished,
     )

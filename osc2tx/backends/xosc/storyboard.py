@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from osc2tx.backends.xosc.flow import NEVER, Flow, Group, Test
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.tree import Element, element
+from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
 
 
@@ -28,6 +29,7 @@ class Event:
         comment: Where it comes from.
         priority: What it does to running events of its maneuver.
         repeats: How often it may start.
+        place: Where the member stands that it belongs to.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Event:
     comment: str | None
     priority: str = "parallel"
     repeats: int | None = None
+    place: Span | None = None
 
 
 @dataclass(slots=True)
@@ -70,11 +73,15 @@ class Act:
         self.events.setdefault(actor, []).append(event)
 
 
-def _telling(group: Group) -> Group:
-    """Leave out that the run has begun, where there is more to say."""
-    if len(group) == 1:
-        return group
-    return tuple(test for test in group if test.reached != 0.0) or group[:1]
+def _in_order(group: Group) -> Group:
+    """Put a group in the order in which tools look at it: they stop at the first that is false.
+
+    What stays true comes first: it says from when on the others count. Edges come next, so that
+    they are looked at in each step; else they would miss what they wait for. That the run has begun
+    is left out where there is more to say.
+    """
+    telling = tuple(test for test in group if test.reached != 0.0) or group[:1]
+    return tuple(sorted(telling, key=lambda test: (not test.latched, test.edge == "none")))
 
 
 class StoryboardWriter:
@@ -102,7 +109,7 @@ class StoryboardWriter:
                         delay=test.delay,
                         conditionEdge=test.edge,
                     )
-                    for test in _telling(group)
+                    for test in _in_order(group)
                 ),
             )
             for group in flow.groups

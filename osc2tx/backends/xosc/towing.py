@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from osc2tx import ir
 from osc2tx.backends.xosc.cast import CastMember
+from osc2tx.backends.xosc.constants import Named
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts import DRAWBAR
+from osc2tx.backends.xosc.leaf import Arguments
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Named
 
 
 def towing(ctx: Context) -> dict[str, str]:
@@ -30,14 +33,23 @@ def towing(ctx: Context) -> dict[str, str]:
     return found
 
 
-def hitch_of(vehicle: CastMember) -> float:
-    """Return where the hitch of a vehicle is (m before its reference point): at its rear end."""
-    return -vehicle.shape.rear
+def _hitch(ctx: Context, vehicle: CastMember) -> Element:
+    """Return where a vehicle tows: at its rear end, if the scenario says nothing else."""
+    return _half(ctx, "TrailerHitch", vehicle, "trailer_receiver", -vehicle.shape.rear)
 
 
-def coupler_of(trailer: CastMember) -> float:
-    """Return where the coupler of a trailer is (m before its reference point)."""
-    return trailer.shape.front + DRAWBAR
+def _coupler(ctx: Context, trailer: CastMember) -> Element:
+    """Return where a trailer is towed: before its box, likewise."""
+    return _half(ctx, "TrailerCoupler", trailer, "coupler", trailer.shape.front + DRAWBAR)
+
+
+def _half(ctx: Context, tag: str, member: CastMember, field: str, usual: float) -> Element:
+    x, z = (ctx.values.field(member.actor.name, (field, f"position_{axis}")) for axis in "xz")
+    return element(
+        tag,
+        dx=round(float(x) if isinstance(x, (int, float)) else usual, 6),
+        dz=float(z) if isinstance(z, (int, float)) else None,
+    )
 
 
 def couplings(ctx: Context, member: CastMember) -> tuple[Element, ...]:
@@ -45,8 +57,8 @@ def couplings(ctx: Context, member: CastMember) -> tuple[Element, ...]:
     if ctx.version < "1.3" or not any("trailer" in m.actor.lineage for m in ctx.cast.values()):
         return ()
     if "trailer" in member.actor.lineage:
-        return (element("TrailerCoupler", dx=round(coupler_of(member), 6)),)
-    parts = [element("TrailerHitch", dx=round(hitch_of(member), 6))] if _tows(ctx, member) else []
+        return (_coupler(ctx, member),)
+    parts = [_hitch(ctx, member)] if _tows(ctx, member) else []
     for trailer, tow in towing(ctx).items():
         if tow == member.name:
             parts.append(element("Trailer", element("TrailerRef", entityRef=trailer)))
@@ -55,12 +67,26 @@ def couplings(ctx: Context, member: CastMember) -> tuple[Element, ...]:
 
 def _tows(ctx: Context, member: CastMember) -> bool:
     """Whether a vehicle tows a trailer at some time."""
-    if member.name in towing(ctx).values():
-        return True
-    return any(
-        isinstance(node, ir.Invoke)
-        and node.action == "connect_trailer"
-        and isinstance(node.actor, ir.FieldRef)
-        and node.actor.name == member.actor.name
-        for node in ir.walk_behaviors(ctx.scenario.body)
-    )
+    return member.name in towing(ctx).values() or any(_couplings_made_by(ctx, member))
+
+
+def _couplings_made_by(ctx: Context, vehicle: CastMember) -> Iterator[ir.Invoke]:
+    for node in ir.walk_behaviors(ctx.scenario.body):
+        if (
+            isinstance(node, ir.Invoke)
+            and node.action == "connect_trailer"
+            and isinstance(node.actor, ir.FieldRef)
+            and node.actor.name == vehicle.actor.name
+        ):
+            yield node
+
+
+def only_trailer(ctx: Context, vehicle: CastMember) -> CastMember | None:
+    """Return the trailer that a vehicle tows whenever it tows one; `None` if there are several."""
+    found = {trailer for trailer, tow in towing(ctx).items() if tow == vehicle.name}
+    for node in _couplings_made_by(ctx, vehicle):
+        trailer = Arguments(ctx, node.arguments, node).entity("trailer")
+        if trailer is not None:
+            found.add(trailer.name)
+    members = [member for member in ctx.cast.values() if member.name in found]
+    return members[0] if len(members) == 1 else None

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from osc2tx.backends.xosc.facts import held_by, road_condition
 from osc2tx.backends.xosc.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.registry import action
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.speeds import within_limits
+from osc2tx.backends.xosc.towing import only_trailer
 from osc2tx.backends.xosc.tree import Element, element
 
 
@@ -18,8 +21,13 @@ def _connect(leaf: Leaf) -> Performance:
 
 @action("disconnect_trailer")
 def _disconnect(leaf: Leaf) -> Performance:
-    note = "what the trailer does then is up to the tool: the embedded world lets it stand"
-    leaf.ctx.report.exact(leaf.construct, leaf.node.span, note)
+    trailer = only_trailer(leaf.ctx, leaf.member)
+    if trailer is None:
+        note = "what the trailer does then is up to the tool: the embedded world lets it stand"
+        leaf.ctx.report.exact(leaf.construct, leaf.node.span, note)
+    else:
+        limits = held_by(trailer.limits, road_condition(leaf.ctx.weather))
+        leaf.others.append((trailer, within_limits(0.0, limits, "asap", None), "stands"))
     return _act(leaf, element("DisconnectTrailerAction"))
 
 

@@ -8,64 +8,18 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from typing import TypeAlias
 
 from osc2tx import ir
+from osc2tx.backends.xosc.constants import Bounds, Constant, Made, Member, Named
+from osc2tx.backends.xosc.own_values import OwnTypes
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.symbols import Symbol
-from osc2tx.light_dataclass import dataclass
-
-
-@dataclass(frozen=True, slots=True)
-class Member:
-    """A member of an enum."""
-
-    enum: str
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Named:
-    """An actor or struct of the scenario, by its name."""
-
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Bounds:
-    """A range."""
-
-    lower: float
-    upper: float
-
-
-@dataclass(frozen=True, slots=True)
-class Made:
-    """What a method of the library makes of constants: a point, a path, states of lamps.
-
-    Attributes:
-        method: The method.
-        owner: Name of the actor or struct whose method it is.
-        arguments: By parameter.
-    """
-
-    method: str
-    owner: str
-    arguments: tuple[tuple[str, Constant], ...]
-
-    def get(self, parameter: str) -> Constant | None:
-        """Return an argument."""
-        return dict(self.arguments).get(parameter)
-
-
-Constant: TypeAlias = (
-    "bool | int | float | str | Member | Named | Bounds | Made | tuple[Constant, ...]"
-)
 
 MAKERS = frozenset(
     {
         "create_odr_point",
         "create_path",
+        "create_route",
         "create_path_odr_points",
         "create_path_route_points",
         "create_route_point",
@@ -73,6 +27,7 @@ MAKERS = frozenset(
         "create_trajectory_odr_points",
         "create_trajectory_route_points",
         "create_xyz_point",
+        "local_to_unix_time",
         "odr_to_route_point",
         "resolve_relative_path",
         "resolve_relative_trajectory",
@@ -80,6 +35,9 @@ MAKERS = frozenset(
     }
 )
 """Methods whose result is the same at any time."""
+
+MOST_CALLS = 50
+"""Methods that call each other, at most; a method may call itself for ever."""
 
 _ARITHMETIC: Mapping[str, Callable[[float, float], float]] = {
     "+": operator.add,
@@ -102,15 +60,38 @@ class Values:
     Args:
         scenario: The scenario.
         given: Values of fields that an invocation hands in.
+        types: The types of the module.
+        arguments: Values of parameters, inside a method.
     """
 
-    def __init__(self, scenario: ir.Scenario, given: Mapping[str, Constant] | None = None) -> None:
+    def __init__(
+        self,
+        scenario: ir.Scenario,
+        given: Mapping[str, Constant] | None = None,
+        types: OwnTypes | None = None,
+        arguments: Mapping[str, Constant] | None = None,
+    ) -> None:
+        self._scenario = scenario
         self._declared = {d.name: d for d in scenario.declarations}
+        self._methods = {m.name: m for m in scenario.methods}
         self._given = dict(given or {})
+        self._types = types or OwnTypes()
+        self._arguments = dict(arguments or {})
+        self._depth = 0
+        self._hidden: dict[str, Inexpressible] = {}
+        self._sizes: dict[str, Mapping[tuple[str, ...], float]] = {}
+
+    def know(self, actor: str, sizes: Mapping[tuple[str, ...], float]) -> None:
+        """Note what an actor is like where the scenario does not say it."""
+        self._sizes[actor] = sizes
+
+    def hide(self, name: str, why: Inexpressible) -> None:
+        """Note that a field has a value from outside that is only known during the run."""
+        self._hidden[name] = why
 
     def is_given(self, name: str) -> bool:
         """Whether a field has a value from outside."""
-        return name in self._given
+        return name in self._given or name in self._hidden
 
     def number(self, expression: ir.Expression) -> float:
         """Return a number, in SI units.
@@ -139,10 +120,22 @@ class Values:
     def field(self, name: str, path: tuple[str, ...]) -> Constant | None:
         """Return what a constraint fixes about an actor or struct; `None` if nothing does."""
         declaration = self._declared.get(name)
+        if declaration is None and "." in name:
+            owner, *inner = name.split(".")
+            return self.field(owner, (*inner, *path))
         if isinstance(declaration, (ir.Actor, ir.Struct)):
             for value in declaration.values:
                 if value.path == path:
                     return self.of(value.value)
+                is_part = value.path == path[: len(value.path)] and len(value.path) < len(path)
+                whole = self.of(value.value) if is_part else None
+                if isinstance(whole, Named):  # a struct of the scenario says it
+                    return self.field(whole.name, path[len(value.path) :])
+            is_inner = any(value.path[: len(path)] == path for value in declaration.values)
+            if is_inner and isinstance(declaration, ir.Struct):
+                return Named(".".join((name, *path)))  # whose own members are fixed
+            default = self._types.default(declaration.type, path)
+            return None if default is None else self.of(default)
         return None
 
     def type_of(self, name: str) -> str:
@@ -170,6 +163,8 @@ class Values:
                 return Member(expression.type.name, member)
             case ir.FieldRef():
                 return self._field(expression)
+            case ir.ParameterRef(name=name) if name in self._arguments:
+                return self._arguments[name]
             case ir.Attribute(base=base, name=name):
                 return self._attribute(expression, base, name)
             case ir.Unary(operator=sign, operand=operand):
@@ -180,6 +175,10 @@ class Values:
                 return self.of(yes if self.of(condition) else no)
             case ir.ListValue(elements=elements):
                 return tuple(self.of(each) for each in elements)
+            case ir.Index(base=base, index=index):
+                return self._element(expression, base, index)
+            case ir.ListOperation(base=base, operator=ir.ListOperator.SIZE):
+                return len(self._list(base))
             case ir.RangeValue(lower=lower, upper=upper):
                 return Bounds(self.number(lower), self.number(upper))
             case ir.Conversion(operand=operand):
@@ -187,6 +186,8 @@ class Values:
             case ir.MethodCall(base=ir.FieldRef(name=owner), method=method) if method in MAKERS:
                 given = ((each.parameter, self.of(each.value)) for each in expression.arguments)
                 return Made(method, owner, tuple(given))
+            case ir.MethodCall(base=ir.ScenarioSelf(), method=method) if method in self._methods:
+                return self._result(expression, self._methods[method])
         raise Inexpressible(
             f"`{expression.span.text}` is only known during the run, and OpenSCENARIO XML"
             " does not compute",
@@ -194,6 +195,8 @@ class Values:
         )
 
     def _field(self, reference: ir.FieldRef) -> Constant:
+        if reference.name in self._hidden:
+            raise Inexpressible(self._hidden[reference.name].reason, reference.span)
         if reference.name in self._given:
             return self._given[reference.name]
         declaration = self._declared.get(reference.name)
@@ -221,15 +224,51 @@ class Values:
         while isinstance(base, ir.Attribute):
             path.insert(0, base.name)
             base = base.base
-        if isinstance(base, ir.FieldRef):
+        if isinstance(base, (ir.FieldRef, ir.ParameterRef)):
             owner = self.of(base)
             if isinstance(owner, Named):
                 value = self.field(owner.name, tuple(path))
+                if value is None:
+                    value = self._sizes.get(owner.name, {}).get(tuple(path))
                 if value is not None:
                     return value
         raise Inexpressible(
             f"`{expression.span.text}` is only known during the run", expression.span
         )
+
+    def _list(self, expression: ir.Expression) -> tuple[Constant, ...]:
+        value = self.of(expression)
+        if not isinstance(value, tuple):
+            raise Inexpressible(f"`{expression.span.text}` is no list", expression.span)
+        return value
+
+    def _element(
+        self, expression: ir.Expression, base: ir.Expression, index: ir.Expression
+    ) -> Constant:
+        elements, number = self._list(base), int(self.number(index))
+        if not 0 <= number < len(elements):
+            raise Inexpressible(f"`{expression.span.text}`: the list is shorter", expression.span)
+        return elements[number]
+
+    def _result(self, call: ir.MethodCall, method: ir.Method) -> Constant:
+        pairs = zip(method.parameters, call.arguments, strict=False)
+        return self.result_of(method, {a.parameter or p.name: self.of(a.value) for p, a in pairs})
+
+    def result_of(self, method: ir.Method, given: Mapping[str, Constant]) -> Constant:
+        """Return what a method of the scenario returns for arguments by parameter.
+
+        Raises:
+            Inexpressible: It is only known during the run.
+        """
+        if method.expression is None or self._depth == MOST_CALLS:
+            text = f"what `{method.name}` returns is only known during the run"
+            raise Inexpressible(text, method.span)
+        arguments = {p.name: self.of(p.default) for p in method.parameters if p.default is not None}
+        arguments.update(given)
+        inner = Values(self._scenario, self._given, self._types, arguments)
+        inner._sizes = self._sizes
+        inner._depth = self._depth + 1
+        return inner.of(method.expression)
 
     def _unary(self, sign: str, operand: ir.Expression) -> Constant:
         return not self.of(operand) if sign == "not" else -self.number(operand)
@@ -243,7 +282,7 @@ class Values:
             decided = left if name == "or" else not left
             return left if decided else bool(self.of(expression.right))
         if name in ("==", "!="):
-            same = self.of(expression.left) == self.of(expression.right)
+            same = _plain(self.of(expression.left)) == _plain(self.of(expression.right))
             return same is (name == "==")
         left_number, right_number = self.number(expression.left), self.number(expression.right)
         if name in _COMPARISONS:
@@ -257,3 +296,8 @@ class Values:
     def _converted(self, expression: ir.Expression, operand: ir.Expression) -> Constant:
         value = self.number(operand)
         return int(value) if expression.type.kind is ir.Kind.INTEGER else value
+
+
+def _plain(value: Constant) -> Constant:
+    """Return the nominal value of a symbol: as numbers of documents, only equal texts are equal."""
+    return float(value) if isinstance(value, Symbol) else value

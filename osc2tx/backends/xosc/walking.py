@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from osc2tx.backends.xosc.facts import Pose, Profile, course_of_speed
+from osc2tx.backends.xosc.facts import Profile, course_of_speed
+from osc2tx.backends.xosc.facts_roads import Pose
 from osc2tx.backends.xosc.leaf import Change, Leaf
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.speeds import jump_to

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import unit_alias, write_instead
+from osc2tx.semantics.constants import constant_number
 from osc2tx.semantics.conversions import common_type, is_numeric
 from osc2tx.semantics.dialects import UNIT_ALIASES
 from osc2tx.semantics.repeats import report_disputed
@@ -72,4 +73,19 @@ def infer_range(
     if common is None:
         r.report("OSC302", node.span, f"the bounds are `{lower}` and `{upper}`")
         return ERROR
+    if r.standard < "2.2":
+        _check_order(r, node)
     return RangeType(common)
+
+
+def _check_order(r: Resolution, node: ast.RangeLiteral) -> None:
+    """Report a range with the upper bound first: only 2.2 says that the order is free."""
+    lower, upper = constant_number(r, node.lower), constant_number(r, node.upper)
+    if lower is not None and upper is not None and upper < lower:
+        r.report(
+            "OSC323",
+            node.span,
+            "the upper bound stands first",
+            help=f"write `[{node.upper.span.text}..{node.lower.span.text}]`, which it is taken as",
+            notes=["from 2.2 on the order is free (`--std 2.2`)"],
+        )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx.diagnostics.nearest import did_you_mean
 from osc2tx.semantics.aliases import enum_member_alias, write_instead
-from osc2tx.semantics.conversions import converts, symbol_of, type_of_owner
+from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
 from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -51,6 +51,7 @@ def enum_member_of(name: ast.Name, expected: Type | None) -> EnumMemberSymbol | 
     """Return the member of that name of the expected enum type."""
     if isinstance(expected, ListType | RangeType):
         expected = expected.element
+    expected = expected and (stand_in(expected) or expected)
     if isinstance(expected, EnumType):
         return expected.symbol.members.get(name.text)
     return None

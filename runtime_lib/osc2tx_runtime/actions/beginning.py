@@ -11,15 +11,17 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.places import Placer
-from osc2tx_runtime.poses import heading_of, headings_of
+from osc2tx_runtime.poses import heading_of, headings_of, tilt_of
 from osc2tx_runtime.routes import along_lane
 from osc2tx_runtime.world.curve import turn_between
 from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
 
 from .groups import PLACES
-from .sides import lanes_wanted
+from .lateral_speeds import lateral_speed_bounds
+from .shifts import lanes_wanted
 from .speeds import speed_at_start
 from .support import Refused
+from .turning import check_tilt
 from .ways import way_to
 
 if TYPE_CHECKING:
@@ -51,7 +53,7 @@ def hold_or_jump(action: ShapedAction) -> bool:
             _check(action, modifier)
         return False
     if places:
-        speeds = [modifier for modifier in at_start if isinstance(modifier, Speed)]
+        speeds = [m for m in at_start if isinstance(m, Speed) and m.direction == "longitudinal"]
         _jump(action, [*places, *speeds])
     return bool(places)
 
@@ -60,14 +62,21 @@ def _jump(action: ShapedAction, modifiers: Sequence[Modifier]) -> None:
     actor_id, world = action.actor.id, action.world
     if not any(isinstance(modifier, Position | Lane | Lateral) for modifier in modifiers):
         heading = heading_of(world, action.movable, modifiers, action.here)
-        action.effect("heading", heading, lambda: world.assign(actor_id, heading=heading))
+        tilt = tilt_of(world, modifiers, action.here)
+        action.effect(
+            "attitude",
+            (heading, tilt),
+            lambda: world.assign(actor_id, heading=heading, tilt=tilt),
+        )
         return
     draws = action.generator(f"{action.action_name} start")
     spot = Placer(world).spot(action.movable, modifiers, action.here, draws=draws)
     action.effect(
         "position",
         tuple(spot),
-        lambda: world.assign(actor_id, at=spot.at, speed=spot.speed, heading=spot.heading),
+        lambda: world.assign(
+            actor_id, at=spot.at, speed=spot.speed, heading=spot.heading, tilt=spot.tilt
+        ),
     )
 
 
@@ -76,6 +85,10 @@ def _check(action: ShapedAction, modifier: Modifier) -> None:
         case Speed(direction="longitudinal"):
             low, high = speed_at_start(action, modifier)
             _within(action.here.v, low, high, _SPEED_NEAR, "its speed is", "m/s")
+        case Speed():
+            low, high = lateral_speed_bounds(action, modifier)
+            aside = action.here.lateral_speed
+            _within(aside, low, high, _SPEED_NEAR, "its lateral speed is", "m/s")
         case Position():
             _check_place(action, modifier)
         case Lane():
@@ -90,8 +103,10 @@ def _check(action: ShapedAction, modifier: Modifier) -> None:
         case Lateral():
             _check_lateral(action, modifier)
         case Yaw() | Orient():
+            check_tilt(action, modifier)
             found = headings_of(action.world, action.movable, [modifier], action.here)
-            assert found is not None  # it is one of them
+            if found is None:
+                return
             low, high = found
             turn = turn_between(low, action.here.h)
             if not -_TURNED <= turn <= high - low + _TURNED:

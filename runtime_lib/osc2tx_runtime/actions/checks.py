@@ -4,62 +4,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from osc2tx_runtime.argument_rules import Rule, at_least_one, check_arguments
+from osc2tx_runtime.argument_rules import check_arguments
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.modifiers import (
-    Acceleration,
-    Along,
-    AlongTrajectory,
-    ChangeLane,
-    ChangeSpeed,
-    Distance,
-    KeepLane,
-    KeepPosition,
-    KeepSpeed,
-    Lane,
-    Lateral,
-    Modifier,
-    Orient,
-    Position,
-    Speed,
-    Yaw,
+from osc2tx_runtime.modifiers import Acceleration, Distance, Modifier, Position, Speed
+
+from .combinations import (
+    CONFLICTS,
+    CONTRADICTIONS,
+    EXCLUSIVE,
+    MOVING,
+    NO_START,
+    ON_LANES,
+    STARTING,
+    sorts_of,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from .shaped import ShapedAction
 
-__all__ = ["CONFLICTS", "EXCLUSIVE", "MOVING", "NO_START", "check_modifiers", "check_options"]
+__all__ = ["check_modifiers", "check_options"]
 
 ModifierT = TypeVar("ModifierT", bound=Modifier)
-
-# Of each group an action takes one; what stands in two groups speaks of both things.
-EXCLUSIVE: tuple[tuple[type[Modifier], ...], ...] = (
-    (ChangeSpeed, KeepSpeed, Position, KeepPosition, AlongTrajectory),
-    (Lane, ChangeLane, KeepLane, Yaw, Orient, Along, AlongTrajectory),
-    (Lateral, Yaw, Orient, Along, AlongTrajectory),
-)
-
-# What a modifier leaves no room for, though those others go together.
-CONFLICTS: Mapping[str, tuple[type[Modifier], ...]] = {
-    "acceleration": EXCLUSIVE[0],
-    "speed": EXCLUSIVE[0],
-    "lateral speed": (Lane, Lateral, ChangeLane, KeepLane, Yaw, Orient, Along),
-}
-
-# What a modifier needs in an action, unlike as a start.
-MOVING: Mapping[str, tuple[Rule, ...]] = {
-    "position": (at_least_one("ahead_of", "behind", when=["at"], values=["all"]),)
-}
-
-NO_START: dict[type[Modifier], str] = {
-    ChangeSpeed: "cannot change the speed at the start",
-    ChangeLane: "cannot change the lane at the start",
-    Distance: "is covered during the action, not at its start",
-    Along: "does not take effect at the start; use position(at: start) for a place on it",
-    AlongTrajectory: "does not take effect at the start; use position(at: start)",
-}
 
 
 def check_modifiers(action: ShapedAction) -> None:
@@ -71,24 +38,43 @@ def check_modifiers(action: ShapedAction) -> None:
     """
     lasting, name = action.lasting, action.action_name
     along = [m for m in lasting if isinstance(m, Speed) and m.direction == "longitudinal"]
-    across = [m for m in action.modifiers if isinstance(m, Speed) and m.direction == "lateral"]
     rest = [m for m in lasting if not isinstance(m, Speed)]
-    room = _room_for_place(action, along)
-    for first in (along, _of(rest, Acceleration)):
-        kinds = CONFLICTS[first[0].name] if first else ()
-        _alone(name, first, rest, tuple(k for k in kinds if k is not Position or not room))
+    for modifier in lasting:
+        _conflicts(action, modifier, along)
     if action.duration is not None or action.end_is_known:
         if not _arrives(action, along):
             _alone(name, along, rest, (Distance,))
         _alone(name, _of(rest, Acceleration), rest, (Distance,))
     for kinds in EXCLUSIVE:
         _exclusive(name, rest, *kinds)
-    _alone(name, across, rest, CONFLICTS["lateral speed"])
-    _twice(action, rest)
-    _at(action, across)
-    _two_speeds(action, along)
-    _position(action, _of(rest, Position))
-    _one_measure(name, rest)
+    _twice(action)
+    _at(action)
+    _contradictions(action)
+    for modifier in lasting:
+        at = getattr(modifier, "at", "all")
+        rules = MOVING.get(modifier.name, ())
+        check_arguments(f"{name}: {modifier.name}", rules, {**modifier.given(), "at": at})
+
+
+def _conflicts(action: ShapedAction, modifier: Modifier, along: Sequence[Speed]) -> None:
+    """Refuses what a modifier leaves no room for."""
+    room = not _shaped(action) and _room_for_place(action, along)
+    for sort in sorted(sorts_of(modifier)):
+        kinds = CONFLICTS.get(sort, ())
+        if sort in ("speed", "acceleration") and room:
+            kinds = tuple(kind for kind in kinds if kind is not Position)
+        others = [m for m in action.lasting if m is not modifier and _is_along(m)]
+        _alone(action.action_name, [modifier], others, kinds)
+
+
+def _is_along(modifier: Modifier) -> bool:
+    """Whether it is no speed across the lane, which leaves room for everything along it."""
+    return not isinstance(modifier, Speed) or modifier.direction == "longitudinal"
+
+
+def _shaped(action: ShapedAction) -> bool:
+    """Whether a shape says where the actor is."""
+    return any(position.shape is not None for position in _of(action.lasting, Position))
 
 
 def _room_for_place(action: ShapedAction, speeds: Sequence[Speed]) -> bool:
@@ -133,61 +119,40 @@ def _refuse(name: str, one: Modifier, other: Modifier) -> None:
     raise UnsupportedError(f"{name}: {one.name} and {other.name} speak of the same thing; give one")
 
 
-def _twice(action: ShapedAction, lasting: Sequence[Modifier]) -> None:
+def _twice(action: ShapedAction) -> None:
     starts = [m for m in action.modifiers if m not in action.lasting]
-    for group in (lasting, starts):
+    for group in (action.lasting, starts):
+        found: set[frozenset[str]] = set()
         for modifier in group:
-            if sum(type(other) is type(modifier) for other in group) > 1:
+            sort = frozenset((modifier.name, *({"lateral speed"} & sorts_of(modifier))))
+            if sort in found:
                 raise ScenarioError(f"{action.action_name} has {modifier.name} twice")
+            found.add(sort)
 
 
-def _at(action: ShapedAction, across: Sequence[Speed]) -> None:
+def _at(action: ShapedAction) -> None:
     for modifier in action.modifiers:
-        why = NO_START.get(type(modifier))
-        if why is not None and getattr(modifier, "at", "all") == "start":
-            raise UnsupportedError(f"{action.action_name}: {modifier.name} {why}")
-    for speed in across:
-        if speed.at != "all" or speed.reference is not None or speed.shaped:
-            raise UnsupportedError(
-                f"{action.action_name}: a lateral speed holds all the time, and has no reference"
-            )
-
-
-def _two_speeds(action: ShapedAction, lasting: Sequence[Speed]) -> None:
-    name = action.action_name
-    if len(lasting) > 1:
-        raise ScenarioError(f"{name} has two speeds for one time", action.source or None)
-    for speed in lasting:
-        if speed.reference is not None and speed.shaped and not speed.projected:
-            raise UnsupportedError(f"{name}: a speed relative to an actor takes no rate")
-
-
-def _position(action: ShapedAction, lasting: Sequence[Position]) -> None:
-    name = action.action_name
-    for position in lasting:
-        if position.reference is not None or position.at == "end":
-            if position.absolute and not position.project_on_route:
-                raise UnsupportedError(
-                    f"{name}: only change_position goes to a point off the lanes"
-                )
-            if _of(action.modifiers, Along) and position.reference is None:
-                raise UnsupportedError(
-                    f"{name}: position without a reference counts along the lane, and along"
-                    " leaves it"
-                )
+        if getattr(modifier, "at", "all") != "start":
             continue
-        given = {**position.given(), "at": position.at}
-        check_arguments(f"{name}: position", MOVING["position"], given)
+        why = NO_START.get(type(modifier))
+        if why is not None:
+            raise UnsupportedError(f"{action.action_name}: {modifier.name} {why}")
+        what = f"{action.action_name}: {modifier.name}"
+        check_arguments(what, STARTING, {**modifier.given(), "at": "start"})
 
 
-def _one_measure(name: str, lasting: Sequence[Modifier]) -> None:
-    lanes = any(isinstance(other, Lane | ChangeLane | KeepLane) for other in lasting)
-    for modifier in _of(lasting, Lateral):
-        beside = modifier.side_of is not None
-        if beside and lanes:
-            raise UnsupportedError(f"{name}: lateral beside an actor leaves no room for a lane")
-        if beside and modifier.shape is not None:
-            raise UnsupportedError(f"{name}: lateral beside an actor takes no shape")
+def _contradictions(action: ShapedAction) -> None:
+    for one, other in CONTRADICTIONS:
+        said = {
+            (name, value)
+            for modifier in action.modifiers
+            for name, value in modifier.given().items()
+            if isinstance(value, str)
+        }
+        if one in said and other in said:
+            raise UnsupportedError(
+                f"{action.action_name}: {one[1]} and {other[1]} exclude each other"
+            )
 
 
 def check_options(action: ShapedAction) -> None:
@@ -200,7 +165,7 @@ def check_options(action: ShapedAction) -> None:
         return
     for modifier in action.modifiers:
         sideways = isinstance(modifier, Speed) and modifier.direction == "lateral"
-        lanes = isinstance(modifier, Lane | Lateral | ChangeLane | KeepLane | Position)
+        lanes = isinstance(modifier, ON_LANES)
         starts = getattr(modifier, "at", "all") == "start"
         if sideways:
             raise UnsupportedError(

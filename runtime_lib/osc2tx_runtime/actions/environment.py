@@ -6,6 +6,8 @@ ever; here they take no time and their effect stays.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
@@ -24,6 +26,19 @@ if TYPE_CHECKING:
 __all__ = ["Air", "AssignCelestialPosition", "Clouds", "Fog", "Rain", "Snow", "Wind"]
 
 
+BOUNDS: Mapping[str, tuple[float, float, str]] = {
+    "temperature": (0.0, math.inf, " K"),
+    "pressure": (0.0, math.inf, " Pa"),
+    "relative_humidity": (0.0, 1.0, ""),
+    "rain_intensity": (0.0, math.inf, " m/s"),
+    "snow_intensity": (0.0, math.inf, " m/s"),
+    "wind_speed": (0.0, math.inf, " m/s"),
+    "visual_range": (0.0, math.inf, " m"),
+    "cloudiness": (0.0, 9.0, " okta"),  # 9: the sky cannot be seen
+}
+"""Least and greatest value of the environment, and its unit; angles can be any."""
+
+
 class _Weather(Action):
     """Sets values of the environment; those that are None stay."""
 
@@ -36,15 +51,21 @@ class _Weather(Action):
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         self.values = {name: value for name, value in values.items() if value is not None}
+        self._refused: str | None = None
 
     def on_start(self) -> None:
-        """Sets them."""
-        for name, value in self.values.items():
+        """Sets them, if they can be; values that depend on the world are known by now."""
+        values = {n: value() if callable(value) else value for n, value in self.values.items()}
+        problems = (_impossible(name, value) for name, value in values.items())
+        self._refused = next(filter(None, problems), None)
+        if self._refused is not None:
+            return
+        for name, value in values.items():
             self.effect(f"environment {name}", value, partial(self._set, name, value))
 
     def on_update(self) -> Status:
         """Ends at once."""
-        return Status.SUCCESS
+        return Status.SUCCESS if self._refused is None else self.fail(self._refused)
 
     def _set(self, name: str, value: float) -> None:
         context = self.context
@@ -52,6 +73,15 @@ class _Weather(Action):
         context.trace.environment(**{name: value})
         for actor_id, lights in switched.items():
             note_lights(context, actor_id, lights)
+
+
+def _impossible(name: str, value: float) -> str | None:
+    """Why a value cannot be; None if it can."""
+    least, most, unit = BOUNDS.get(name, (-math.inf, math.inf, ""))
+    if least <= value <= most:
+        return None
+    bound = f"below {least:g}" if value < least else f"above {most:g}"
+    return f"{name.replace('_', ' ')} {value:g}{unit} is {bound}{unit}"
 
 
 @action("environment", "air", ends="instant")

@@ -13,11 +13,13 @@ from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
-from osc2tx_runtime.world.commands import Beside, Command, KeepGap
+from osc2tx_runtime.world.commands import Beside, KeepGap
+from osc2tx_runtime.world.distances import RoadDirection
 
 from .groups import SIDE_FREE, SPEED_FREE
+from .in_time import arrival
 from .shaped import ShapedAction
-from .support import MotionAction, Refused
+from .support import Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Vehicle
@@ -39,9 +41,44 @@ _DIRECTIONS: tuple[GapDirection, ...] = ("ahead", "behind", "left", "right", "in
 
 
 class _OneAxis(ShapedAction):
-    """Controls the speed or the lane; modifiers may speak of the other one."""
+    """Controls the speed or the lane; modifiers may speak of the other one.
+
+    Attributes:
+        measure: Between facing ends, or from front to front.
+        timed: It is a time.
+    """
 
     accepts: ClassVar[tuple[type, ...]] = (*SIDE_FREE, *SPEED_FREE)
+    physical = True
+    measure: Literal["gap", "headway"] = "gap"
+    timed = False
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        reference: Vehicle,
+        across: bool,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.vehicle = actor
+        self.reference = reference
+        if across:
+            self.slots = (LATERAL,)
+
+    def gap(self, size: float, *, ahead: bool) -> KeepGap:
+        """The command for a size (m or s) along the road."""
+        distance, time = (None, size) if self.timed else (size, None)
+        return KeepGap(self.reference.id, ahead, self.measure, distance=distance, time=time)
+
+    def beside(self, size: float, *, left: bool, duration: float | None = None) -> Beside:
+        """The command for a size (m or s) across the road."""
+        if self.timed:
+            return Beside(self.reference.id, time=size)
+        reach = 0.5 * (self.here.width + self.world.state(self.reference.id).width)
+        place = size + reach if left else -size - reach
+        return Beside(self.reference.id, place, duration=duration)
 
     def takes(self, modifier: Modifier) -> bool:
         """Whether the action can carry out a modifier."""
@@ -60,10 +97,7 @@ class _OneAxis(ShapedAction):
 
 
 class _ChangeGap(_OneAxis):
-    """Reaches a distance or time to another actor."""
-
-    measure: Literal["gap", "headway"] = "gap"
-    timed = False
+    """Reaches a distance or time to another actor, at the end of its duration if it has one."""
 
     def __init__(
         self,
@@ -74,18 +108,15 @@ class _ChangeGap(_OneAxis):
         reference: Vehicle,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, *modifiers, **options)
+        across = direction not in ("ahead", "behind")
+        super().__init__(actor, *modifiers, reference=reference, across=across, **options)
         if direction not in _DIRECTIONS:
             known = ", ".join(_DIRECTIONS)
             raise ScenarioError(f"{self.action_name}: direction `{direction}` is none of {known}")
-        if self.measure == "headway" and direction not in ("ahead", "behind"):
+        if self.measure == "headway" and across:
             raise ScenarioError(f"{self.action_name}: a headway is ahead or behind")
         self.target = target
-        self.vehicle = actor
         self.direction = direction
-        self.reference = reference
-        if direction not in ("ahead", "behind"):
-            self.slots = (LATERAL,)
 
     def on_start(self) -> None:
         """Commands the gap; a negative one is on the other side."""
@@ -97,19 +128,25 @@ class _ChangeGap(_OneAxis):
             if self.timed and (gap == 0.0 or (gap > 0.0) != left):
                 side = "left" if left else "right"
                 raise Refused(f"it is not to the {side} of {self.reference.id}")
-            self.command(LATERAL, _beside(self, self.reference, size, left, self.timed))
+            command = self.beside(size, left=left, duration=self.fixed_duration())
+            self.command(LATERAL, command)
             return
         ahead = (self.direction == "ahead") == (target >= 0.0)
-        self.command(
-            LONGITUDINAL,
-            KeepGap(
-                self.reference.id,
-                ahead,
-                self.measure,
-                distance=None if self.timed else size,
-                time=size if self.timed else None,
-            ),
-        )
+        wanted = self.gap(size, ahead=ahead)
+        self.command(LONGITUDINAL, arrival(self, wanted) or wanted)
+
+    def situation(self) -> str:
+        """Return how large the distance is now."""
+        unit = "s" if self.timed else "m"
+        direction: RoadDirection = "lateral" if LATERAL in self.own else "longitudinal"
+        kind = "time" if self.timed else "space"
+        measure = getattr(self.vehicle, f"{kind}_{self.measure}")
+        headway = self.measure == "headway"
+        try:
+            now = measure(self.reference) if headway else measure(self.reference, direction)
+        except ScenarioError as error:
+            return error.message
+        return f"the {kind} {self.measure} is {abs(now):.2f} {unit}"
 
     def _leads_left(self) -> bool:
         """True if the direction is to the left of the reference."""
@@ -118,16 +155,6 @@ class _ChangeGap(_OneAxis):
         road = self.place_of(self.reference.id).road
         right_hand = self.world.map.roads[road].right_hand_traffic
         return (self.direction == "inside") == right_hand
-
-
-def _beside(
-    action: MotionAction, reference: Vehicle, size: float, left: bool, timed: bool
-) -> Command:
-    """The command for a gap (m or s) across the road."""
-    if timed:
-        return Beside(reference.id, time=size)
-    reach = 0.5 * (action.here.width + action.world.state(reference.id).width)
-    return Beside(reference.id, size + reach if left else -size - reach)
 
 
 @action("vehicle", "change_space_gap", slots=(LONGITUDINAL,))
@@ -160,9 +187,6 @@ class ChangeTimeHeadway(_ChangeGap):
 class _KeepGap(_OneAxis):
     """Holds the distance or time to another actor that there is at the start."""
 
-    measure: Literal["gap", "headway"] = "gap"
-    timed = False
-
     def __init__(
         self,
         actor: Vehicle,
@@ -171,16 +195,13 @@ class _KeepGap(_OneAxis):
         direction: Literal["longitudinal", "lateral"] = "longitudinal",
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, *modifiers, **options)
+        across = direction == "lateral"
+        super().__init__(actor, *modifiers, reference=reference, across=across, **options)
         if direction not in ("longitudinal", "lateral"):
             raise ScenarioError(
                 f"{self.action_name}: direction `{direction}` is neither longitudinal nor lateral"
             )
-        self.direction = direction
-        if direction == "lateral":
-            self.slots = (LATERAL,)
-        self.vehicle = actor
-        self.reference = reference
+        self.direction: RoadDirection = direction
 
     def on_start(self) -> None:
         """Samples the gap and commands it."""
@@ -193,19 +214,9 @@ class _KeepGap(_OneAxis):
             why = "the trailing one stands" if along else "none comes nearer"
             raise Refused(f"there is no time between actors of which {why}")
         if self.direction == "lateral":
-            command = _beside(self, self.reference, abs(size), size >= 0.0, self.timed)
-            self.command(LATERAL, command)
-            return
-        self.command(
-            LONGITUDINAL,
-            KeepGap(
-                self.reference.id,
-                size >= 0.0,
-                self.measure,
-                distance=None if self.timed else abs(size),
-                time=abs(size) if self.timed else None,
-            ),
-        )
+            self.command(LATERAL, self.beside(abs(size), left=size >= 0.0))
+        else:
+            self.command(LONGITUDINAL, self.gap(abs(size), ahead=size >= 0.0))
 
     def _sampled(self) -> float:
         """The present size; positive if the actor is ahead."""

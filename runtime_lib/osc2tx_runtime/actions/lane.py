@@ -6,22 +6,23 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.action import ActionOptions
+from osc2tx_runtime.argument_rules import above, at_least, at_most_one
 from osc2tx_runtime.behaviour.base import Status
 from osc2tx_runtime.behaviour.limits import Duration
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Modifier, Value, value_of
-from osc2tx_runtime.modifiers.base import band_of
+from osc2tx_runtime.modifiers.base import band_of, now
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.registry import LATERAL, action
 from osc2tx_runtime.world.commands import LaneChange
-from osc2tx_runtime.world.lanes import lanes_to_left, neighbouring
-from osc2tx_runtime.world.lateral import offset_from, shift_profile
+from osc2tx_runtime.world.lanes import lanes_to_left, neighbouring, offset_from
+from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.profiles import DynamicProfile
 
 from .groups import SPEED_FREE
-from .rated import check_profile
+from .rated import check_profile, peak_of
 from .shaped import ShapedAction
-from .sides import check_shift, jump_aside, lanes_to
+from .shifts import check_shift, jump_aside, lanes_to
 from .support import Refused
 
 if TYPE_CHECKING:
@@ -39,8 +40,22 @@ class _OnLane(ShapedAction):
     """Goes to a place across the road."""
 
     accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
-    rate_profile: DynamicProfile
-    rate_peak: float | None
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        course: tuple[DynamicProfile, Value | None],
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.rate_profile, self._rate_peak = course
+        check_profile(self.action_name, self.rate_profile)
+
+    @property
+    def rate_peak(self) -> float | None:
+        """The peak of the lateral speed (m/s) now; None if none is given."""
+        return peak_of(self._rate_peak, "m/s")
 
     def shift(self, lanes: int, offset: float, duration: Duration | None) -> None:
         """Commands the way to a lane (so many to the left) and an offset (m) in it.
@@ -51,30 +66,31 @@ class _OnLane(ShapedAction):
         if self.may_jump:
             jump_aside(self, lanes, offset)
             return
-        if self.rate_peak is not None and self.rate_peak <= 0.0:
-            raise Refused(f"rate_peak {self.rate_peak:g} m/s is not positive")
+        peak = self.rate_peak
         there = neighbouring(self.world.map, self.place_of(self.actor.id), lanes)
         time = None
         if there is not None and duration is not None and self.rate_profile != "asap":
-            time = self._time(there, offset, duration)
-            if self.option() == "must_be_physical" and time is not None:
+            time = self._time(there, offset, duration, peak)
+            if self.strict and time is not None:
                 check_shift(self, lanes, offset, time)
-        self.command(LATERAL, LaneChange(lanes, offset, self.rate_profile, self.rate_peak, time))
+        self.command(LATERAL, LaneChange(lanes, offset, self.rate_profile, peak, time))
 
-    def _time(self, there: LanePosition, offset: float, duration: Duration) -> float | None:
+    def _time(
+        self, there: LanePosition, offset: float, duration: Duration, peak: float | None
+    ) -> float | None:
         """How long it is to take, where the duration leaves a choice."""
         here, place = self.here, LanePosition(there.road, there.lane, there.s)
         start = offset_from(self.world.map, place, here.x, here.y)
-        course = (self.rate_profile, self.rate_peak, None)
+        course = (self.rate_profile, peak, None)
         own = shift_profile(start, offset, here.lateral_speed, course, self.limits).duration
         low, high = duration if isinstance(duration, tuple) else (duration, duration)
         if low - self.context.dt <= own <= high + self.context.dt and low < high:
             return None
-        if self.rate_peak is None:
+        if peak is None:
             return min(max(own, low), high)
         if abs(own - min(max(own, low), high)) > self.context.dt:
             raise Refused(
-                f"with rate_peak {self.rate_peak:g} m/s it takes {own:.2f} s, not"
+                f"with rate_peak {peak:g} m/s it takes {own:.2f} s, not"
                 f" {low if own < low else high:g} s"
             )
         return None
@@ -100,35 +116,33 @@ class ChangeLane(_OnLane):
         **options: Duration and label.
     """
 
+    rules = (
+        at_most_one("target", "side"),
+        at_most_one("target", "reference"),
+        at_least(0, "num_of_lanes"),
+        above(0, "rate_peak"),
+    )
+
     def __init__(
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        num_of_lanes: int = 1,
+        num_of_lanes: int | Callable[[], int] = 1,
         side: LaneSide | None = None,
         reference: PhysicalObject | None = None,
         offset: Value = 0.0,
         rate_profile: DynamicProfile = "none",
-        rate_peak: float | None = None,
+        rate_peak: Value | None = None,
         target: Lane | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, *modifiers, **options)
-        check_profile(self.action_name, rate_profile)
+        super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
         if side is not None and side not in SIDES:
             raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
-        if num_of_lanes < 0:
-            raise ScenarioError(f"{self.action_name}: num_of_lanes {num_of_lanes} is negative")
-        if target is not None and (side is not None or reference is not None):
-            raise ScenarioError(
-                f"{self.action_name}: target leaves no room for a side or reference"
-            )
         self.num_of_lanes = num_of_lanes
         self.side = side
         self.reference = reference
         self.offset = offset
-        self.rate_profile = rate_profile
-        self.rate_peak = rate_peak
         self.target = target
 
     def on_start(self) -> None:
@@ -151,9 +165,12 @@ class ChangeLane(_OnLane):
             beside = lanes_to_left(self.world.map, own, self.place_of(self.reference.id))
         if self.side == "same":
             return beside
-        return beside + self.num_of_lanes * self._direction()
+        count = now(self.num_of_lanes)
+        if count < 0:
+            raise Refused(f"num_of_lanes {count} is negative")
+        return beside + count * self._direction(count)
 
-    def _direction(self) -> int:
+    def _direction(self, count: int) -> int:
         """1 for left, -1 for right."""
         own = self.place_of(self.actor.id)
         right_hand = self.world.map.roads[own.road].right_hand_traffic
@@ -166,7 +183,7 @@ class ChangeLane(_OnLane):
                 return 1 if right_hand else -1
             case "outside":
                 return -1 if right_hand else 1
-        return 1 if self.drawn_side(self.num_of_lanes) == "left" else -1
+        return 1 if self.drawn_side(count) == "left" else -1
 
 
 @action("vehicle", "follow_lane", slots=(LATERAL,), ends="open")
@@ -184,6 +201,8 @@ class FollowLane(_OnLane):
         **options: Duration and label.
     """
 
+    rules = (at_most_one("offset", "offset_range"), above(0, "rate_peak"))
+
     def __init__(
         self,
         actor: Vehicle,
@@ -191,23 +210,18 @@ class FollowLane(_OnLane):
         offset: Value | None = None,
         offset_range: Range[float] | Callable[[], Range[float]] | None = None,
         rate_profile: DynamicProfile = "none",
-        rate_peak: float | None = None,
+        rate_peak: Value | None = None,
         target: Lane | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, *modifiers, **options)
-        check_profile(self.action_name, rate_profile)
-        if offset is not None and offset_range is not None:
-            raise ScenarioError(f"{self.action_name}: give offset or offset_range, not both")
+        super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
         self.offset = offset
         self.offset_range = offset_range
-        self.rate_profile = rate_profile
-        self.rate_peak = rate_peak
         self.target = target
 
     def on_start(self) -> None:
         """Commands the offset."""
         lanes = 0 if self.target is None else lanes_to(self, self.target)
         low, high = band_of(self.offset, self.offset_range)
-        now = self.place_of(self.actor.id).offset if lanes == 0 else 0.0
-        self.shift(lanes, min(max(now, low), high), None)
+        here = self.place_of(self.actor.id).offset if lanes == 0 else 0.0
+        self.shift(lanes, min(max(here, low), high), None)

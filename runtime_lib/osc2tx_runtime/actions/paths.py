@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one
-from osc2tx_runtime.modifiers import Modifier, PhysicalMovement
+from osc2tx_runtime.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.modifiers.base import now
-from osc2tx_runtime.paths import absolute
-from osc2tx_runtime.poses import one_of_kind
-from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
-from osc2tx_runtime.values import (
+from osc2tx_runtime.path_values import (
     Path,
-    Pose,
     RelativePath,
     RelativeTrajectory,
     RelativeTransform,
     Trajectory,
 )
+from osc2tx_runtime.paths import absolute
+from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.values import Pose
 from osc2tx_runtime.world.commands import Command
 
 from .courses import path_command, trajectory_commands
@@ -78,8 +78,8 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
         relative: RelativeT | Callable[[], RelativeT] | None = None,
         reference: PhysicalObject | None = None,
         transform: RelativeTransform = "object_relative",
-        start_offset: float = 0.0,
-        end_offset: float = 0.0,
+        start_offset: Value = 0.0,
+        end_offset: Value = 0.0,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
@@ -87,7 +87,12 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
         self.relative: RelativeT | Callable[[], RelativeT] | None = relative
         self.reference = reference or actor
         self.transform: RelativeTransform = transform
-        self.offsets = (start_offset, end_offset)
+        self._offsets = (start_offset, end_offset)
+
+    @property
+    def offsets(self) -> tuple[float, float]:
+        """Metres that are left out at the start and at the end, now."""
+        return value_of(self._offsets[0]), value_of(self._offsets[1])
 
     def course(self) -> CourseT:
         """The course in the world, now."""

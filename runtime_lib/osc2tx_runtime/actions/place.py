@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one
-from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.modifiers.base import now
 from osc2tx_runtime.places import Placer
 from osc2tx_runtime.poses import place_of_odr
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.routes import place_of_route
+from osc2tx_runtime.spots import Spot
 from osc2tx_runtime.values import OdrPoint, Orientation, Point, RoutePoint
+from osc2tx_runtime.world.attitude import Tilt
 
 from .support import OneStepAction
 
@@ -62,32 +63,37 @@ class AssignPosition(OneStepAction):
         point: Target | None = now(self.point)
         match point:
             case OdrPoint():
-                at, speed, heading = place_of_odr(self.world.map, point), None, None
+                spot = Spot(place_of_odr(self.world.map, point), None, None)
             case RoutePoint():
-                at, speed, heading = place_of_route(self.world.map, point), None, None
+                spot = Spot(place_of_route(self.world.map, point), None, None)
             case _:
                 modifiers = self.modifiers
                 if point is not None:
                     modifiers = (Position(at_point=point, project_on_route=False),)
                 spot = placer.spot(self.movable, modifiers, self.here)
-                at, speed, heading = spot.at, spot.speed, spot.heading
         actor_id = self.actor.id
         self.effect(
             "position",
-            (at, speed, heading),
-            lambda: self.world.assign(actor_id, at=at, speed=speed, heading=heading),
+            tuple(spot),
+            lambda: self.world.assign(
+                actor_id, at=spot.at, speed=spot.speed, heading=spot.heading, tilt=spot.tilt
+            ),
         )
 
 
 @action("movable_object", "assign_orientation", slots=(LATERAL,))
 class AssignOrientation(OneStepAction):
-    """Have a heading at the next step; not for vehicles on a lane, which follow it."""
+    """Have a heading, pitch and roll at the next step.
+
+    A vehicle goes back to its lane from there, and on its wheels as soon as they roll; others keep
+    what they were told. A pitch or roll of zero leaves it to the road.
+    """
 
     def __init__(
         self,
         actor: MovableObject,
         *modifiers: Modifier,
-        orientation: Orientation,
+        orientation: Orientation | Callable[[], Orientation],
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
@@ -96,10 +102,10 @@ class AssignOrientation(OneStepAction):
 
     def on_start(self) -> None:
         """Assigns it."""
-        if self.movable.lane_bound and self.here.lane_position is not None:
-            raise UnsupportedError(
-                f"{self.actor.id} follows its lane, so its orientation cannot be assigned",
-                self.source,
-            )
-        yaw = self.orientation.yaw
-        self.effect("heading", yaw, lambda: self.world.assign(self.actor.id, heading=yaw))
+        wanted, actor_id = now(self.orientation), self.actor.id
+        tilt = Tilt(wanted.pitch or None, wanted.roll or None)
+        self.effect(
+            "attitude",
+            (wanted.yaw, tilt),
+            lambda: self.world.assign(actor_id, heading=wanted.yaw, tilt=tilt),
+        )

@@ -5,23 +5,36 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
+from osc2tx_runtime.argument_rules import above
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.modifiers import Modifier, Value
+from osc2tx_runtime.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.world.profiles import PROFILES, DynamicProfile
 
+from .course_checks import check_peak
 from .groups import SIDE_FREE
 from .shaped import ShapedAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import MovableObject
 
-__all__ = ["RatedChange", "check_profile"]
+__all__ = ["RatedChange", "check_profile", "peak_of"]
 
 
 def check_profile(name: str, profile: str) -> None:
     """Refuses a profile that does not exist."""
     if profile not in PROFILES:
         raise ScenarioError(f"{name}: rate_profile `{profile}` is none of {', '.join(PROFILES)}")
+
+
+def peak_of(value: Value | None, unit: str) -> float | None:
+    """A peak of a rate now, in a unit for messages; None if none is given.
+
+    Raises:
+        Refused: It is not positive.
+    """
+    peak = None if value is None else value_of(value)
+    check_peak(peak, unit)
+    return peak
 
 
 class RatedChange(ShapedAction):
@@ -36,6 +49,8 @@ class RatedChange(ShapedAction):
         **options: Duration and label.
     """
 
+    rules = (above(0, "rate_peak"),)
+    unit: ClassVar[str]  # of the rate
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
 
     def __init__(
@@ -44,14 +59,23 @@ class RatedChange(ShapedAction):
         *modifiers: Modifier,
         target: Value,
         rate_profile: DynamicProfile = "none",
-        rate_peak: float | None = None,
+        rate_peak: Value | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         check_profile(self.action_name, rate_profile)
         self.target = target
         self.rate_profile: DynamicProfile = rate_profile
-        self.rate_peak = rate_peak
+        self._rate_peak = rate_peak
+
+    @property
+    def rate_peak(self) -> float | None:
+        """The peak of the rate now; None if none is given.
+
+        Raises:
+            Refused: It is not positive.
+        """
+        return peak_of(self._rate_peak, self.unit)
 
     def takes_too_long(self, peak: str, own: float) -> str | None:
         """Why peak and duration contradict each other; None if they fit, or there is no duration.

@@ -69,15 +69,18 @@ class ChangeAcceleration(RatedChange):
         **options: Duration and label.
     """
 
+    unit = "m/s^3"
+
     def on_start(self) -> None:
         """Commands the change."""
         target, here = value_of(self.target), self.here
         if self.may_jump:
             self.command(LONGITUDINAL, AccelerationChange(target, start=target))
             return
-        given = self.rate_peak is None and self.rate_profile != "asap"
+        peak = self.rate_peak
+        given = peak is None and self.rate_profile != "asap"
         change = AccelerationChange(
-            target, self.rate_profile, self.rate_peak, self.fixed_duration() if given else None
+            target, self.rate_profile, peak, self.fixed_duration() if given else None
         )
         reason = excessive_acceleration(target, here.v, self.limits) or self._contradiction(change)
         if reason is not None:
@@ -88,7 +91,5 @@ class ChangeAcceleration(RatedChange):
         peak = change.rate_peak
         if peak is None:
             return None
-        if peak <= 0.0:
-            return f"rate_peak {peak:g} m/s^3 is not positive"
         own = acceleration_profile(change, self.here.a, self.limits).duration
         return self.takes_too_long(f"{peak:g} m/s^3", own)

@@ -39,6 +39,7 @@ from .phases import phase_of
 from .sides import follow_reference, side_command
 from .speeds import speed_command
 from .support import MotionAction
+from .turning import lies_so, tilt_again
 from .ways import distance_to_cover, watched_place
 
 if TYPE_CHECKING:
@@ -57,11 +58,13 @@ class ShapedAction(MotionAction):
         movable: The actor.
         moves_itself: Whether its slots are its own, or those that modifiers speak of.
         commands_speed: Whether it has a command of its own where it controls the speed.
+        stands: Whether it goes nowhere, so that all its modifiers are about where it is.
         own: Slots that the action controls itself.
     """
 
     moves_itself: ClassVar[bool] = True
     commands_speed: ClassVar[bool] = True
+    stands: ClassVar[bool] = False
 
     def __init__(
         self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
@@ -125,10 +128,15 @@ class ShapedAction(MotionAction):
         match modifier:
             case Position() | Lane() | Lateral() | Yaw() | Orient() if starts:
                 return (LONGITUDINAL, LATERAL) if self.may_jump else ()
-            case Speed() if starts:
-                return (LONGITUDINAL,) if self.may_jump else ()
+            case Speed(direction=direction) if starts:
+                slot = LATERAL if direction == "lateral" else LONGITUDINAL
+                return (slot,) if self.may_jump else ()
             case Speed(direction="lateral"):
                 return (LATERAL,)
+            case Along(shape=shape) if shape is not None:
+                return (LONGITUDINAL, LATERAL)
+            case Distance(shape=shape) if shape is not None:
+                return (LONGITUDINAL,)
             case AlongTrajectory() | KeepPosition():
                 return (LONGITUDINAL, LATERAL)
             case AvoidCollisions(avoid=False):
@@ -138,6 +146,8 @@ class ShapedAction(MotionAction):
                 return (LONGITUDINAL,) if timed else ()
             case Along():
                 return (LATERAL,)
+            case Orient(yaw=None) if self.movable.lane_bound:
+                return ()
         if isinstance(modifier, SPEED_SHAPERS):
             return (LONGITUDINAL,)
         return (LATERAL,) if isinstance(modifier, (*LANE_SHAPERS, *TURN_SHAPERS)) else ()
@@ -217,6 +227,7 @@ class ShapedAction(MotionAction):
             self._reached = self._cover() >= self._to_cover - 1e-6
         if self._watched is not None:
             self._reached = self._watched.reached(self)
+        tilt_again(self)
         if self._toward is not None and self._toward != (now := follow_reference(self)):
             self._toward = now
             side = side_command(self)
@@ -233,8 +244,13 @@ class ShapedAction(MotionAction):
             over = self._phase.left <= 0
         if over and self.has_goal and not self._reached:
             missed = None if self._watched is None else self._watched.missed
-            return self.fail(missed or "it ends before what is to hold at its end does")
+            return self.fail(missed or self._not_reached())
         return Status.SUCCESS if over else status
+
+    def _not_reached(self) -> str:
+        ends = [m.name for m in self.modifiers if getattr(m, "at", "all") == "end"]
+        what = " and ".join(dict.fromkeys(f"`{name}(at: end)`" for name in ends)) or "its goal"
+        return f"its time is over before {what} is reached; give it more, or none"
 
     # --- goals --------------------------------------------------------------------------------
 
@@ -249,16 +265,19 @@ class ShapedAction(MotionAction):
             if (slot in self.own and not open_ended) or self._ends_with(slot)
         )
         watches = self._to_cover is not None or self._watched is not None
-        self._reached = reached and (not watches or self._reached)
+        self._reached = reached and (not watches or self._reached) and lies_so(self)
         return self._reached and self._phase is None
 
     def _ends_with(self, slot: str) -> bool:
         """Whether what is pursued in a slot belongs to the goal."""
         for modifier in self.modifiers:
             lasting = getattr(modifier, "at", "all") == "end" or isinstance(modifier, PATH_SHAPERS)
-            if self._watched is not None and isinstance(modifier, Position):
-                continue  # it is looked at by itself
-            if lasting and not isinstance(modifier, Distance) and slot in self._slots_of(modifier):
+            looked_at = self._watched is not None or self._to_cover is not None
+            if looked_at and isinstance(modifier, Position):
+                continue  # by itself
+            counted = isinstance(modifier, Distance) and modifier.shape is None
+            lasting = lasting or isinstance(modifier, Distance)
+            if lasting and not counted and slot in self._slots_of(modifier):
                 return True
         return False
 

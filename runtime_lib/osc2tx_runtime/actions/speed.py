@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.behaviour.base import Status
-from osc2tx_runtime.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import SpeedChange, Standstill
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
 
-from .groups import SIDE_FREE
+from .groups import PLACES, SIDE_FREE
 from .rated import RatedChange
 from .shaped import ShapedAction
 from .support import OneStepAction, Refused
@@ -36,11 +36,12 @@ class ChangeSpeed(RatedChange):
         **options: Duration and label.
     """
 
+    unit = "m/s^2"
+
     def on_start(self) -> None:
         """Commands the change, or nothing if the speed is there already."""
         change = self._change(value_of(self.target))
-        strict = self.option() == "must_be_physical"
-        reason = excessive_rate(change, self.here.v, self.limits if strict else self.tyres)
+        reason = excessive_rate(change, self.here.v, self.limits if self.strict else self.tyres)
         reason = None if self.may_jump else reason or self._contradiction(change)
         if reason is not None:
             raise Refused(reason)
@@ -58,7 +59,7 @@ class ChangeSpeed(RatedChange):
         if self.may_jump:
             return SpeedChange(target, "constant", None, 0.0)
         change = SpeedChange(target, self.rate_profile, self.rate_peak)
-        if self.duration is None or self.rate_profile == "asap" or self.rate_peak is not None:
+        if self.duration is None or self.rate_profile == "asap" or change.rate_peak is not None:
             return change
         if not isinstance(self.duration, tuple):
             return dataclasses.replace(change, duration=float(self.duration))
@@ -103,8 +104,25 @@ class AssignSpeed(OneStepAction):
 
 @action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
 class RemainStationary(ShapedAction):
-    """Stand; an actor that moves brakes as hard as it can first."""
+    """Stand; an actor that moves brakes as hard as it can first.
+
+    Where it has to stand it has to be at the start: what holds then goes on to hold.
+    """
+
+    accepts: ClassVar[tuple[type, ...]] = (*PLACES, PhysicalMovement)
+    stands = True
+
+    def __init__(
+        self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
+    ) -> None:
+        at_start = (
+            dataclasses.replace(each, at="start") if isinstance(each, PLACES) else each
+            for each in modifiers
+        )
+        super().__init__(actor, *at_start, **options)
 
     def on_start(self) -> None:
         """Commands it."""
+        if self.may_jump:
+            self.effect("speed", 0.0, lambda: self.world.assign(self.actor.id, speed=0.0))
         self.command(LONGITUDINAL, Standstill())

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Literal
 from osc2tx_runtime.action import Action
 from osc2tx_runtime.behaviour.base import Status
 from osc2tx_runtime.errors import PlacementError, ScenarioError
-from osc2tx_runtime.modifiers import PhysicalMovement
+from osc2tx_runtime.modifiers import MovementModifier, PhysicalMovement
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.paths import PathError
 from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.registry import LONGITUDINAL
+from osc2tx_runtime.world.catalogue import TOP_SPEED
+from osc2tx_runtime.world.commands import Careful, Command, SpeedChange
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
@@ -47,6 +50,26 @@ class MotionAction(Action):
     def here(self) -> ActorState:
         """State of the actor at the present step."""
         return self.context.world.state(self.actor.id)
+
+    def command(self, slot: str, command: Command) -> None:
+        """Command the actor in a claimed slot.
+
+        Raises:
+            Refused: By its own place or speed, which is whatever it makes it; or to a speed that
+                nothing on a road has.
+        """
+        course = command.course if isinstance(command, Careful) else command
+        if isinstance(course, SpeedChange) and abs(course.target) > TOP_SPEED and not self.may_jump:
+            raise Refused(f"{course.target:.1f} m/s is beyond the {TOP_SPEED:g} m/s it can do")
+        if getattr(course, "reference", None) == self.actor.id:
+            raise Refused(f"{self.actor.id} cannot be its own reference; name another actor")
+        super().command(slot, command)
+
+    def situation(self) -> str:
+        """Return that it stands, which is why things do not come about."""
+        if not self.slots or self.actor.id not in self.world.actors():
+            return ""
+        return f"{self.actor.id} stands" if self.here.v == 0.0 else ""
 
     def place_of(self, actor_id: str) -> LanePosition:
         """Place of an actor on the lanes.
@@ -85,7 +108,8 @@ class MotionAction(Action):
         if self.elapsed_steps == 0:
             return Status.RUNNING  # the commands act from now on
         done, progress_of, actor_id = {}, self.context.world.progress, self.actor.id
-        for slot in self.slots:
+        # Who commands nothing goes on as it is, and may come to the end of the road as well.
+        for slot in self.slots or (LONGITUDINAL,):
             progress = progress_of(actor_id, slot)
             if progress.failed is not None:
                 return self.fail(progress.failed)
@@ -137,6 +161,12 @@ class MotionAction(Action):
     def may_jump(self) -> bool:
         """Whether physics need not hold."""
         return self.option() == "prefer_non_physical"
+
+    @property
+    def strict(self) -> bool:
+        """Whether the limits of the actor must hold, not only those of tyres."""
+        surprises = any(isinstance(m, MovementModifier) and m.monotonous for m in self.modifiers)
+        return self.option() == "must_be_physical" or surprises
 
 
 class OneStepAction(MotionAction):

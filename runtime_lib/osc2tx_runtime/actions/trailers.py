@@ -29,7 +29,7 @@ class ConnectTrailer(OneStepAction):
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
-        self.trailer = trailer
+        self.vehicle, self.trailer = actor, trailer
 
     def on_start(self) -> None:
         """Couples it, if it is near enough and free."""
@@ -44,6 +44,9 @@ class ConnectTrailer(OneStepAction):
                 f"the coupler of {trailer} is {gap:.1f} m from the hitch of {tow}; couple within"
                 f" {COUPLING_REACH:g} m"
             )
+        misfit = self.trailer.misfit(self.vehicle)
+        if misfit is not None:
+            raise Refused(f"{tow} cannot tow {trailer}: {misfit}")
         self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
 
 

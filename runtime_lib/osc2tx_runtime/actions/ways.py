@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.modifiers import Acceleration, Distance, Position, Speed, value_of
+from osc2tx_runtime.modifiers import Acceleration, Along, Distance, Position, Speed
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.poses import one_of_kind, pose_of
 from osc2tx_runtime.routes import along_lane
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "distance_to_cover",
     "lasting_position",
+    "position_shape",
     "speed_at_end",
     "speeds_of",
     "watched_place",
@@ -34,7 +35,7 @@ def distance_to_cover(action: ShapedAction) -> float | None:
     Raises:
         Refused: The place is not ahead.
     """
-    way = way_to_goal(action)
+    way = None if position_shape(action) else way_to_goal(action)
     if way is None or watched_place(action) is not None:
         return None
     if way[1] < 0.0:
@@ -47,9 +48,19 @@ def distance_to_cover(action: ShapedAction) -> float | None:
 def watched_place(action: ShapedAction) -> Position | None:
     """The place at the end, if another modifier decides the speed all the time."""
     position = lasting_position(action)
+    if position is None or position.shape is not None:
+        return None
     rates = [m for m in action.lasting if isinstance(m, Acceleration)]
     rules = any(m.at == "all" for m in (*speeds_of(action), *rates))
     return position if rules else None
+
+
+def position_shape(action: ShapedAction) -> Along | Distance | Position | None:
+    """The modifier that has a shape of a position; None if there is none."""
+    for modifier in action.lasting:
+        if isinstance(modifier, Along | Distance | Position) and modifier.shape is not None:
+            return modifier
+    return None
 
 
 def lasting_position(action: ShapedAction) -> Position | None:
@@ -61,7 +72,7 @@ def way_to_goal(action: ShapedAction) -> tuple[float, float] | None:
     """Least and greatest way (m) to its goal; None if it has no such goal."""
     distance = one_of_kind(action.modifiers, Distance)
     if distance is not None:
-        way = value_of(distance.distance)
+        way = distance.way()
         return way, way
     position = lasting_position(action)
     if position is None or position.reference is not None:
@@ -104,7 +115,7 @@ def speed_at_end(action: ShapedAction) -> float | FollowSpeed | None:
     low, high = speed.difference()
     if speed.reference is None:
         return min(max(action.here.v, low), high)
-    return FollowSpeed(speed.reference.id, speed.factor, low, high - low)
+    return FollowSpeed(speed.reference.id, speed.times, low, high - low)
 
 
 def speeds_of(action: ShapedAction) -> list[Speed]:

@@ -17,7 +17,8 @@ from osc2tx_runtime.settings import near
 from osc2tx_runtime.sidecar import apply_nodes, own_nodes
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.scenario import Placement, Scenario
+    from osc2tx_runtime.placement import Placement
+    from osc2tx_runtime.scenario import Scenario
 
 __all__ = ["assemble", "invoked_placements"]
 

@@ -115,6 +115,14 @@ class Node(Behaviour):
         """Return how many steps the node will take; None where only the run can tell."""
         return 0 if self.instant else None
 
+    def situation(self) -> str:
+        """Return what there is to say of a node that is still running; nothing, as a rule."""
+        return ""
+
+    def waits_in_vain(self) -> bool:
+        """Whether it waits, or waited, for a change to what was so already."""
+        return False
+
     def generator(self, what: str) -> random.Random:
         """Return a generator of this node's own: the same draws in whatever order nodes start."""
         scope = f"{self.scope}/" if self.scope else ""

@@ -8,6 +8,7 @@ count steps from there.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "EVALUATION_ERRORS",
     "Condition",
+    "Edge",
     "Watch",
     "elapsed",
     "evaluate",
@@ -57,21 +59,27 @@ class Condition:
 
 def rise(function: Callable[[], bool]) -> Condition:
     """True at the instant `function` turns from false to true."""
-    return Condition("rise", lambda context: _watch_edge(function, True, context))
+    return Condition("rise", lambda context: Edge(function, True, context))
 
 
 def fall(function: Callable[[], bool]) -> Condition:
     """True at the instant `function` turns from true to false."""
-    return Condition("fall", lambda context: _watch_edge(function, False, context))
+    return Condition("fall", lambda context: Edge(function, False, context))
 
 
-def elapsed(duration: float) -> Condition:
-    """True from `duration` seconds after the start on, in whole steps."""
+def elapsed(duration: float | Callable[[], float]) -> Condition:
+    """True from `duration` seconds after the start on, in whole steps.
+
+    A duration that depends on the world is a function; it is called at the start.
+    """
 
     def watch(context: ExecutionContext) -> Watch:
-        due = context.step + context.steps(duration)
+        seconds = number(duration) if callable(duration) else duration
+        due = context.step + context.steps(seconds)
         return lambda: context.step >= due
 
+    if callable(duration):
+        return Condition("elapsed", watch)
     return Condition(f"elapsed {duration:g} s", watch, duration)
 
 
@@ -114,17 +122,55 @@ def watch_level(function: Callable[[], bool], context: ExecutionContext) -> Watc
     return happened
 
 
-def _watch_edge(function: Callable[[], bool], target: bool, context: ExecutionContext) -> Watch:
-    sampled, value, edge = context.snapshot, evaluate(function), False
+class Edge:
+    """Watches for the instant at which a function turns; its first sample is no edge.
 
-    def happened() -> bool:
-        nonlocal sampled, value, edge
-        if context.snapshot != sampled:
-            before, value, sampled = value, evaluate(function), context.snapshot
-            edge = value is target and before is not target
-        return edge
+    Args:
+        function: The function.
+        target: What it turns to.
+        context: The run.
 
-    return happened
+    Attributes:
+        is_vain: Whether the function had the value at the start already, and has not turned to it
+            since.
+    """
+
+    __slots__ = ("_context", "_edge", "_function", "_sampled", "_target", "_value", "is_vain")
+
+    def __init__(
+        self, function: Callable[[], bool], target: bool, context: ExecutionContext
+    ) -> None:
+        self._function = function
+        self._target = target
+        self._context = context
+        self._sampled = context.snapshot
+        self._value = evaluate(function)
+        self._edge = False
+        self.is_vain = self._value is target
+
+    def __call__(self) -> bool:
+        """Return whether the function turns in the present snapshot."""
+        if self._context.snapshot != self._sampled:
+            before, self._value = self._value, evaluate(self._function)
+            self._sampled = self._context.snapshot
+            self._edge = self._value is self._target and before is not self._target
+            self.is_vain = self.is_vain and not self._edge
+        return self._edge
+
+
+def number(function: Callable[[], float]) -> float:
+    """Return the seconds that a function of the scenario gives.
+
+    Raises:
+        ScenarioError: If it has no value, or none that is finite.
+    """
+    try:
+        seconds = float(function())
+    except EVALUATION_ERRORS as error:
+        raise ScenarioError(f"the time has no value: {error}") from error
+    if not math.isfinite(seconds):
+        raise ScenarioError(f"a time of {seconds} s never comes")
+    return seconds
 
 
 def evaluate(function: Callable[[], bool]) -> bool:

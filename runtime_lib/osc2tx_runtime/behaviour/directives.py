@@ -8,8 +8,8 @@ from typing import Any
 from py_trees.decorators import Decorator
 
 from osc2tx_runtime.behaviour.base import RUNNING, SUCCESS, Behaviour, Leaf, Node, Status, pulse_of
-from osc2tx_runtime.behaviour.conditions import EVALUATION_ERRORS, Condition, Watch
-from osc2tx_runtime.behaviour.events import Event, Trigger, describe, watch
+from osc2tx_runtime.behaviour.conditions import EVALUATION_ERRORS, Condition, Edge, Watch
+from osc2tx_runtime.behaviour.events import Event, Guard, Trigger, describe, watch
 from osc2tx_runtime.errors import ScenarioError
 
 __all__ = ["Call", "Emit", "Until", "Wait"]
@@ -33,7 +33,7 @@ class Wait(Leaf):
     def __init__(
         self,
         trigger: Trigger,
-        condition: Callable[[], bool] | None = None,
+        condition: Guard | None = None,
         *,
         label: str | None = None,
     ) -> None:
@@ -53,6 +53,10 @@ class Wait(Leaf):
         if condition is None and isinstance(trigger, Condition) and trigger.seconds is not None:
             return self.context.steps(trigger.seconds)
         return None
+
+    def waits_in_vain(self) -> bool:
+        """Whether it waits for an edge to what was so already."""
+        return isinstance(self._happened, Edge) and self._happened.is_vain
 
     def update(self) -> Status:
         """Succeed when it happened."""
@@ -175,6 +179,11 @@ class Until(Node, Decorator):
     def initialise(self) -> None:
         """Start watching."""
         self._happened = [watch(condition, None, self.context) for condition in self.conditions]
+
+    def waits_in_vain(self) -> bool:
+        """Whether all that ends it are edges to what was so already."""
+        edges = [isinstance(watch, Edge) and watch.is_vain for watch in self._happened]
+        return bool(edges) and all(edges)
 
     def pulse(self) -> Status:
         """Ask the conditions, then run the behavior."""

@@ -17,7 +17,7 @@ from osc2tx_runtime.errors import ScenarioError
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
 
-__all__ = ["Event", "Trigger", "describe", "watch"]
+__all__ = ["Event", "Guard", "Trigger", "describe", "watch"]
 
 
 class Event:
@@ -26,7 +26,7 @@ class Event:
     Args:
         trigger: Its specification: another event, a condition or a boolean function. It is
             watched where the event is used, from the start of that use on.
-        only_if: The event occurs only if this is true as well.
+        only_if: The event occurs only if this is true as well, at the same instant.
         parameters: Names of its parameters to their defaults: a value, a function that is called
             when the event is emitted without the parameter, or None where it must be given.
 
@@ -42,7 +42,7 @@ class Event:
     def __init__(
         self,
         trigger: Trigger | None = None,
-        only_if: Callable[[], bool] | None = None,
+        only_if: Guard | None = None,
         *,
         parameters: Mapping[str, Any] | None = None,
     ) -> None:
@@ -99,6 +99,9 @@ class Event:
 Trigger = Event | Condition | Callable[[], bool]
 """What one can wait for: an event, a condition object, a boolean function (while true)."""
 
+Guard = Condition | Callable[[], bool]
+"""What has to be true at an occurrence of an event for it to count."""
+
 
 def argument_key(arguments: Mapping[str, Any]) -> str:
     """Return a text that orders occurrences alike in every run."""
@@ -110,7 +113,7 @@ def stable(value: Any) -> Any:
     return getattr(value, "id", value)
 
 
-def watch(trigger: Trigger, only_if: Callable[[], bool] | None, context: ExecutionContext) -> Watch:
+def watch(trigger: Trigger, only_if: Guard | None, context: ExecutionContext) -> Watch:
     """Start watching: returns a function that says whether it happened by the present pass."""
     if isinstance(trigger, Event):
         return watch_event(trigger.meant(), only_if, context)
@@ -119,13 +122,18 @@ def watch(trigger: Trigger, only_if: Callable[[], bool] | None, context: Executi
         happened = watch_level(trigger, context)  # type: ignore[arg-type]
     if only_if is None:
         return happened
-    first, second = happened, watch_level(only_if, context)
-    return lambda: first() and second()
+    first, second = happened, watch_guard(only_if, context)
+    return lambda: all([first(), second()])  # both are asked in every step
 
 
-def watch_event(
-    event: Event, only_if: Callable[[], bool] | None, context: ExecutionContext
-) -> Watch:
+def watch_guard(guard: Guard, context: ExecutionContext) -> Watch:
+    """Start watching a guard; a function is sampled anew in each snapshot."""
+    if isinstance(guard, Condition):
+        return guard.watch(context)
+    return watch_level(guard, context)
+
+
+def watch_event(event: Event, only_if: Guard | None, context: ExecutionContext) -> Watch:
     """Watch the occurrences of an event, and its specification if it has one."""
     emitted = Occurrences(event, only_if, context)
     if event.trigger is None:
@@ -135,7 +143,7 @@ def watch_event(
     def happened() -> bool:
         # Both are asked: edges must be sampled in every step, occurrences used up.
         came, came_true = emitted(), specified()
-        if came_true and not came and (only_if is None or evaluate(only_if)):
+        if came_true and not came and emitted.is_allowed():
             if event.name:
                 context.trace.event(event.name)
             return True
@@ -151,25 +159,35 @@ class Occurrences:
         matching: Arguments of the occurrences when it was last true, in canonical order.
     """
 
-    __slots__ = ("_context", "_only_if", "_seen", "event", "matching")
+    __slots__ = ("_context", "_function", "_holds", "_seen", "event", "matching")
 
-    def __init__(
-        self, event: Event, only_if: Callable[[], bool] | None, context: ExecutionContext
-    ) -> None:
+    def __init__(self, event: Event, only_if: Guard | None, context: ExecutionContext) -> None:
         self.event = event
         self.matching: list[Mapping[str, Any]] = []
-        self._only_if = only_if
+        self._holds: Watch | None = None
+        self._function: Callable[[], bool] | None = None
+        if isinstance(only_if, Condition):
+            self._holds = only_if.watch(context)
+        else:
+            self._function = only_if
         self._context = context
         self._seen = context.tick
+
+    def is_allowed(self) -> bool:
+        """Return whether the guard is true now, for the arguments that the event has."""
+        if self._holds is not None:
+            return self._holds()
+        return self._function is None or evaluate(self._function)
 
     def __call__(self) -> bool:
         """Return whether the event occurred since it was last asked."""
         event = self.event
+        if self._holds is not None:
+            self._holds()  # sampled in every pass, so that an edge is one since the step before
         if event.occurred <= self._seen:
             return False
         self._seen = event.occurred
-        condition = self._only_if
-        if condition is None:
+        if self._holds is None and self._function is None:
             self.matching = event.occurrences
             return True
         self.matching = []
@@ -177,7 +195,7 @@ class Occurrences:
             return False
         for arguments in event.occurrences:
             event.arguments = arguments
-            if evaluate(condition):
+            if self.is_allowed():
                 self.matching.append(arguments)
         return bool(self.matching)
 

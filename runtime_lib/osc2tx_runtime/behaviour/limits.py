@@ -7,6 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, SUCCESS, Status
+from osc2tx_runtime.behaviour.reasons import with_situation
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.slots import place_key
 
@@ -101,5 +102,9 @@ class Limits:
             if leaf.status is RUNNING and not leaf.children and leaf is not self._node
             if not getattr(leaf, "synthetic", False)
         ]
-        names = [leaf.name for _, leaf in sorted(leaves, key=lambda pair: pair[0])]
+        if self._node.status is RUNNING and not self._node.children:
+            situation = self._node.situation()
+            return f", while {situation}" if situation else ""
+        leaves.sort(key=lambda pair: pair[0])
+        names = [with_situation(leaf.name, leaf) for _, leaf in leaves]
         return f"; still running: {', '.join(names)}" if names else ""

@@ -11,6 +11,7 @@ from osc2tx_runtime.behaviour.base import RUNNING, SUCCESS, Behaviour, Node, Sta
 from osc2tx_runtime.behaviour.conditions import Watch
 from osc2tx_runtime.behaviour.events import (
     Event,
+    Guard,
     Occurrences,
     Trigger,
     argument_key,
@@ -44,7 +45,7 @@ class On(Node, Sequence):
         self,
         trigger: Trigger,
         *reactions: Behaviour,
-        condition: Callable[[], bool] | None = None,
+        condition: Guard | None = None,
     ) -> None:
         super().__init__(f"on {describe(trigger)}", memory=True, children=reactions)
         self.trigger = trigger

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, Behaviour
+from osc2tx_runtime.behaviour.base import FAILURE, RUNNING, Behaviour, Node
 from osc2tx_runtime.slots import place_key
 
 if TYPE_CHECKING:
     from osc2tx_runtime.context import ExecutionContext
 
-__all__ = ["failure_reason", "timeout_reason"]
+__all__ = ["failure_reason", "timeout_reason", "with_situation"]
 
 NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
 
@@ -25,7 +25,17 @@ def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
         time = context.time if at is None else at
         why = node.feedback_message or "it gives no reason"
         texts.append(f"{named(node)} failed at {time:.3f} s: {why}")
-    return "; ".join(texts)
+    return "; ".join((*texts, *vain(root)))
+
+
+def vain(root: Behaviour) -> list[str]:
+    """Return a hint for each node that waited for a change to what was so already."""
+    nodes = [node for node in root.iterate() if isinstance(node, Node) and node.waits_in_vain()]
+    nodes.sort(key=lambda node: place_key(source_of(node), node.name))
+    return [
+        f"{named(node)} never happened: its condition held from the start, and only a change counts"
+        for node in nodes
+    ]
 
 
 def failing(node: Behaviour) -> list[Behaviour]:
@@ -41,10 +51,18 @@ def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
     running = [node for node in root.iterate() if node.status is RUNNING and not node.children]
     leaves = [node for node in running if not getattr(node, "synthetic", False)]
     leaves.sort(key=lambda node: place_key(source_of(node), node.name))
-    texts = [named(leaf) for leaf in leaves[:NAMED_LEAVES]]
+    texts = [with_situation(named(leaf), leaf) for leaf in leaves[:NAMED_LEAVES]]
     if len(leaves) > NAMED_LEAVES:
         texts.append(f"and {len(leaves) - NAMED_LEAVES} more")
-    return f"not finished at {context.time:g} s; still running: {', '.join(texts) or 'nothing'}"
+    running_now = ", ".join(texts) or "nothing"
+    reason = f"not finished at {context.time:g} s; still running: {running_now}"
+    return "; ".join((reason, *vain(root)))
+
+
+def with_situation(text: str, node: Behaviour) -> str:
+    """Return a text about a running node with what there is to say of it."""
+    situation = node.situation() if isinstance(node, Node) else ""
+    return f"{text}, while {situation}" if situation else text
 
 
 def source_of(node: Behaviour) -> str:

@@ -113,7 +113,7 @@ def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, least: int = 0) -
     """Plan a parallel composition.
 
     Args:
-        parts: The members that take time, the primary first.
+        parts: The members that take time, the primary first; there may be none.
         sts: Bounds of start to start.
         ete: Bounds of end to end.
         least: Steps that the whole must take at least.
@@ -121,6 +121,8 @@ def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, least: int = 0) -
     Raises:
         Unplannable: If there is no schedule.
     """
+    if not parts:
+        return Schedule((), least, ete, least)
     primary, secondaries = parts[0], parts[1:]
     length = primary.length
     if primary.open_ended:

@@ -7,7 +7,7 @@ from typing import Any
 
 from osc2tx_runtime.behaviour.base import RUNNING, Leaf, Status
 from osc2tx_runtime.behaviour.conditions import EVALUATION_ERRORS, Watch
-from osc2tx_runtime.behaviour.events import Event, Occurrences, Trigger, watch
+from osc2tx_runtime.behaviour.events import Event, Guard, Occurrences, Trigger, watch
 from osc2tx_runtime.errors import ScenarioError
 
 __all__ = ["MISSING", "Sampled", "Sampling"]
@@ -35,7 +35,7 @@ class Sampled:
         expression: Callable[[], Any],
         trigger: Trigger,
         default: Any = MISSING,
-        condition: Callable[[], bool] | None = None,
+        condition: Guard | None = None,
     ) -> None:
         self.name = ""
         self.expression = expression

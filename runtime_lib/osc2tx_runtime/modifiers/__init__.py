@@ -21,6 +21,7 @@ from .places import Distance, KeepPosition, Location, Position
 from .roads import (
     MAP_MODIFIERS,
     CompoundLaneSide,
+    CrossingConnects,
     EndLane,
     LaneSide,
     MapModifier,
@@ -43,6 +44,7 @@ avoid_collisions = AvoidCollisions
 change_lane = ChangeLane
 change_speed = ChangeSpeed
 compound_lane_side = CompoundLaneSide
+crossing_connects = CrossingConnects
 distance = Distance
 end_lane = EndLane
 keep_lane = KeepLane
@@ -108,6 +110,7 @@ __all__ = [
     "ChangeLane",
     "ChangeSpeed",
     "CompoundLaneSide",
+    "CrossingConnects",
     "Distance",
     "EndLane",
     "KeepLane",
@@ -145,6 +148,7 @@ __all__ = [
     "change_lane",
     "change_speed",
     "compound_lane_side",
+    "crossing_connects",
     "distance",
     "end_lane",
     "keep_lane",

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from .base import Modifier, MovementModifier
+from osc2tx_runtime.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+
+from .base import Modifier, MovementModifier, Value, now
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Trailer
-    from osc2tx_runtime.road_parts import RoadPart, RoadPath
-    from osc2tx_runtime.values import Path, Trajectory
+    from osc2tx_runtime.path_values import Path, Trajectory
+    from osc2tx_runtime.road_parts import RoadPath, Route
 
 __all__ = [
     "Along",
@@ -41,12 +43,22 @@ class Along(MovementModifier):
         route: The path or route.
         start_offset: Metres of it that are left out at its start.
         end_offset: Metres that are left out at its end.
+        shape: Course of the metres along it, from its start.
     """
 
     name = "along"
-    route: Path | RoadPart | Callable[[], Path]
-    start_offset: float = 0.0
-    end_offset: float = 0.0
+    shaped_by = AnyPositionShape
+    route: Path | Route | Callable[[], Path | Route]
+    start_offset: Value = 0.0
+    end_offset: Value = 0.0
+    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+
+    @property
+    def way(self) -> Path | Route:
+        """The path or route now."""
+        late: Any = self.route  # of a union `now` cannot tell which part it returns
+        found: Path | Route = now(late)
+        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +67,8 @@ class AlongTrajectory(MovementModifier):
 
     name = "along_trajectory"
     trajectory: Trajectory | Callable[[], Trajectory]
-    start_offset: float = 0.0
-    end_offset: float = 0.0
+    start_offset: Value = 0.0
+    end_offset: Value = 0.0
 
 
 @dataclass(frozen=True, slots=True)

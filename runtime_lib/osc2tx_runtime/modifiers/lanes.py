@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.argument_rules import at_least, at_least_one, at_most_one
+from osc2tx_runtime.shapes import AnyLateralShape, CommonLateralShape, OwnShape
 
-from .base import Modifier, MovementModifier, Side, Value, band_of
+from .base import Modifier, MovementModifier, Side, Value, now, wanted
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject, Vehicle
     from osc2tx_runtime.behaviour.parameters import Range
-    from osc2tx_runtime.shapes import CommonLateralShape
 
 LatMeasure = Literal[
     "left_to_left",
@@ -42,27 +42,28 @@ class Lane(MovementModifier):
         side_of: Actor beside whose lane it is.
         side: On which side of it.
         from_: Edge from which lanes are counted, in direction of travel; the outermost is 1.
-        shape: Course of the lateral speed on the way there.
+        shape: Course on the way there: of the place left of the centre of the lane.
     """
 
     name = "lane"
+    shaped_by = AnyLateralShape
     rules = (
         at_most_one("same_as", "side_of"),
         at_least_one("side", when=["side_of"]),
         at_least(1, "lane", unless=["side_of"]),  # the outermost one is 1
         at_least(0, "lane", when=["side_of"]),
     )
-    lane: int | None = None
+    lane: int | Callable[[], int] | None = None
     same_as: PhysicalObject | None = None
     side_of: PhysicalObject | None = None
     side: Side | None = None
     from_: Side = "right"
-    shape: CommonLateralShape | None = None
+    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:
         """Number of the lane; 1 if none is given."""
-        return 1 if self.lane is None else self.lane
+        return 1 if self.lane is None else int(now(self.lane))
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -81,10 +82,11 @@ class Lateral(MovementModifier):
         side: To which side the distance points.
         measure_by: Own edge `to` edge of the reference (of the lane without `side_of`); `closest`:
             between the facing sides.
-        shape: Course of the lateral speed on the way there, and a distance if none is given here.
+        shape: Course of the distance, and its value if none is given here.
     """
 
     name = "lateral"
+    shaped_by = AnyLateralShape
     rules = (
         at_most_one("distance", "distance_range"),
         at_least_one("side_of", when=["measure_by"], values=["closest"]),
@@ -94,7 +96,7 @@ class Lateral(MovementModifier):
     side_of: Vehicle | None = None
     side: Side = "left"
     measure_by: LatMeasure = "center_to_center"
-    shape: CommonLateralShape | None = None
+    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def reference(self) -> Vehicle | None:
@@ -111,10 +113,8 @@ class Lateral(MovementModifier):
         Returns:
             The least and the greatest value; both the same without a range.
         """
-        low, high = band_of(self.distance, self.distance_range)
-        if self.distance is None and self.distance_range is None and self.shape is not None:
-            low = high = self.shape.target or 0.0
-        ends = [self._offset(value, own_width, other_width) for value in (low, high)]
+        low, high = wanted(self.distance, self.distance_range, self.shape)
+        ends = [self.place(value, own_width, other_width) for value in (low, high)]
         return min(ends), max(ends)
 
     def offset(self, own_width: float, other_width: float, now: float) -> float:
@@ -122,7 +122,8 @@ class Lateral(MovementModifier):
         low, high = self.offsets(own_width, other_width)
         return min(max(now, low), high)
 
-    def _offset(self, value: float, own_width: float, other_width: float) -> float:
+    def place(self, value: float, own_width: float, other_width: float) -> float:
+        """How far (m) left of the reference the own centre is at a distance; see `offsets`."""
         left = -value if self.side == "right" else value
         if self.measure_by == "closest":
             reach = 0.5 * (own_width + other_width)
@@ -138,13 +139,19 @@ class ChangeLane(MovementModifier):
     Attributes:
         lane: How many.
         side: To which side; None: drawn from the seed.
-        shape: Course of the lateral speed on the way there.
+        shape: As of `lane`.
     """
 
     name = "change_lane"
-    lane: int = 1
+    shaped_by = AnyLateralShape
+    lane: int | Callable[[], int] = 1
     side: Side | None = None
-    shape: CommonLateralShape | None = None
+    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+
+    @property
+    def number(self) -> int:
+        """How many lanes, now."""
+        return int(now(self.lane))
 
 
 @dataclass(frozen=True, slots=True)

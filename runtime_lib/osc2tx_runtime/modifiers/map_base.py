@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
+from typing import ClassVar
 
 from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart, Stretch
+from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.stretches import Stretch
 
 from .base import Modifier
 
@@ -18,7 +20,13 @@ Row = dict[str, Stretch]
 
 @dataclass(frozen=True, slots=True)
 class MapModifier(Modifier):
-    """Base of the modifiers of maps."""
+    """Base of the modifiers of maps.
+
+    Attributes:
+        leads: Its rows also limit the part that is chosen first.
+    """
+
+    leads: ClassVar[bool] = False
 
     def parts(self) -> dict[str, RoadPart]:
         """Declared roads and lanes that it is about, by parameter."""
@@ -33,7 +41,7 @@ class MapModifier(Modifier):
         """Stretches that a parameter can stand for: the known one, or all of its kind."""
         if name in known:
             return (known[name],)
-        return graph.all(self.parts()[name].kind)
+        return self.parts()[name].candidates(graph)
 
 
 def fits(row: Row, known: Known) -> bool:

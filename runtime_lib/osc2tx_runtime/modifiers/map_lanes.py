@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.errors import UnsupportedError
-from osc2tx_runtime.opendrive import DRIVING
+from osc2tx_runtime.lane_kinds import Directionality, LaneType, LaneUse, kind_of_lane
 from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart, Stretch
+from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.stretches import Stretch
 
 from .base import Side
 from .map_base import Known, MapModifier, Row, fits
@@ -24,28 +24,17 @@ class NumberOfLanes(MapModifier):
     Attributes:
         route: The route; with several sections the number holds in each of them.
         num_of_lanes: Number of lanes.
-        lane_type: `driving` lanes are counted, others `non_driving`.
-        lane_use: All lanes of the type, or `normal` ones: of OpenDRIVE type "driving".
-        directionality: Lanes of OpenDRIVE type "bidirectional" are `bi_direction`.
+        lane_type: For whom the lanes are that are counted; `driving` if no use is given either.
+        lane_use: What they are used for.
+        directionality: In which directions.
     """
 
     name = "number_of_lanes"
     route: RoadPart
     num_of_lanes: int
-    lane_type: str | None = None
-    lane_use: str | None = None
-    directionality: str | None = None
-
-    def __post_init__(self) -> None:
-        """Refuses what OpenDRIVE does not tell apart."""
-        known = (
-            (self.lane_type, (None, "driving", "non_driving")),
-            (self.lane_use, (None, "normal")),
-            (self.directionality, (None, "uni_direction", "bi_direction")),
-        )
-        for value, possible in known:
-            if value not in possible:
-                raise UnsupportedError(f"{self.name}: `{value}` cannot be told from a map")
+    lane_type: LaneType | None = None
+    lane_use: LaneUse | None = None
+    directionality: Directionality | None = None
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
         """Routes with this number."""
@@ -67,13 +56,13 @@ class NumberOfLanes(MapModifier):
         )
 
     def _counts(self, type_: str) -> bool:
-        driving = type_ in DRIVING
-        if driving != (self.lane_type != "non_driving"):
-            return False
-        if self.lane_use == "normal" and type_ != "driving":
-            return False
-        both_ways = type_ == "bidirectional"
-        return self.directionality is None or both_ways == (self.directionality == "bi_direction")
+        kind = kind_of_lane(type_)
+        wanted = self.lane_type or ("driving" if self.lane_use is None else kind.type)
+        return (
+            kind.type == wanted
+            and self.lane_use in (None, kind.use)
+            and self.directionality in (None, kind.directionality)
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,8 @@ from typing import Literal
 
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart, Stretch
+from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.stretches import Stretch
 
 from .map_base import Known, MapModifier, Row, fits
 
@@ -143,7 +144,7 @@ class RoadsFollowInJunction(MapModifier):
                 "in_lane": passage.in_lane,
                 "out_lane": passage.out_lane,
                 "junction_route": passage.via,
-                "resulting_route": graph.route_of(passage),
+                "resulting_route": passage.route,
             }
             if fits(row, known):
                 yield {name: row[name] for name in asked}

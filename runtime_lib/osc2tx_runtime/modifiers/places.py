@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one, none_of
+from osc2tx_runtime.shapes import AnyPositionShape, CommonPositionShape, OwnShape
 
-from .base import Modifier, MovementModifier, Value, band_of, upright
+from .base import Modifier, MovementModifier, Value, band_of, wanted
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
@@ -41,13 +42,17 @@ class Position(MovementModifier):
         project_on_route: `at_point` only says how far along the road and on which lane; False:
             the actor is at the point itself.
         frame: `carla`: left-handed, y and heading with the opposite sign, box centre.
+        shape: Course of the distance (of the place along the road without a reference), and its
+            value if none is given here.
     """
 
     name = "position"
+    shaped_by = AnyPositionShape
     rules = (
         at_most_one("ahead_of", "behind", "ahead_of_point", "behind_point"),
         at_most_one("distance", "time", "distance_range", "time_range", "at_point", "x"),
-        at_least_one("distance", "time", "distance_range", "time_range", "at_point", "x"),
+        at_least_one("distance", "time", "distance_range", "time_range", "at_point", "x", "shape"),
+        at_most_one("shape", "time", "time_range"),
         none_of(*REFERENCES, when=["at_point", "x"]),
         at_least_one("ahead_of", "behind", when=["time", "time_range"]),
         at_least_one("y", when=["x"]),
@@ -68,6 +73,7 @@ class Position(MovementModifier):
     z: float | None = None
     h: float | None = None
     frame: Literal["world", "carla"] = "world"
+    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -93,7 +99,7 @@ class Position(MovementModifier):
         """Least and greatest distance (m) or time (s) now; both the same without a range."""
         if self.timed:
             return band_of(self.time, self.time_range)
-        return band_of(self.distance, self.distance_range)
+        return wanted(self.distance, self.distance_range, self.shape)
 
     @property
     def absolute(self) -> bool:
@@ -108,10 +114,6 @@ class Location(Modifier):
     name = "location"
     pose: Pose
 
-    def __post_init__(self) -> None:
-        Modifier.__post_init__(self)
-        upright("location", self.pose.pitch, self.pose.roll)
-
 
 @dataclass(frozen=True, slots=True)
 class KeepPosition(Modifier):
@@ -122,7 +124,18 @@ class KeepPosition(Modifier):
 
 @dataclass(frozen=True, slots=True)
 class Distance(MovementModifier):
-    """Way (m) covered during the action: it ends then, or takes exactly its duration for it."""
+    """Way (m) covered during the action: it ends then, or takes exactly its duration for it.
+
+    Attributes:
+        distance: Metres.
+        shape: Course of the metres.
+    """
 
     name = "distance"
+    shaped_by = AnyPositionShape
     distance: Value
+    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+
+    def way(self) -> float:
+        """The metres to cover, now."""
+        return wanted(self.distance, None, self.shape)[0]

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from osc2tx_runtime.road_graph import RoadGraph
 
 from .map_base import Known, MapModifier, Row
+from .map_crossings import CrossingConnects
 from .map_lanes import CompoundLaneSide, EndLane, LaneSide, NumberOfLanes, StartLane
 from .map_routes import (
     RoadsFollowInJunction,
@@ -23,6 +24,7 @@ from .map_routes import (
 __all__ = [
     "MAP_MODIFIERS",
     "CompoundLaneSide",
+    "CrossingConnects",
     "EndLane",
     "LaneSide",
     "MapModifier",
@@ -73,5 +75,6 @@ MAP_MODIFIERS: tuple[type[MapModifier], ...] = (
     StartLane,
     EndLane,
     RoutesAreOpposite,
+    CrossingConnects,
 )
 """Modifiers of maps that have an effect."""

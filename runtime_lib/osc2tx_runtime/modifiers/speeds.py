@@ -8,13 +8,19 @@ from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.shapes import (
+    AnyAccelerationShape,
+    AnySpeedShape,
+    CommonAccelerationShape,
+    CommonSpeedShape,
+    OwnShape,
+)
 
-from .base import Modifier, MovementModifier, Value, band_of, course_of
+from .base import Modifier, MovementModifier, Value, course_of, value_of, wanted
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject
     from osc2tx_runtime.behaviour.parameters import Range
-    from osc2tx_runtime.shapes import CommonAccelerationShape, CommonSpeedShape
     from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]
@@ -34,10 +40,11 @@ class Speed(MovementModifier):
         factor: Multiplies the speed of the reference.
         rate_profile: Course of the acceleration.
         rate_peak: Peak of the acceleration (m/s^2).
-        shape: Both, and a speed if none is given here.
+        shape: Course of the speed or difference, and its value if none is given here.
     """
 
     name = "speed"
+    shaped_by = AnySpeedShape
     rules = (
         at_most_one("speed", "speed_range"),
         at_most_one("faster_than", "slower_than", "same_as"),
@@ -51,15 +58,16 @@ class Speed(MovementModifier):
     slower_than: PhysicalObject | None = None
     same_as: PhysicalObject | None = None
     direction: Literal["longitudinal", "lateral"] = "longitudinal"
-    factor: float = 1.0
+    factor: Value = 1.0
     rate_profile: DynamicProfile = "none"
-    rate_peak: float | None = None
-    shape: CommonSpeedShape | None = None
+    rate_peak: Value | None = None
+    shape: CommonSpeedShape | OwnShape[AnySpeedShape] | None = None
 
     def __post_init__(self) -> None:
         MovementModifier.__post_init__(self)
-        target = None if self.shape is None else self.shape.target
-        if all(v is None for v in (self.speed, self.speed_range, self.reference, target)):
+        if any(v is not None for v in (self.speed, self.speed_range, self.reference)):
+            return
+        if isinstance(self.shape, CommonSpeedShape) and self.shape.target is None:
             raise ScenarioError("speed: the shape has no target, so give a speed or a reference")
 
     @property
@@ -67,9 +75,15 @@ class Speed(MovementModifier):
         """The actor it is relative to."""
         return self.faster_than or self.slower_than or self.same_as
 
+    @property
+    def times(self) -> float:
+        """The factor, now."""
+        return value_of(self.factor)
+
     def _own_course(self) -> tuple[DynamicProfile, float | None] | None:
         given = self.rate_profile != "none" or self.rate_peak is not None
-        return (self.rate_profile, self.rate_peak) if given else None
+        peak = None if self.rate_peak is None else value_of(self.rate_peak)
+        return (self.rate_profile, peak) if given else None
 
     @property
     def course(self) -> tuple[DynamicProfile, float | None]:
@@ -79,14 +93,11 @@ class Speed(MovementModifier):
     @property
     def shaped(self) -> bool:
         """Whether it says how the speed is to be reached."""
-        return self.course != ("none", None)
+        return isinstance(self.shape, OwnShape) or self.course != ("none", None)
 
     def difference(self) -> tuple[float, float]:
         """Least and greatest value (m/s) now: of the speed, or of what is added to another's."""
-        if self.speed is None and self.speed_range is None and self.shape is not None:
-            target = self.shape.target or 0.0
-            return target, target
-        low, high = band_of(self.speed, self.speed_range)
+        low, high = wanted(self.speed, self.speed_range, self.shape)
         return (-high, -low) if self.slower_than is not None else (low, high)
 
 
@@ -97,17 +108,18 @@ class ChangeSpeed(MovementModifier):
     Attributes:
         speed: Difference (m/s).
         speed_range: Instead of it: what the difference may be.
-        shape: How to get there.
+        shape: Course of the difference, and its value if none is given here.
     """
 
     name = "change_speed"
+    shaped_by = AnySpeedShape
     rules = (
         at_most_one("speed", "speed_range"),
         at_least_one("speed", "speed_range", "shape"),
     )
     speed: Value | None = None
     speed_range: Range[float] | Callable[[], Range[float]] | None = None
-    shape: CommonSpeedShape | None = None
+    shape: CommonSpeedShape | OwnShape[AnySpeedShape] | None = None
 
     @property
     def course(self) -> tuple[DynamicProfile, float | None]:
@@ -116,10 +128,7 @@ class ChangeSpeed(MovementModifier):
 
     def difference(self) -> tuple[float, float]:
         """Least and greatest value (m/s) now."""
-        if self.speed is None and self.speed_range is None and self.shape is not None:
-            target = self.shape.target or 0.0
-            return target, target
-        return band_of(self.speed, self.speed_range)
+        return wanted(self.speed, self.speed_range, self.shape)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,17 +152,16 @@ class Acceleration(MovementModifier):
     """
 
     name = "acceleration"
+    shaped_by = AnyAccelerationShape
     rules = (
         at_most_one("acceleration", "acceleration_range"),
         at_least_one("acceleration", "acceleration_range", "shape"),
     )
     acceleration: Value | None = None
     acceleration_range: Range[float] | Callable[[], Range[float]] | None = None
-    shape: CommonAccelerationShape | None = None
+    shape: CommonAccelerationShape | OwnShape[AnyAccelerationShape] | None = None
 
     def value(self, now: float) -> float:
         """The allowed acceleration (m/s^2) that is nearest to the present one."""
-        if self.acceleration is None and self.acceleration_range is None and self.shape is not None:
-            return self.shape.target or 0.0
-        low, high = band_of(self.acceleration, self.acceleration_range)
+        low, high = wanted(self.acceleration, self.acceleration_range, self.shape)
         return min(max(now, low), high)

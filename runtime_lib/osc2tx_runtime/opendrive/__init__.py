@@ -3,11 +3,11 @@
 Input is a file; output is a `RoadMap`, which answers everything and never changes. Begin at
 `road_map`. In order of control flow:
 
-* `xml_reader`, `reader`, `signal_reader`: text to roads, checked, or a `MapError`.
+* `xml_reader`, `reader`, `signal_reader`, `crosswalks`: text to roads, checked, or a `MapError`.
 * `polynomials`, `geometry`, `model`: what a road is made of.
-* `network`: which lane follows which; `lane_line`: arc length along a lane.
+* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: arc length along one.
 * `motion`: moving along lanes; `routes`: distances over the lane graph.
-* `poses`: from a lane to (x, y, z); `projection`: back to a lane.
+* `poses`: from a lane to (x, y, z); `projection`: back to a lane; `geodesy`: from the globe.
 * `outlines`: drawing and default start places; `signal_places`: where signals hold;
   `signals`, `errors`: value types.
 
@@ -17,7 +17,9 @@ set order, platform hash seeds or the order of queries. Distances are measured o
 
 from __future__ import annotations
 
+from .crosswalks import Crosswalk
 from .errors import MapError
+from .geodesy import GeoReference, GeoReferenceError, TransverseMercator
 from .model import (
     DRIVING,
     Advance,
@@ -40,6 +42,9 @@ __all__ = [
     "DRIVING",
     "Advance",
     "Controller",
+    "Crosswalk",
+    "GeoReference",
+    "GeoReferenceError",
     "Junction",
     "JunctionConnection",
     "Lane",
@@ -55,6 +60,7 @@ __all__ = [
     "Signal",
     "SignalPlace",
     "SignalReference",
+    "TransverseMercator",
     "read_map",
     "read_map_text",
     "signal_places",

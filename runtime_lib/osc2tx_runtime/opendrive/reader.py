@@ -1,7 +1,7 @@
 """OpenDRIVE text to roads and junctions. Queries are elsewhere; see `road_map`.
 
-`geoReference` and everything the queries do not need (road marks, objects, user data) is skipped
-without a look: real maps carry junk there.
+Everything the queries do not need (road marks, most objects, user data) is skipped without a look:
+real maps carry junk there. `geoReference` is kept as it is until somebody asks for it.
 """
 
 from __future__ import annotations
@@ -11,7 +11,9 @@ from pathlib import Path
 
 from lxml import etree
 
+from .crosswalks import Crosswalk, read_crosswalks
 from .errors import MapError
+from .geodesy import GeoReference
 from .geometry import Arc, Line, ParamPoly, ReferenceLine, Segment, make_spiral
 from .model import Junction, JunctionConnection, Lane, LaneSection, Link, Road, road_order
 from .polynomials import ZERO, Piecewise
@@ -32,6 +34,8 @@ class MapContent:
     junctions: dict[str, Junction]
     signals: tuple[Signal, ...]
     controllers: tuple[Controller, ...]
+    crosswalks: tuple[Crosswalk, ...]
+    geo_reference: GeoReference
 
 
 def read_content(path: Path) -> MapContent:
@@ -68,7 +72,19 @@ def _read(root: etree._Element, file: str, name: str) -> MapContent:
         {j.id: j for j in sorted(junctions, key=lambda j: road_order(j.id))},
         read_signals(elements, attributes),
         read_controllers(root, junctions, attributes),
+        read_crosswalks(elements, roads, attributes),
+        _geo_reference(root.find("header"), attributes),
     )
+
+
+def _geo_reference(header: etree._Element | None, attributes: Attributes) -> GeoReference:
+    if header is None:
+        return GeoReference()
+    text, offset = header.findtext("geoReference", ""), header.find("offset")
+    if offset is None:
+        return GeoReference(text.strip())
+    x, y, h = (attributes.number(offset, name, 0.0) for name in ("x", "y", "hdg"))
+    return GeoReference(text.strip(), (x, y, h))
 
 
 def _road(element: etree._Element, attributes: Attributes) -> Road:

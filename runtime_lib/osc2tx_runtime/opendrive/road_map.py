@@ -8,8 +8,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal
 
-from .errors import MapError
+from .crosswalks import Crosswalk
 from .lane_line import lane_line
+from .lane_table import LaneTable
 from .model import (
     DRIVING,
     Advance,
@@ -42,18 +43,21 @@ class RoadMap:
         name: Name of the map: file name without suffix.
         roads: Roads by id, in numeric order.
         junctions: Junctions by id, in numeric order.
+        geo_reference: Where it lies on the globe.
     """
 
     def __init__(self, content: MapContent) -> None:
         self.name = content.name
-        self._file = content.file
         self._roads = content.roads
         self.roads: Mapping[str, Road] = MappingProxyType(content.roads)
         self.junctions: Mapping[str, Junction] = MappingProxyType(content.junctions)
         self._signals = content.signals
         self._controllers = content.controllers
+        self._crosswalks = content.crosswalks
+        self.geo_reference = content.geo_reference
         self._forks = Forks()
-        self._recent: dict[tuple[str, int], Lane] = {}  # section of the last look-up
+        table = LaneTable(content.roads, content.file)
+        self._road, self._lane, self._keyed = table.road, table.at, table.keyed
         connect_lanes(content.roads, content.junctions)
 
     # --- places -------------------------------------------------------------------------------
@@ -240,6 +244,10 @@ class RoadMap:
         """All signal controllers, sorted by id."""
         return self._controllers
 
+    def crosswalks(self) -> tuple[Crosswalk, ...]:
+        """All crosswalks, sorted by id."""
+        return self._crosswalks
+
     def spawn_points(self) -> tuple[LanePosition, ...]:
         """Default start places: driving lanes outside junctions, every 20 m from 10 m."""
         return spawn_points(self._roads.values())
@@ -265,41 +273,6 @@ class RoadMap:
     @cached_property
     def _groups(self) -> LaneGroups:
         return LaneGroups(self._roads.values())
-
-    def _road(self, road: str) -> Road:
-        found = self._roads.get(road)
-        if found is None:
-            raise MapError(self._file, f"there is no road `{road}`; road ids differ between maps")
-        return found
-
-    def _lane(self, road: str, lane: int, s: float) -> tuple[Lane, float]:
-        """Lane at s, and s limited to the road."""
-        recent = self._recent.get((road, lane))
-        if recent is not None and recent.section.begin <= s < recent.section.end:
-            return recent, s
-        found = self._roads.get(road) or self._road(road)
-        s = 0.0 if s < 0.0 else min(s, found.length)
-        section = found.section_at(s)
-        result = section.lanes.get(lane)
-        if result is None:
-            known = ", ".join(str(lane_id) for lane_id in section.lanes)
-            raise MapError(
-                self._file, f"road `{road}` has no lane {lane} at s = {s:.3f} m; it has {known}"
-            )
-        self._recent[road, lane] = result
-        return result, s
-
-    def _keyed(self, key: LaneKey) -> Lane:
-        sections = self._road(key.road).sections
-        lane = sections[key.section].lanes.get(key.lane) if key.section < len(sections) else None
-        if lane is None:
-            raise MapError(
-                self._file,
-                f"road `{key.road}` has no lane {key.lane} in section {key.section}",
-            )
-        if not lane.section.ready:
-            lane.section.prepare()
-        return lane
 
 
 def read_map(path: Path) -> RoadMap:

@@ -163,8 +163,12 @@ const allPairs = () => MOVABLE.flatMap((a, i) => MOVABLE.slice(i + 1).map((b) =>
 const pairsOf = (actor) => MOVABLE.filter((other) => other !== actor).map((other) => [actor, other]);
 
 function startGapChart() {
-  const chart = makeChart(byId("gap"), byId("gap-legend"));
   const select = byId("gap-of"), pairs = allPairs();
+  if (!pairs.length) {
+    byId("gap").closest(".card").hidden = true;
+    return;
+  }
+  const chart = makeChart(byId("gap"), byId("gap-legend"));
   const showAll = () => pairs.map(([a, b], i) => gapSeries(a, b, paletteColor(pairs.length === 1 ? 5 : i + 4)));
   const showOne = (actor) => pairsOf(actor).map(([a, b]) => gapSeries(a, b, b.color));
   const show = () => {

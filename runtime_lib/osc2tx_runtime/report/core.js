@@ -86,7 +86,8 @@ function fitText(text, width, style) {
 
 const theme = {};
 const THEME_NAMES = ["text", "soft", "card", "line", "bad", "label", "land", "asphalt", "shoulder",
-  "walk", "bike", "park", "green", "other", "mark", "arrow", "accent"];
+  "walk", "bike", "park", "green", "other", "mark", "arrow", "accent",
+  "lamp-red", "lamp-amber", "lamp-green", "lamp-dark", "lamp-box", "beam"];
 
 /** Canvas drawing needs the values of the style sheet's variables. */
 function readTheme() {

@@ -134,7 +134,8 @@ function drawLabel(context, actor, [left, top, right, bottom], [name, speed, nam
 function ornaments(time) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const recent = recentMarks(time).length;
-  return [[0, height - 34, 190, height], [width - 44, height - 50, width, height], [0, 0, recent ? 330 : 0, 10 + 26 * recent]];
+  const fixed = [[0, height - 34, 190, height], [width - 44, height - 50, width, height]];
+  return [...fixed, [0, 0, recent ? 330 : 0, 10 + 26 * recent], ...DATA.surroundings.signals.map(signalBox)];
 }
 
 function drawScaleBar(context) {

@@ -9,9 +9,11 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from string import Template
+from typing import Protocol
 
 from .lanes import OutlineSource, nearby_lanes
 from .run import read_run
+from .surroundings import SignalSource
 from .values import Json
 
 __all__ = ["render_report", "write_report"]
@@ -19,6 +21,7 @@ __all__ = ["render_report", "write_report"]
 _SCRIPTS = (
     "core.js",
     "roads.js",
+    "surroundings.js",
     "camera.js",
     "labels.js",
     "view.js",
@@ -28,9 +31,11 @@ _SCRIPTS = (
 )
 
 
-def write_report(
-    path: Path, trace_lines: Sequence[str], road_map: OutlineSource | None = None
-) -> None:
+class MapSource(OutlineSource, SignalSource, Protocol):
+    """The part of `osc2tx_runtime.opendrive.RoadMap` that is drawn."""
+
+
+def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | None = None) -> None:
     """Write the report of one run.
 
     Args:
@@ -42,11 +47,12 @@ def write_report(
     path.write_text(page, encoding="utf-8", newline="\n")
 
 
-def render_report(trace_lines: Sequence[str], road_map: OutlineSource | None = None) -> str:
+def render_report(trace_lines: Sequence[str], road_map: MapSource | None = None) -> str:
     """The page as text; the same arguments give the same text."""
     run = read_run(trace_lines)
     data = run.as_json()
     paths = [track.points() for track in run.tracks.values()]
+    data["surroundings"] = run.surroundings.as_json(road_map)
     data["lanes"] = [] if road_map is None else nearby_lanes(road_map, paths)
     script = "\n".join(_resource(name) for name in _SCRIPTS)
     style = _resource("report.css")

@@ -211,6 +211,7 @@ function start() {
   fillHeader();
   fillCollisions();
   startTransport();
+  startWeather();
   startView(options.fit);
   startStates();
   startMotionChart();

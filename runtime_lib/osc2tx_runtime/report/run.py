@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from .actions import ActionLog
+from .surroundings import Surroundings
 from .tracks import Track
 from .values import Json, number, plain, short, text
 
@@ -14,6 +16,23 @@ __all__ = ["Run", "read_run"]
 
 _FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
 _SIZES = {"length": 1.0, "width": 1.0}
+_DEGREES = 180.0 / math.pi
+# Values of the environment: words before, factor and offset from SI units, unit behind.
+_WEATHER = {
+    "temperature": ("", 1.0, -273.15, " °C"),
+    "pressure": ("pressure ", 0.01, 0.0, " hPa"),
+    "relative_humidity": ("humidity ", 100.0, 0.0, " %"),
+    "rain_intensity": ("rain ", 3.6e6, 0.0, " mm/h"),
+    "snow_intensity": ("snow ", 3.6e6, 0.0, " mm/h"),
+    "wind_speed": ("wind ", 3.6, 0.0, " km/h"),
+    "wind_direction": ("wind from ", _DEGREES, 0.0, "°"),
+    "visual_range": ("sight ", 1.0, 0.0, " m"),
+    "cloudiness": ("clouds ", 1.0, 0.0, "/8"),
+    "sun_elevation": ("sun elevation ", _DEGREES, 0.0, "°"),
+    "sun_azimuth": ("sun azimuth ", _DEGREES, 0.0, "°"),
+    "moon_elevation": ("moon elevation ", _DEGREES, 0.0, "°"),
+    "moon_azimuth": ("moon azimuth ", _DEGREES, 0.0, "°"),
+}
 _HEADER_KEYS = ("version", "scenario", "source", "map", "dt", "seed", "parameters")
 
 
@@ -25,6 +44,7 @@ class Run:
         header: The header line, empty if there is none.
         result: The result line, None if the run did not get there.
         tracks: Movement by actor id.
+        surroundings: Lights and weather.
         end: Latest time in the trace (s).
         skipped: Number of lines that could not be shown.
     """
@@ -34,6 +54,7 @@ class Run:
     tracks: dict[str, Track] = field(default_factory=dict)
     actions: ActionLog = field(default_factory=ActionLog)
     marks: list[Json] = field(default_factory=list)
+    surroundings: Surroundings = field(default_factory=Surroundings)
     end: float = 0.0
     skipped: int = 0
 
@@ -57,6 +78,7 @@ class Run:
         if kind == "action":
             self.actions.add(time, line)
             return True
+        self.surroundings.add(kind, time, line)
         name = _mark_name(kind, line)
         if name is None:
             return False
@@ -119,9 +141,18 @@ def _mark_name(kind: str, line: Json) -> str | None:
         actors = line.get("actors")
         return " and ".join(map(text, actors)) if isinstance(actors, list) else text(actors)
     if kind == "environment":
-        rest = (f"{key} {text(value)}" for key, value in line.items() if key not in ("t", "kind"))
+        rest = (_weather(key, value) for key, value in line.items() if key not in ("t", "kind"))
         return ", ".join(rest)
     return None
+
+
+def _weather(name: str, value: object) -> str:
+    """A value of the environment in units that people use."""
+    amount = number(value)
+    if amount is None or name not in _WEATHER:
+        return f"{name} {text(value)}"
+    words, factor, offset, unit = _WEATHER[name]
+    return f"{words}{amount * factor + offset:.4g}{unit}"
 
 
 def _arguments(values: object) -> str:

@@ -35,6 +35,7 @@ function drawBox(context, actor, time) {
   context.translate(x, y);
   context.rotate(h);
   const pixel = 1 / camera.scale;
+  drawBeams(context, actor, time);
   context.fillStyle = canvasColor(actor);
   context.strokeStyle = theme.card;
   context.lineWidth = pixel * 1.2;
@@ -90,6 +91,7 @@ function drawView() {
   for (const actor of TRACKED) drawPath(context, actor, time);
   for (const actor of TRACKED) drawBox(context, actor, time);
   pixelTransform(context);
+  drawSignals(context, time);
   drawCollisions(context, time);
   drawLabels(context, time);
   drawScaleBar(context);

@@ -2,9 +2,10 @@
 
 Input: placed actors and one command per actor and slot. Output: states, collisions. Begin at
 `protocol` (what every world offers); `embedded` is the world that needs no simulator. Then, in
-order of control flow: `commands`, `motion` (one actor over one step) with `longitudinal` and
-`lateral` (commands at work) on the closed forms of `profiles`, `collision`, `distances`; `state`
-and `catalogue` are plain values.
+order of control flow: `commands`, `motion` (what an actor is asked for) and `moving` (one actor
+over one step) with `longitudinal` and `lateral` (commands at work) on the closed forms of
+`profiles` and the courses of `computed`, `attitude`, `collision`, `distances`; `state` and
+`catalogue` are plain values.
 
 Invariants: fixed step, sequences and ordered dicts only, no clock, no random numbers. Commands
 given at step k act from k to k+1; everything one can read is the state of step k.

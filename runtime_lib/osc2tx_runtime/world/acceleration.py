@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .catalogue import COMFORT, Limits
 from .commands import AccelerationChange
-from .profiles import Linear, Quintic
+from .profiles import Linear, Profile, Quintic
 from .protocol import PENDING, REACHED, Progress
 from .senses import Senses
 from .state import ActorState
@@ -56,7 +56,8 @@ class AccelerationRun:
 
     def __init__(self, command: AccelerationChange, me: ActorState, limits: Limits) -> None:
         start = me.a if command.start is None else command.start
-        self._profile = acceleration_profile(command, start, limits)
+        self._profile: Profile = command.course or acceleration_profile(command, start, limits)
+        self._gained = 0.0  # m/s, of a course
         self._start_speed = me.v
         self._time = 0.0
         self._steps = 0
@@ -65,8 +66,12 @@ class AccelerationRun:
     def speed_after(self, me: ActorState, senses: Senses) -> float:
         """Start speed plus the integral of the acceleration; zero once it comes to a stand."""
         self._steps += 1
-        self._time = self._steps * senses.dt
-        speed = self._start_speed + _integral(self._profile, self._time)
+        before, self._time = self._time, self._steps * senses.dt
+        if isinstance(self._profile, Linear | Quintic):
+            self._gained = _integral(self._profile, self._time)
+        else:
+            self._gained += _simpson(self._profile, before, self._time)
+        speed = self._start_speed + self._gained
         stops = self._start_speed > 0.0 > speed or self._start_speed < 0.0 < speed
         self._standing = self._standing or stops
         return 0.0 if self._standing else speed
@@ -76,7 +81,7 @@ class AccelerationRun:
         if self._time >= self._profile.duration - 1e-9:
             return REACHED
         if self._standing:
-            end = self._profile.end
+            end = self._profile.value(self._profile.duration)
             return Progress(False, f"it stands before its acceleration is {end:g} m/s^2")
         return PENDING
 
@@ -84,6 +89,12 @@ class AccelerationRun:
     def acceleration(self) -> float:
         """Acceleration (m/s^2) at the present step."""
         return 0.0 if self._standing else self._profile.value(self._time)
+
+
+def _simpson(profile: Profile, low: float, high: float) -> float:
+    """Integral of a course over a step; exact up to the third power of the time."""
+    middle = profile.value(0.5 * (low + high))
+    return (high - low) * (profile.value(low) + 4.0 * middle + profile.value(high)) / 6.0
 
 
 def _integral(profile: Linear | Quintic, t: float) -> float:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 
+from osc2tx_runtime.clock import whole_steps
+
 from .catalogue import COMFORT, Limits
 from .commands import Beside, Sideways, Slant
 from .distances import side_gap
 from .guidance import rate_to_place_and_speed
 from .lateral_limits import SIDEWAYS
+from .profiles import Profile
 from .protocol import PENDING, REACHED, Progress
 from .senses import Senses
 from .state import ActorState
@@ -23,25 +26,42 @@ _STEPS = 4  # steps for which it must stay so
 
 
 class SidewaysRun:
-    """A constant speed across the lane, or a constant heading, as far as the heading allows."""
+    """A speed across the lane, or a heading, as far as the heading allows."""
 
     def __init__(self, command: Sideways | Slant) -> None:
-        self._speed = command.speed if isinstance(command, Sideways) else 0.0
-        self._share = math.sin(command.angle) if isinstance(command, Slant) else 0.0
+        self._command = command
+        self._steps = 0
+        self._over = False  # the course, if there is one
         self._reached = False
+
+    def _wanted(self, path: float, senses: Senses) -> float:
+        """Speed (m/s) to the left."""
+        command, time = self._command, self._steps * senses.dt
+        course = command.course
+        self._over = course is None or time >= course.duration - 1e-9
+        if isinstance(command, Slant):
+            angle = command.angle if course is None else course.value(time)
+            return math.sin(angle) * path / senses.dt
+        speed = command.speed if course is None else course.value(time)
+        if command.reference is None:
+            return speed
+        return speed + command.factor * senses.state(command.reference).lateral_speed
 
     def offset_after(
         self, offset: float, path: float, me: ActorState, senses: Senses
     ) -> tuple[float, float]:
         """One step to the side."""
+        self._steps += 1
         room = abs(path) * SIDEWAYS / senses.dt
-        wanted = self._speed + self._share * path / senses.dt
+        wanted = self._wanted(path, senses)
         speed = min(max(wanted, -room), room)
-        self._reached = speed == wanted
+        self._reached = speed == wanted and self._over
+        if isinstance(self._command, Sideways) and self._command.course is not None:
+            return offset + 0.5 * (me.lateral_speed + speed) * senses.dt, speed
         return offset + speed * senses.dt, speed
 
     def progress(self) -> Progress:
-        """Done while it has the speed."""
+        """Done while it has the last speed."""
         return REACHED if self._reached else PENDING
 
 
@@ -55,6 +75,7 @@ class BesideRun:
         self._other = Tracked(command.reference, command.projected)
         self._settled = 0
         self._steps: int | None = None  # to go, where there is a time
+        self._elapsed = 0
         self._failed: str | None = None
 
     def offset_after(
@@ -68,12 +89,14 @@ class BesideRun:
             self._failed = f"there is no way along lanes to {command.reference}"
             return offset, 0.0
         if self._steps is None and command.duration is not None:
-            self._steps = max(round(command.duration / dt), 1)
+            self._steps = max(whole_steps(command.duration, dt), 1)
         error = 0.0
         if command.left is None:
             gap = side_gap(to_left, me.shape, other.shape)
             wanted = other.lateral_speed - gap / (command.time or dt)
             self._note(abs(self._speed - wanted) < _RATE_NEAR)
+        elif command.course is not None:
+            return self._on_course(command.course, offset, -to_left, path, other, dt)
         else:
             own = -to_left  # so far it is left of the other one
             error = min(max(own, command.left), command.left + command.spread) - own
@@ -89,6 +112,27 @@ class BesideRun:
             self._steps -= 1
             self._judge(error + other.lateral_speed * dt - moved)
         return offset + moved, speed
+
+    def _on_course(
+        self,
+        course: Profile,
+        offset: float,
+        own: float,
+        path: float,
+        other: ActorState,
+        dt: float,
+    ) -> tuple[float, float]:
+        """One step on a course, if the other one goes on as it does."""
+        self._elapsed += 1
+        time, moving = self._elapsed * dt, other.lateral_speed
+        wanted = course.value(time) - own + moving * dt
+        room = abs(path) * SIDEWAYS
+        moved = min(max(wanted, -room), room)
+        self._speed = course.rate(time) + moving if moved == wanted else moved / dt
+        if self._settled < _STEPS and time >= course.duration - 1e-9:
+            self._settled = _STEPS
+            self._miss(wanted - moved)
+        return offset + moved, self._speed
 
     def _towards(self, error: float, moving: float, dt: float) -> float:
         """The lateral speed (m/s) that brings it nearer to its place."""
@@ -109,11 +153,14 @@ class BesideRun:
         """Whether it is there when its time is over."""
         if self._steps == 0:
             self._settled = _STEPS
-            if abs(missed) > _NEAR:
-                self._failed = (
-                    f"when its time is over it is {abs(missed):.2f} m from its place beside"
-                    f" {self._command.reference}"
-                )
+            self._miss(missed)
+
+    def _miss(self, missed: float) -> None:
+        if abs(missed) > _NEAR:
+            self._failed = (
+                f"when its time is over it is {abs(missed):.2f} m from its place beside"
+                f" {self._command.reference}"
+            )
 
     def progress(self) -> Progress:
         """Done when the distance has been held for some steps, or at its time."""

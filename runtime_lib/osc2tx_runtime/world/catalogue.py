@@ -12,8 +12,11 @@ from dataclasses import dataclass
 __all__ = [
     "CATEGORIES",
     "COMFORT",
+    "GENTLE",
+    "MAX_STEERING",
     "MODELS",
     "RATE_CAP",
+    "TOP_SPEED",
     "TYRES",
     "VEHICLE_CATEGORIES",
     "Limits",
@@ -23,6 +26,13 @@ __all__ = [
 ]
 
 COMFORT = 0.5  # share of the limits that is used where nothing asks for more
+GENTLE = 0.9
+"""Of the comfortable rate: the peak of a smooth change of speed that names none."""
+
+MAX_STEERING = 0.6
+"""Radians between the front wheels of a vehicle and its axis."""
+
+TOP_SPEED = 69.0  # m/s: nothing in a scenario goes faster by itself; the DSL knows no top speed
 RATE_CAP = 12.0  # m/s^2: more than tyres can transmit; explicit rates above it are refused
 
 
@@ -37,6 +47,9 @@ class Shape:
         rear: Metres from the rear end to the reference point (rear axle centre of vehicles, box
             centre of everything else; DSL 8.3.2, 8.3.3).
         wheelbase: Metres between the axles; 0 where there are none.
+        steering: Largest angle between the front wheels and the axis (rad).
+        hitch: Metres from the reference point back to the hitch for a trailer; None: the rear end.
+        drawbar: Metres from the axle of a trailer to its coupler; None: half a metre before it.
     """
 
     length: float
@@ -44,6 +57,9 @@ class Shape:
     height: float
     rear: float
     wheelbase: float = 0.0
+    steering: float = MAX_STEERING
+    hitch: float | None = None
+    drawbar: float | None = None
 
     @property
     def front(self) -> float:

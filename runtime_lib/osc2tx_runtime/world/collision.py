@@ -23,7 +23,8 @@ class Box(NamedTuple):
         sin: Sine of the heading.
         half_length: Metres.
         half_width: Metres.
-        radius: Radius of the circle around the footprint (m).
+        reach_x: How far it reaches from the centre along the x axis of the world (m).
+        reach_y: The same along the y axis (m).
     """
 
     x: float
@@ -34,7 +35,8 @@ class Box(NamedTuple):
     sin: float
     half_length: float
     half_width: float
-    radius: float
+    reach_x: float
+    reach_y: float
 
 
 def box_of(state: ActorState) -> Box:
@@ -53,7 +55,8 @@ def box_of(state: ActorState) -> Box:
         n,
         half,
         width,
-        math.sqrt(half * half + width * width),
+        half * abs(c) + width * abs(n),
+        half * abs(n) + width * abs(c),
     )
 
 
@@ -102,15 +105,12 @@ def overlapping(a: Box, b: Box) -> bool:
 
 def _touch(a: Box, a_end: Box, b: Box, b_end: Box) -> bool:
     """True if two boxes touch at any time of a step."""
-    dx = b_end.x - b.x - a_end.x + a.x
-    dy = b_end.y - b.y - a_end.y + a.y
-    reach = a.radius + b.radius + math.hypot(dx, dy)
-    if (b.x - a.x) ** 2 + (b.y - a.y) ** 2 > reach * reach:
-        return False
     if min(a.low, a_end.low) > max(b.high, b_end.high):
         return False
     if min(b.low, b_end.low) > max(a.high, a_end.high):
         return False
+    dx = b_end.x - b.x - a_end.x + a.x
+    dy = b_end.y - b.y - a_end.y + a.y
     moving = contact_interval(a, b, dx, dy)
     if moving is not None and moving[0] <= 1.0 and moving[1] >= 0.0:
         return True
@@ -125,18 +125,33 @@ def swept_contacts(begin: Sequence[Box], end: Sequence[Box]) -> list[tuple[int, 
         begin: Boxes at the begin of the step.
         end: Boxes at its end, in the same order.
     """
-    # Sorted by their left ends, so that only boxes that overlap in x are compared.
-    spans = sorted(
-        (b.x - b.radius, e.x + b.radius, i) if b.x < e.x else (e.x - b.radius, b.x + b.radius, i)
-        for i, (b, e) in enumerate(zip(begin, end, strict=True))
-    )
-    active: list[tuple[float, int]] = []
+    # Sorted by their left ends, so that only those are compared that overlap in x; most of them,
+    # in the lane beside, do not overlap in y.
+    spans = sorted(_span(b, e, i) for i, (b, e) in enumerate(zip(begin, end, strict=True)))
+    active: list[_Span] = []
     found: list[tuple[int, int]] = []
-    for left, right, i in spans:
-        active = [other for other in active if other[0] >= left]
-        for _, j in active:
-            if _touch(begin[j], end[j], begin[i], end[i]):
+    for span in spans:
+        left, _, low, high, i = span
+        active = [other for other in active if other[1] >= left]
+        for _, _, other_low, other_high, j in active:
+            if (
+                other_low <= high
+                and low <= other_high
+                and _touch(begin[j], end[j], begin[i], end[i])
+            ):
                 found.append((i, j) if i < j else (j, i))
-        active.append((right, i))
+        active.append(span)
     found.sort()
     return found
+
+
+_Span = tuple[float, float, float, float, int]
+"""What a box covers on the way through a step: in x from and to, in y from and to; its index."""
+
+
+def _span(b: Box, e: Box, index: int) -> _Span:
+    x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
+    y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
+    left, right = (b.x, e.x) if b.x < e.x else (e.x, b.x)
+    low, high = (b.y, e.y) if b.y < e.y else (e.y, b.y)
+    return left - x, right + x, low - y, high + y, index

@@ -20,9 +20,6 @@ from .state import ActorState
 
 __all__ = ["Course", "Steering", "course_of"]
 
-MAX_STEERING = 0.6
-"""Radians between the front wheels of a vehicle and its axis."""
-
 TURN_RATE = math.pi
 """Radians per second at which actors without wheels turn."""
 
@@ -63,7 +60,7 @@ class Steering:
     def __init__(self, shape: Shape, limits: Limits) -> None:
         self._wheelbase = shape.wheelbase
         self._grip = limits.deceleration
-        self._bend = math.tan(MAX_STEERING) / shape.wheelbase if shape.wheelbase else math.inf
+        self._bend = math.tan(shape.steering) / shape.wheelbase if shape.wheelbase else math.inf
 
     def look_ahead(self, speed: float) -> float:
         """Metres ahead at which to steer."""

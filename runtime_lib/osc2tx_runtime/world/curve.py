@@ -54,8 +54,8 @@ class Curve:
     """
 
     def __init__(self, knots: Sequence[Knot], smooth: bool) -> None:
-        self._knots = tuple(knots)
-        self._starts = [knot.at for knot in knots]
+        self._knots = tuple(_exact(knot) for knot in knots)
+        self._starts = [knot.at for knot in self._knots]
         self.knots = tuple(self._starts)
         self.begin, self.end = self._starts[0], self._starts[-1]
         self._smooth = smooth and len(knots) > 2
@@ -198,6 +198,12 @@ class Curve:
                 total += self._arc(left, right)
                 table.append((right, total))
         return table
+
+
+def _exact(knot: Knot) -> Knot:
+    """The same in plain numbers, also where a scenario measured them."""
+    at, x, y, z = map(float, knot[:4])
+    return Knot(at, x, y, z, None if knot.yaw is None else float(knot.yaw))
 
 
 def turn_between(here: float, there: float) -> float:

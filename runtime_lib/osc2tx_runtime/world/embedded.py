@@ -7,12 +7,16 @@ from collections.abc import Mapping, Sequence
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
+from .attitude import LEVEL, Tilt
 from .catalogue import Limits
-from .collision import Box, box_of, swept_contacts
 from .commands import Command, Standstill
+from .contacts import Contacts
+from .couplings import Couplings
 from .distances import along_lanes, lateral_on_road
 from .environment import Lights, Surroundings
+from .features import FEATURES
 from .friction import grip
+from .kinematics import Kinematics, Track
 from .motion import Body
 from .obstacles import nearest_ahead
 from .protocol import (
@@ -23,46 +27,14 @@ from .protocol import (
     Progress,
 )
 from .signals import Signals
+from .sky import Sky
 from .state import ActorState
 from .stop_lines import StopLine, StopLines
-from .towing import drawn
 from .tracking import projected
 from .wheels import Wheels
+from .wishes import Wish
 
 __all__ = ["EmbeddedWorld"]
-
-_CAPABILITIES = frozenset(
-    {
-        "Accelerate",
-        "AccelerationChange",
-        "Arrive",
-        "Beside",
-        "Careful",
-        "FollowCourse",
-        "FollowRoute",
-        "FollowSpeed",
-        "KeepGap",
-        "KeepLane",
-        "KeepSchedule",
-        "LaneChange",
-        "LaneOffset",
-        "ReplayCourse",
-        "ReplayTrajectory",
-        "Sideways",
-        "Slant",
-        "SpeedChange",
-        "Standstill",
-        "Turn",
-        "assign_orientation",
-        "assign_position",
-        "assign_speed",
-        "collisions",
-        "environment",
-        "lights",
-        "signals",
-        "trailers",
-    }
-)
 
 
 class EmbeddedWorld:
@@ -81,13 +53,12 @@ class EmbeddedWorld:
         self._stop_lines = StopLines(road_map, self.signals)
         self._specs: dict[str, ActorSpec] = {}
         self._bodies: dict[str, Body] = {}
-        self._boxes: list[Box] = []
-        self._assigned: dict[str, dict[str, float | LanePosition | Pose]] = {}
-        self._towed: dict[str, str] = {}  # towing vehicle to trailer
+        self._wishes: dict[str, Wish] = {}
+        self._couplings = Couplings()
         self._lights = Lights()
-        self._surroundings = Surroundings()
-        self._touching: frozenset[tuple[int, int]] = frozenset()
-        self._collisions: tuple[tuple[str, str], ...] = ()
+        self._surroundings = Surroundings(dt)
+        self._track = Track()
+        self._contacts = Contacts()
 
     # --- cast ---------------------------------------------------------------------------------
 
@@ -96,12 +67,19 @@ class EmbeddedWorld:
         self._specs[spec.id] = spec
 
     def place(
-        self, actor: str, at: LanePosition | Pose, speed: float = 0.0, heading: float | None = None
+        self,
+        actor: str,
+        at: LanePosition | Pose,
+        speed: float | None = None,
+        heading: float | None = None,
+        tilt: Tilt = LEVEL,
+        aside: float = 0.0,
     ) -> None:
         """Puts an actor somewhere before step 0.
 
         Lane-bound actors follow the lane if `at` is one; others, and those placed by a pose, go
-        straight. `heading` (rad) turns an actor that is not lane-bound.
+        straight. With a heading (rad) against it they have to get into it first. `aside` is
+        a lateral speed (m/s), which runs out if no command holds it.
         """
         spec = self._specs[actor]
         pose = self.map.pose(at) if isinstance(at, LanePosition) else at
@@ -111,14 +89,22 @@ class EmbeddedWorld:
         body = Body(spec, unplaced, None)
         if spec.shape.wheelbase > 0.0:
             body.wheels = Wheels(self._surroundings.road)
-        if spec.lane_bound and isinstance(at, LanePosition):
-            body.state = body.rebind(at, speed, self.map)
+        if spec.lane_bound and isinstance(at, LanePosition) and heading is None:
+            body.state = body.rebind(at, speed or 0.0, self.map)
         else:
-            body.state = body.free_state(pose, speed, 0.0, self.map)
+            if isinstance(at, LanePosition):
+                body.turn_away()
+            body.state = body.free_state(pose, speed or 0.0, 0.0, self.map)
+        if aside:
+            body.drift(aside, self.map)
+        if tilt != LEVEL:
+            body.tilt = tilt
+            pitch, roll = tilt.over((body.state.pitch, body.state.roll))
+            body.state = body.state._replace(pitch=pitch, roll=roll)
         self._bodies[actor] = body
         self._bodies = {each: self._bodies[each] for each in self._specs if each in self._bodies}
         self._lights.add(actor)
-        self._boxes = [box_of(each.state) for each in self._bodies.values()]
+        self._contacts.begin({each: body.state for each, body in self._bodies.items()})
 
     def actors(self) -> tuple[str, ...]:
         """Ids of the placed actors in the order of the cast."""
@@ -134,6 +120,10 @@ class EmbeddedWorld:
         """State of an actor at the present step."""
         body = self._bodies.get(actor)
         return self._body(actor).state if body is None else body.state
+
+    def motion(self, actor: str) -> Kinematics:
+        """Velocity and acceleration of an actor at the present step, in its own axes."""
+        return self._track.of(actor, self.state(actor), self.dt)
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
         """Where an actor would be after some time if it went on in its lane at its speed."""
@@ -184,18 +174,18 @@ class EmbeddedWorld:
 
     def collisions(self) -> Sequence[tuple[str, str]]:
         """Pairs of actors (ids sorted) whose contact began during the last step, sorted."""
-        return self._collisions
+        return self._contacts.new
 
     def capabilities(self) -> frozenset[str]:
         """Names of the commands (classes) and other features the world carries out."""
-        return _CAPABILITIES
+        return FEATURES
 
     # --- writing ------------------------------------------------------------------------------
 
     def command(self, actor: str, slot: str, command: Command | None) -> None:
         """Sets what a slot pursues; None: hold the speed, keep the lane."""
         body = self._body(actor)
-        if command is not None and actor in self._towed.values():
+        if command is not None and self._couplings.is_towed(actor):
             raise ScenarioError(f"{actor} is towed, so it cannot move by itself")
         if slot == LONGITUDINAL:
             body.pursue_speed(command)
@@ -209,31 +199,33 @@ class EmbeddedWorld:
         speed: float | None = None,
         at: LanePosition | Pose | None = None,
         heading: float | None = None,
+        tilt: Tilt = LEVEL,
     ) -> None:
         """Changes a state at once; it can be seen from the next step on."""
         self._body(actor)
-        wishes = self._assigned.setdefault(actor, {})
-        for name, value in (("speed", speed), ("at", at), ("heading", heading)):
-            if value is not None:
-                wishes[name] = value
+        before = self._wishes.get(actor, Wish())
+        self._wishes[actor] = before.with_also(speed, at, heading, tilt)
 
     def attach(self, tow: str, trailer: str | None) -> None:
         """Couples a trailer to a vehicle, from the next step on; None uncouples what it tows."""
-        before = self._towed.pop(tow, None)
+        before = self._couplings.attach(tow, trailer)
         if before is not None:
             self._body(before).pursue_speed(Standstill())
         if trailer is not None:
             self._body(trailer).unbind()
-            self._towed[tow] = trailer
 
     def trailer_of(self, tow: str) -> str | None:
         """Id of the trailer that a vehicle tows."""
-        return self._towed.get(tow)
+        return self._couplings.trailer_of(tow)
 
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
         """Switches lights from the next step on; returns what they will be."""
         self._body(actor)
         return self._lights.switch(actor, mode, self._surroundings.automatic_light)
+
+    def begin_under(self, sky: Sky) -> None:
+        """Puts sun and moon where they stand at a place and time, before step 0."""
+        self._surroundings.begin_under(sky)
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
         """Changes the environment from the next step on; returns the lights that switch."""
@@ -249,79 +241,30 @@ class EmbeddedWorld:
         """Goes from step k to k+1."""
         bodies = tuple(self._bodies.values())
         # All read the snapshot; none is replaced before every actor has moved.
-        jumped = {actor for actor, wishes in self._assigned.items() if "at" in wishes}
+        jumped = {actor for actor, wish in self._wishes.items() if wish.jumps}
+        turned = {actor for actor, wish in self._wishes.items() if wish.turns}
+        before = {actor: body.state for actor, body in self._bodies.items()}
         states = [self._next_state(body) for body in bodies]
-        if self._towed:
-            self._draw_trailers(states)
-        boxes = []
-        for i, (body, state) in enumerate(zip(bodies, states, strict=True)):
-            boxes.append(self._boxes[i] if state is body.state else box_of(state))
+        self._couplings.draw(self._bodies, states, self.dt, self.map)
+        for body, state in zip(bodies, states, strict=True):
             body.state = state
-            if body.jumped or body.spec.id in jumped:
-                self._boxes[i] = boxes[i]  # a jump touches nothing on its way
-        self._find_collisions(boxes)
-        self._boxes = boxes
+            if body.jumped:
+                jumped.add(body.spec.id)
+        self._track.add(before, frozenset(jumped | turned))
+        self._contacts.step(before, states, jumped, self._couplings.pairs())
         self._lights.step()
         self._surroundings.step()
+        if self._surroundings.sky is not None:
+            self._lights.follow(self._surroundings.automatic_light)
         self.signals.step()
 
-    def _draw_trailers(self, states: list[ActorState]) -> None:
-        """Puts trailers behind the new states of what tows them, the foremost first."""
-        place = {actor: i for i, actor in enumerate(self._bodies)}
-        waiting = [tow for tow in self._towed if tow not in self._towed.values()]
-        for tow in waiting:
-            trailer = self._towed[tow]
-            body, new = self._bodies[trailer], states[place[tow]]
-            pose, speed = drawn(body.state, new, self._bodies[tow].state, self.dt)
-            a = (speed - body.state.v) / self.dt
-            states[place[trailer]] = body.free_state(pose, speed, a, self.map)
-            if trailer in self._towed:
-                waiting.append(trailer)
-
     def _next_state(self, body: Body) -> ActorState:
-        if self._towed and body.spec.id in self._towed.values():
-            return body.state  # `_draw_trailers` moves it
-        wishes = self._assigned.pop(body.spec.id, None) if self._assigned else None
-        if wishes is None:
-            return body.moved(self, self.map) if body.spec.movable else body.state
-        speed, at, heading = (wishes.get(name) for name in ("speed", "at", "heading"))
-        if isinstance(speed, float):
-            body.pursue_speed(None)
-        if at is None and heading is None:
-            state = body.moved(self, self.map)
-        elif isinstance(at, LanePosition) and body.spec.lane_bound:
-            state = body.rebind(at, body.state.v, self.map)
-        else:
-            state = self._jump(body, at, heading)
-        return state._replace(v=speed, a=0.0) if isinstance(speed, float) else state
-
-    def _jump(self, body: Body, at: object, heading: object) -> ActorState:
-        state = body.state
-        pose = Pose(state.x, state.y, state.z, state.h)
-        if isinstance(at, LanePosition):
-            pose = self.map.pose(at)
-        elif isinstance(at, Pose):
-            pose = at
-            body.unbind()
-        if isinstance(heading, float):
-            pose = Pose(pose.x, pose.y, pose.z, heading)
-        return body.free_state(pose, state.v, 0.0, self.map)
-
-    def _find_collisions(self, boxes: list[Box]) -> None:
-        ids = tuple(self._bodies)
-        touching = swept_contacts(self._boxes, boxes)
-        before = self._touching | {
-            (min(ids.index(one), ids.index(two)), max(ids.index(one), ids.index(two)))
-            for one, two in self._towed.items()  # coupled ones may touch
-        }
-        self._collisions = tuple(
-            sorted(
-                (min(ids[i], ids[j]), max(ids[i], ids[j]))
-                for i, j in touching
-                if (i, j) not in before
-            )
-        )
-        self._touching = frozenset(touching)
+        if self._couplings.is_towed(body.spec.id):
+            return body.state  # what tows it draws it along
+        wish = self._wishes.pop(body.spec.id, None)
+        if wish is not None:
+            return wish.carried_out(body, self, self.map)
+        return body.moved(self, self.map) if body.spec.movable else body.state
 
     def _body(self, actor: str) -> Body:
         body = self._bodies.get(actor)

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from .friction import RoadCondition, road_condition
 from .protocol import FOG_LIGHT_RANGE, LOW_BEAM_SUN_ELEVATION, LightMode, LightState
+from .sky import Sky
 
 __all__ = ["Lights", "Surroundings"]
 
@@ -15,19 +16,33 @@ __all__ = ["Lights", "Surroundings"]
 class Surroundings:
     """The environment: what is set at step k can be read from step k+1 on.
 
+    Args:
+        dt: Length of a step (s).
+
     Attributes:
         road: Condition of the roads on the way to the next step.
+        sky: Where sun and moon stand by themselves; None: nobody says.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, dt: float) -> None:
         self.road: RoadCondition = "dry"
         self._now: dict[str, float] = {}
         self._next: dict[str, float] = {}
+        self._pinned: set[str] = set()
+        self.sky: Sky | None = None
+        self._dt, self._steps = dt, 0
         self.values: Mapping[str, float] = MappingProxyType(self._now)
+
+    def begin_under(self, sky: Sky) -> None:
+        """Lets sun and moon go their way from step 0 on, as far as no action sets them."""
+        self.sky = sky
+        self._move_lights(0)
+        self._now.update(self._next)
 
     def set(self, values: Mapping[str, float]) -> None:
         """Changes values; those that are not named stay."""
         self._next.update(values)
+        self._pinned.update(values)
         self.road = road_condition(self._next)
 
     @property
@@ -45,7 +60,15 @@ class Surroundings:
 
     def step(self) -> None:
         """Goes to the next step."""
+        self._steps += 1
+        if self.sky is not None:
+            self._move_lights(self._steps)
         self._now.update(self._next)
+
+    def _move_lights(self, steps: int) -> None:
+        assert self.sky is not None
+        computed = self.sky.values(steps * self._dt)
+        self._next.update({k: v for k, v in computed.items() if k not in self._pinned})
 
 
 class Lights:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from osc2tx_runtime.clock import whole_steps
+
 from .catalogue import COMFORT, Limits
 from .commands import Arrive, FollowSpeed, KeepGap
 from .distances import gap_between, headway_between
@@ -19,15 +21,15 @@ __all__ = ["ArrivalRun", "GapRun"]
 _SPEED_TOLERANCE = 0.2  # m/s between the speeds at which a gap can count as reached
 _GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
 _GAP_STEPS = 4  # steps for which it must stay so
-_GAP_RATE = 0.6  # 1/s: how fast small gap errors decay
-_RESPONSE = 0.3  # s in which the gap controller corrects the speed
+_STIFFNESS = 0.4  # of the spring that closes a gap, in units of the limit that counts at the end
 
 
 class GapRun:
     """Feedback on a distance to another actor.
 
-    The closing speed grows linearly with a small error and with the square root of a large one,
-    so that the actor can always still brake; it does not reverse.
+    A small error decays like that of a critically damped spring, as with tools that read
+    OpenSCENARIO XML; the closing speed grows with the square root of a large one, so that the
+    actor can always still brake. It does not reverse.
     """
 
     __slots__ = ("_command", "_failed", "_limits", "_other", "_settled")
@@ -48,12 +50,15 @@ class GapRun:
             return me.v
         here, low, high = found
         error = min(max(here, low), high) - here  # > 0: more speed is needed
-        brake = COMFORT * min(self._limits.deceleration, 2.0 * self._limits.acceleration)
-        closing = min(_GAP_RATE * abs(error), math.sqrt(2.0 * brake * abs(error)))
-        goal = max(other.v + math.copysign(closing, error), 0.0)
+        last = self._limits.acceleration if error < 0.0 else self._limits.deceleration
+        pace = math.sqrt(_STIFFNESS * last)  # 1/s
+        soon = abs(error + 0.5 * (other.v - me.v) * senses.dt)  # in the middle of the step
+        closing = min(0.5 * pace * soon, math.sqrt(2.0 * COMFORT * last * soon))
+        its_speed = other.v + other.a * senses.dt  # if it goes on so
+        goal = max(its_speed + math.copysign(closing, error), 0.0)
         if error == 0.0 and low < high:
             goal = me.v if low < here < high else goal  # anywhere in the range will do
-        blend = 1.0 - math.exp(-senses.dt / _RESPONSE)
+        blend = 1.0 - math.exp(-2.0 * pace * senses.dt)
         speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, senses.dt)
         close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
         near = abs(error) < _GAP_TOLERANCE and close
@@ -84,7 +89,7 @@ class ArrivalRun:
         """One step on the way there; afterwards the same speed."""
         dt = senses.dt
         if self._steps is None:
-            self._steps = max(round(self._command.duration / dt), 1)
+            self._steps = max(whole_steps(self._command.duration, dt), 1)
         if self._steps == 0:
             return me.v
         end = self._end_speed(senses)

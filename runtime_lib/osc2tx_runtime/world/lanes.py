@@ -1,13 +1,21 @@
-"""Lane numbers: counted over driving lanes of one direction, from one edge of the road."""
+"""Lanes beside each other: numbers counted from one edge of the road, neighbours, offsets."""
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.opendrive import LanePosition, RoadMap
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 
-__all__ = ["lane_with_number", "lanes_to_left", "neighbouring", "number_of_lane"]
+__all__ = [
+    "lane_under",
+    "lane_with_number",
+    "lanes_to_left",
+    "neighbouring",
+    "number_of_lane",
+    "offset_from",
+]
 
 Side = Literal["left", "right"]
 
@@ -52,3 +60,24 @@ def neighbouring(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosi
     if lanes == 0:
         return place
     return road_map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
+
+
+def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:
+    """How far (m) a point is to the left of the centre of a lane."""
+    centre = road_map.pose(lane)
+    return (y - centre.y) * math.cos(centre.h) - (x - centre.x) * math.sin(centre.h)
+
+
+def lane_under(road_map: RoadMap, bound: LanePosition, pose: Pose) -> LanePosition:
+    """The lane under the reference point: beside the bound one during a lane change."""
+    while True:
+        half = 0.5 * road_map.lane_width(bound.road, bound.lane, bound.s)
+        if abs(bound.offset) <= half:
+            return bound
+        beside = road_map.neighbour(bound, "left" if bound.offset > 0.0 else "right")
+        if beside is None:
+            return bound
+        offset = offset_from(road_map, beside, pose.x, pose.y)
+        if abs(offset) >= abs(bound.offset):
+            return bound
+        bound = LanePosition(beside.road, beside.lane, beside.s, offset)

@@ -16,8 +16,17 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 from .beside import BesideRun, SidewaysRun
 from .catalogue import Limits
-from .commands import Beside, Command, KeepLane, LaneChange, LaneOffset, Sideways, Slant
-from .lanes import neighbouring
+from .commands import (
+    Beside,
+    Command,
+    KeepLane,
+    LaneChange,
+    LaneOffset,
+    RunOut,
+    Sideways,
+    Slant,
+)
+from .lanes import neighbouring, offset_from
 from .lateral_limits import HEADING_LIMIT, SIDEWAYS
 from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
 from .protocol import PENDING, REACHED, Progress
@@ -35,7 +44,6 @@ __all__ = [
     "Shift",
     "excessive_shift",
     "lateral_of",
-    "offset_from",
     "shift_profile",
 ]
 
@@ -46,6 +54,7 @@ LANE_CHANGE_WIDTH = 3.5
 """Metres; other distances take longer or shorter with their square root."""
 
 _AT_REST = 1e-6  # m/s of lateral speed
+_RUN_OUT = 0.4  # s: how far a lateral speed carries when nothing holds it
 
 
 class Lateral(Protocol):
@@ -135,12 +144,6 @@ class Shift:
         return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING
 
 
-def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:
-    """How far (m) a point is to the left of the centre of a lane."""
-    centre = road_map.pose(lane)
-    return (y - centre.y) * math.cos(centre.h) - (x - centre.x) * math.sin(centre.h)
-
-
 def shift_profile(
     offset: float,
     end: float,
@@ -217,11 +220,15 @@ def lateral_of(
             return bound, BesideRun(command, limits, rate)
         case Sideways() | Slant():
             return bound, SidewaysRun(command)
+        case RunOut():
+            target, rate = physical, command.speed
+            start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
+            end = start + _RUN_OUT * rate
         case None | KeepLane() if isinstance(before, BesideRun | SidewaysRun):
             # It may have come to another lane; what is left of the lateral speed runs out.
             target = physical
             start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
-            end = start + 0.4 * rate
+            end = start + _RUN_OUT * rate
         case None | KeepLane():
             if not isinstance(before, Shift) or before.progress().done:
                 return bound, HoldOffset()
@@ -233,6 +240,10 @@ def lateral_of(
     start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
     course: tuple[DynamicProfile, float | None, float | None] = ("none", None, None)
     if isinstance(command, (LaneChange, LaneOffset)):
+        if command.course is not None:
+            return LanePosition(target.road, target.lane, target.s, start), Shift(
+                command.course, end
+            )
         course = (command.profile, command.rate_peak, command.duration)
     profile = shift_profile(start, end, rate, course, limits)
     return LanePosition(target.road, target.lane, target.s, start), Shift(profile, end)

@@ -8,7 +8,7 @@ from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import Route
 
 from .acceleration import AccelerationRun, ConstantAcceleration
-from .catalogue import COMFORT, TYRES, Limits
+from .catalogue import COMFORT, GENTLE, TYRES, Limits
 from .caution import Cautious, Hold
 from .commands import (
     Accelerate,
@@ -16,15 +16,18 @@ from .commands import (
     Arrive,
     Careful,
     Command,
+    Cover,
     FollowSpeed,
+    GapCourse,
     KeepGap,
     KeepSchedule,
     ReplayTrajectory,
     SpeedChange,
     Standstill,
 )
+from .covering import CoverRun, GapCourseRun
 from .gaps import ArrivalRun, GapRun
-from .profiles import Linear, Profile, Quintic, SCurve, quintic_duration
+from .profiles import COSINE_PEAK, Cosine, Linear, Profile, SCurve, cosine_duration
 from .protocol import PENDING, REACHED, Progress
 from .schedule import Schedule, towards
 from .senses import Senses
@@ -78,20 +81,57 @@ class _ProfileRun:
         return 0.0 if self.progress().done else self._profile.rate(self._time)
 
 
+class _CourseRun(_ProfileRun):
+    """A speed that a course gives, as long as the limits allow it."""
+
+    __slots__ = ("_failed", "_limits")
+
+    def __init__(self, course: Profile, limits: Limits | None) -> None:
+        super().__init__(course)
+        self._limits = limits
+        self._failed: str | None = None
+
+    def speed_after(self, me: ActorState, senses: Senses) -> float:
+        """Value of the course; the nearest possible one where that cannot be reached."""
+        speed, limits = super().speed_after(me, senses), self._limits
+        if limits is None:
+            return speed
+        possible = towards(me.v, speed, limits, 1.0 + 1e-9, senses.dt)
+        if possible != speed and self._failed is None:
+            rate = (speed - me.v) / senses.dt
+            self._failed = f"its shape asks for {rate:.2f} m/s^2, which is more than it can do"
+        return possible
+
+    def progress(self) -> Progress:
+        """Done at the end of the course."""
+        return super().progress() if self._failed is None else Progress(False, self._failed)
+
+
 class _Following:
     """Feedback: the speed of another actor, approached within comfortable limits."""
 
-    __slots__ = ("_command", "_done", "_limits")
+    __slots__ = ("_command", "_done", "_limits", "_steps")
 
     def __init__(self, command: FollowSpeed, limits: Limits) -> None:
         self._command = command
         self._limits = limits
+        self._steps = 0
         self._done = False
 
     def speed_after(self, me: ActorState, senses: Senses) -> float:
         """A step towards the speed of the reference at the present step."""
-        command = self._command
-        least = senses.state(command.reference).v * command.factor + command.difference
+        command, course = self._command, self._command.course
+        self._steps += 1
+        other = senses.state(command.reference)
+        if course is not None:
+            time = self._steps * senses.dt
+            its_speed = other.v + other.a * senses.dt  # if it goes on so
+            wanted = its_speed * command.factor + course.value(time)
+            speed = towards(me.v, wanted, self._limits, 1.0, senses.dt)
+            over = time >= course.duration - 1e-9
+            self._done = over and abs(speed - wanted) < _SPEED_TOLERANCE
+            return speed
+        least = other.v * command.factor + command.difference
         wanted = min(max(me.v, least), least + command.spread)
         speed = towards(me.v, wanted, self._limits, COMFORT, senses.dt)
         self._done = abs(speed - wanted) < _SPEED_TOLERANCE
@@ -102,14 +142,18 @@ class _Following:
         return REACHED if self._done else PENDING
 
 
-def speed_profile(command: SpeedChange, speed: float, limits: Limits) -> Profile:
-    """Closed form of a speed change that starts at `speed` (m/s).
+def speed_profile(
+    command: SpeedChange, speed: float, limits: Limits, acceleration: float = 0.0
+) -> Profile:
+    """Closed form of a speed change that starts at `speed` (m/s) and `acceleration` (m/s^2).
 
     `none` and `constant` use comfortable limits where the command gives no rate, `asap` the full
     ones. Going faster uses the acceleration, going slower the deceleration; a change of direction
-    uses the smaller of both.
+    uses the smaller of both. Where the jerk is limited, the present acceleration goes on first.
     """
     target, peak, duration = command.target, command.rate_peak, command.duration
+    if command.course is not None:
+        return command.course
     change = abs(target - speed)
     if change == 0.0:
         return Linear(speed, target, 0.0)
@@ -117,16 +161,17 @@ def speed_profile(command: SpeedChange, speed: float, limits: Limits) -> Profile
     rate = COMFORT * limit if peak is None else peak
     match command.profile:
         case "asap":
-            return SCurve(speed, target, limit if peak is None else peak, limits.jerk)
+            most = limit if peak is None else peak
+            return SCurve(speed, target, most, limits.jerk, acceleration)
         case "constant":
             return Linear(speed, target, change / rate if duration is None else duration)
         case "smooth":
-            time = quintic_duration(change, rate_peak=rate, curve_peak=limits.jerk)
-            return Quintic(speed, target, time if duration is None else duration)
+            usual = cosine_duration(change, GENTLE * rate if peak is None else rate)
+            return Cosine(speed, target, usual if duration is None else duration)
         case _:
             if duration is not None:
-                return Quintic(speed, target, duration)
-            return SCurve(speed, target, rate, limits.jerk)
+                return Cosine(speed, target, duration)
+            return SCurve(speed, target, rate, limits.jerk, acceleration)
 
 
 def _limit(speed: float, target: float, limits: Limits) -> float:
@@ -145,10 +190,12 @@ def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -
     """
     cap = _limit(speed, command.target, limits)
     most = f"{cap:.4g} m/s^2{limits.road}"
+    if command.course is not None:
+        return None  # it is looked at as a whole
     if command.rate_peak is not None and not 0.0 < command.rate_peak <= cap:
         return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {most}"
     if command.duration is not None and command.profile != "asap":
-        factor = 1.0 if command.profile == "constant" else 1.875
+        factor = 1.0 if command.profile == "constant" else COSINE_PEAK
         change = factor * abs(command.target - speed)
         if change > cap * command.duration * (1.0 + 1e-9):
             return (
@@ -185,11 +232,14 @@ def longitudinal_of(
     """
     speed = me.v
     match command:
+        case SpeedChange(course=given) if given is not None:
+            return _CourseRun(given, None if command.exact else TYRES)
         case SpeedChange():
-            start = speed if command.start is None else command.start
-            return _ProfileRun(speed_profile(command, start, limits))
+            if command.start is not None:
+                return _ProfileRun(speed_profile(command, command.start, limits))
+            return _ProfileRun(speed_profile(command, speed, limits, me.a))
         case Standstill():
-            return _ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk))
+            return _ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk, me.a))
         case Accelerate():
             start = speed if command.start is None else command.start
             held = me.a if command.acceleration is None else command.acceleration
@@ -208,6 +258,10 @@ def longitudinal_of(
             return _Following(command, limits)
         case KeepGap():
             return GapRun(command, limits)
+        case GapCourse():
+            return GapCourseRun(command, limits)
+        case Cover():
+            return CoverRun(command, limits)
         case Arrive():
             return ArrivalRun(command, limits)
     raise UnsupportedError(f"{type(command).__name__} is no longitudinal command")

@@ -7,7 +7,9 @@ value is exact and the step size has no influence.
 | profile    | form here                                                     |
 |------------|---------------------------------------------------------------|
 | `constant` | constant rate                                                 |
-| `smooth`   | quintic: rate and its derivative are zero at both ends        |
+| `smooth`   | speed: half a cosine, the `sinusoidal` shape of OpenSCENARIO  |
+|            | XML; lateral: quintic, whose rate and derivative of the rate  |
+|            | are zero at both ends                                         |
 | `asap`     | speed: trapezoid of the acceleration with limited jerk;       |
 |            | lateral: quintic at the limit of the lateral acceleration     |
 | `none`     | as `asap`, but with comfortable limits                        |
@@ -21,17 +23,20 @@ from typing import Literal, Protocol
 
 __all__ = [
     "PROFILES",
+    "Cosine",
     "DynamicProfile",
     "Linear",
     "Profile",
     "Quintic",
     "SCurve",
+    "cosine_duration",
     "quintic_duration",
 ]
 
 DynamicProfile = Literal["none", "constant", "smooth", "asap"]
 PROFILES: tuple[DynamicProfile, ...] = ("none", "constant", "smooth", "asap")
 
+COSINE_PEAK = math.pi / 2.0  # peak rate of half a cosine, in units of change / duration
 QUINTIC_PEAK = 1.875  # peak rate of the quintic, in units of change / duration
 QUINTIC_CURVE = 5.7735  # peak of the derivative of the rate, in units of change / duration^2
 
@@ -75,6 +80,40 @@ class Linear:
         if t < 0.0 or t >= self.duration:
             return 0.0
         return (self.end - self.start) / self.duration
+
+
+@dataclass(frozen=True, slots=True)
+class Cosine:
+    """Smooth change along half a cosine.
+
+    Attributes:
+        start: Value at time 0.
+        end: Value at `duration`.
+        duration: Length of the change (s); 0 is a jump.
+    """
+
+    start: float
+    end: float
+    duration: float
+
+    def value(self, t: float) -> float:
+        """Quantity at time t (s)."""
+        if t >= self.duration:
+            return self.end
+        part = 0.5 - 0.5 * math.cos(math.pi * max(t, 0.0) / self.duration)
+        return self.start + (self.end - self.start) * part
+
+    def rate(self, t: float) -> float:
+        """Rate at time t (s)."""
+        if t < 0.0 or t >= self.duration:
+            return 0.0
+        peak = COSINE_PEAK * (self.end - self.start) / self.duration
+        return peak * math.sin(math.pi * t / self.duration)
+
+
+def cosine_duration(change: float, rate_peak: float) -> float:
+    """Length (s) of a cosine change from the peak of its rate."""
+    return COSINE_PEAK * abs(change) / rate_peak
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,49 +177,67 @@ class SCurve:
         end: Value at `duration`.
         limit: Largest absolute rate, e.g. acceleration (m/s^2).
         jerk: Largest absolute derivative of the rate (m/s^3).
+        start_rate: Rate at time 0, for a change that takes over from another one; it may be
+            beyond the limit, and then comes back to it.
     """
 
     start: float
     end: float
     limit: float
     jerk: float
+    start_rate: float = 0.0
 
     @property
-    def ramp(self) -> float:
-        """Time (s) in which the rate rises to its peak."""
-        change = abs(self.end - self.start)
-        if change >= self.limit * self.limit / self.jerk:
-            return self.limit / self.jerk
-        return math.sqrt(change / self.jerk)
+    def _sign(self) -> float:
+        """Direction of the change that is left when the present rate has gone."""
+        gone = self.start + self.start_rate * abs(self.start_rate) / (2.0 * self.jerk)
+        return 1.0 if self.end >= gone else -1.0
+
+    @property
+    def _parts(self) -> tuple[float, float, float]:
+        """Times (s) until the rate is at its peak, until it leaves it, until it is zero."""
+        jerk, sign = self.jerk, self._sign
+        rate = sign * self.start_rate
+        double = 2.0 * jerk * sign * (self.end - self.start)  # of the peak's square, but for `rate`
+        peak = min(self.limit, math.sqrt(max(0.5 * (double + rate * rate), 0.0)))
+        if rate > peak:
+            flat = (double - rate * rate) / (2.0 * jerk * peak) if peak > 0.0 else 0.0
+            to_peak = (rate - peak) / jerk
+        else:
+            flat = (double + rate * rate - 2.0 * peak * peak) / (2.0 * jerk * peak) if peak else 0.0
+            to_peak = (peak - rate) / jerk
+        leaves = to_peak + max(flat, 0.0)
+        return to_peak, leaves, leaves + peak / jerk
 
     @property
     def duration(self) -> float:
         """Length of the change (s)."""
-        change = abs(self.end - self.start)
-        if change == 0.0:
-            return 0.0
-        if change >= self.limit * self.limit / self.jerk:
-            return change / self.limit + self.limit / self.jerk
-        return 2.0 * self.ramp
+        return self._parts[2]
 
     def value(self, t: float) -> float:
         """Quantity at time t (s)."""
-        duration = self.duration
+        to_peak, leaves, duration = self._parts
         if t >= duration:
             return self.end
-        t, ramp = max(t, 0.0), self.ramp
-        sign = 1.0 if self.end > self.start else -1.0
-        if t < ramp:
-            return self.start + sign * 0.5 * self.jerk * t * t
-        if t > duration - ramp:
+        t, sign = max(t, 0.0), self._sign
+        if t > leaves:
             return self.end - sign * 0.5 * self.jerk * (duration - t) ** 2
-        peak = self.jerk * ramp
-        return self.start + sign * peak * (t - 0.5 * ramp)
+        peak = self.jerk * (duration - leaves)
+        slope = self._slope(peak)
+        at_start = self.start + self.start_rate * min(t, to_peak)
+        begun = at_start + sign * 0.5 * slope * min(t, to_peak) ** 2
+        return begun + sign * peak * max(t - to_peak, 0.0)
 
     def rate(self, t: float) -> float:
         """Rate at time t (s)."""
-        duration = self.duration
+        to_peak, leaves, duration = self._parts
         if t < 0.0 or t >= duration:
             return 0.0
-        sign = 1.0 if self.end > self.start else -1.0
-        return sign * self.jerk * min(t, self.ramp, duration - t)
+        if t > leaves:
+            return self._sign * self.jerk * (duration - t)
+        peak = self.jerk * (duration - leaves)
+        return self.start_rate + self._sign * self._slope(peak) * min(t, to_peak)
+
+    def _slope(self, peak: float) -> float:
+        """Derivative of the rate until it is at its peak, in the direction of the change."""
+        return -self.jerk if self._sign * self.start_rate > peak else self.jerk

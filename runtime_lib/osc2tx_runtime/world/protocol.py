@@ -8,9 +8,12 @@ from typing import Literal, Protocol
 
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
+from .attitude import LEVEL, Tilt
 from .catalogue import Limits, Shape
 from .commands import Command
+from .kinematics import Kinematics
 from .signals import Signals
+from .sky import Sky
 from .state import ActorState
 
 __all__ = [
@@ -110,12 +113,21 @@ class World(Protocol):
         """Makes an actor known; it has a state from its placement on."""
 
     def place(
-        self, actor: str, at: LanePosition | Pose, speed: float = 0.0, heading: float | None = None
+        self,
+        actor: str,
+        at: LanePosition | Pose,
+        speed: float | None = None,
+        heading: float | None = None,
+        tilt: Tilt = LEVEL,
+        aside: float = 0.0,
     ) -> None:
-        """Puts an actor somewhere before step 0; `heading` (rad) is for actors off the lanes."""
+        """Puts an actor somewhere before step 0; who heads beside its lane is in none yet."""
 
     def state(self, actor: str) -> ActorState:
         """State of an actor at the present step."""
+
+    def motion(self, actor: str) -> Kinematics:
+        """Velocity and acceleration of an actor at the present step, in its own axes."""
 
     def actors(self) -> Sequence[str]:
         """Ids of the placed actors in the order in which they were added."""
@@ -133,6 +145,7 @@ class World(Protocol):
         speed: float | None = None,
         at: LanePosition | Pose | None = None,
         heading: float | None = None,
+        tilt: Tilt = LEVEL,
     ) -> None:
         """Changes a state at once; it can be seen from the next step on."""
 
@@ -156,6 +169,9 @@ class World(Protocol):
 
     def lights(self, actor: str) -> LightState:
         """Lights at the present step."""
+
+    def begin_under(self, sky: Sky) -> None:
+        """Puts sun and moon where they stand at a place and time, before step 0."""
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
         """Changes the environment from the next step on; names that are left out stay.

@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.opendrive import Controller, RoadMap
+from osc2tx_runtime.opendrive import Controller, RoadMap, SignalPlace
 
 from .lamps import BOXES, BulbState, Lamp, Meaning, meaning_of
 
 __all__ = ["Signals"]
 
 OFF: BulbState = "is_off"
+
+LinePlace = tuple[str, int, float]
+"""Road, lane and road coordinate (m)."""
+LaneLines = Mapping[tuple[str, int], tuple[SignalPlace, ...]]
+"""Stop lines by road and lane, in order of s."""
 
 _NAMED = 12  # signals that a message lists
 
@@ -35,6 +40,7 @@ class Signals:
         self._shown: dict[str, tuple[BulbState, ...]] = {}
         self._next: dict[str, tuple[BulbState, ...]] = {}
         self._shown_by: dict[str, object] = {}
+        self._moved: dict[str, tuple[LinePlace, ...]] = {}
 
     # --- boxes and groups ---------------------------------------------------------------------
 
@@ -85,6 +91,29 @@ class Signals:
     def group_of(self, signal: str) -> str | None:
         """Id of the group that a traffic light belongs to."""
         return next((g.id for g in self._groups.values() if signal in g.signals), None)
+
+    # --- stop lines ---------------------------------------------------------------------------
+
+    def stop_at(self, signal: str, places: Sequence[LinePlace]) -> None:
+        """Moves the stop lines of a traffic light to other places than those of the map."""
+        self._moved[signal] = tuple(places)
+
+    def lines(self, of_map: LaneLines) -> LaneLines:
+        """Stop lines of the map, but for those that have been moved.
+
+        Args:
+            of_map: What the map has.
+        """
+        if not self._moved:
+            return of_map
+        found = {
+            lane: [place for place in places if place.signal not in self._moved]
+            for lane, places in of_map.items()
+        }
+        for signal, moved in self._moved.items():
+            for road, lane, s in moved:
+                found.setdefault((road, lane), []).append(SignalPlace(signal, s))
+        return {lane: tuple(sorted(places, key=lambda p: p.s)) for lane, places in found.items()}
 
     # --- what they show -----------------------------------------------------------------------
 

@@ -24,6 +24,8 @@ class ActorState(NamedTuple):
         lane_position: Place on the lane graph; None off the road.
         lateral_speed: Metres per second to the left of the lane's centre line.
         shape: Bounding box and reference point.
+        pitch: Nose down (rad).
+        roll: Right side down (rad).
     """
 
     x: float
@@ -35,6 +37,8 @@ class ActorState(NamedTuple):
     lane_position: LanePosition | None
     lateral_speed: float
     shape: Shape
+    pitch: float = 0.0
+    roll: float = 0.0
 
     @property
     def road(self) -> str | None:

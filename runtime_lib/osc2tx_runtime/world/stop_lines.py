@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from typing import NamedTuple
 
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route, SignalPlace, signal_places
 from osc2tx_runtime.opendrive.lane_line import lane_line
 
 from .lamps import Meaning
-from .signals import Signals
+from .signals import LaneLines, Signals
 
 __all__ = ["StopLine", "StopLines"]
 
@@ -48,7 +49,8 @@ class StopLines:
     def __init__(self, road_map: RoadMap, signals: Signals) -> None:
         self._map = road_map
         self._signals = signals
-        self._places = signal_places(road_map.roads, [s for s in road_map.signals() if s.dynamic])
+        lights = [each for each in road_map.signals() if each.dynamic]
+        self._of_map = signal_places(road_map.roads, lights)
 
     def ahead(
         self, place: LanePosition, route: Route | None, nearest: float, reach: float
@@ -75,6 +77,11 @@ class StopLines:
             return None
         meaning = self._signals.meaning(signal)
         return True if meaning in STOP else False if meaning in STOP_IF_POSSIBLE else None
+
+    @cached_property
+    def _places(self) -> LaneLines:
+        """Where lights hold; asked for only when the cast is on the map."""
+        return self._signals.lines(self._of_map)
 
     def _along(
         self, place: LanePosition, route: Route | None, reach: float

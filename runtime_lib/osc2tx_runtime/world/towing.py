@@ -1,8 +1,9 @@
 """Trailers: one axle that follows the hitch of the towing vehicle at a fixed distance.
 
-The hitch is at the rear end of the towing vehicle, the coupler `DRAWBAR` before the box of the
-trailer. In a step the axle is drawn straight towards the new place of the hitch; the distance stays
-exact, and on a circle the trailer comes to the steady angle sin(angle) = distance / radius.
+Where the scenario does not say otherwise, the hitch is at the rear end of the towing vehicle, and
+the coupler `DRAWBAR` before the box of the trailer. In a step the axle is drawn straight towards
+the new place of the hitch; the distance stays exact, and on a circle the trailer comes to the
+steady angle sin(angle) = distance / radius.
 """
 
 from __future__ import annotations
@@ -25,13 +26,18 @@ COUPLING_REACH = 1.0
 
 
 def _hitch(tow: ActorState) -> tuple[float, float]:
-    rear = tow.shape.rear
-    return tow.x - rear * math.cos(tow.h), tow.y - rear * math.sin(tow.h)
+    back = _back(tow.shape)
+    return tow.x - back * math.cos(tow.h), tow.y - back * math.sin(tow.h)
+
+
+def _back(tow: Shape) -> float:
+    """Metres from the reference point back to the hitch."""
+    return tow.rear if tow.hitch is None else tow.hitch
 
 
 def _bar(trailer: Shape) -> float:
     """Metres from the axle to the coupler."""
-    return trailer.front + DRAWBAR
+    return trailer.front + DRAWBAR if trailer.drawbar is None else trailer.drawbar
 
 
 def coupling_gap(tow: ActorState, trailer: ActorState) -> float:
@@ -64,7 +70,7 @@ def drawn(
     x, y = _hitch(tow)
     h = math.atan2(y - trailer.y, x - trailer.x)
     bar = _bar(trailer.shape)
-    turning = turn_between(tow_before.h, tow.h) / dt * tow.shape.rear
+    turning = turn_between(tow_before.h, tow.h) / dt * _back(tow.shape)
     angle = tow.h - h
     speed = tow.v * math.cos(angle) + turning * math.sin(angle)
     return Pose(x - bar * math.cos(h), y - bar * math.sin(h), trailer.z, h), speed

@@ -25,6 +25,24 @@ class Outline:
     junction: str | None = None
 
 
+@dataclass(frozen=True)
+class Post:
+    """Stands for opendrive.Signal."""
+
+    id: str
+    road: str
+    s: float
+    t: float
+
+
+@dataclass(frozen=True)
+class Place:
+    """Stands for opendrive.Pose."""
+
+    x: float
+    y: float
+
+
 @dataclass
 class FakeMap:
     """One road along a centre line: lanes by id with type and width, ordered from the middle."""
@@ -32,6 +50,7 @@ class FakeMap:
     centre: Callable[[float], tuple[float, float, float]]
     length: float
     lanes: dict[int, tuple[str, float]]
+    posts: tuple[Post, ...] = ()
 
     def travel_direction(self, road: str, lane: int) -> int:
         return -1 if lane > 0 else 1
@@ -46,6 +65,13 @@ class FakeMap:
             edges[side] = outer
             left, right = (outer, inner) if side > 0 else (inner, outer)
             yield Outline("16", lane, kind, self._edge(left, step), self._edge(right, step))
+
+    def signals(self) -> tuple[Post, ...]:
+        return self.posts
+
+    def road_pose(self, road: str, s: float, t: float) -> Place:
+        x, y, h = self.centre(s)
+        return Place(x - t * math.sin(h), y + t * math.cos(h))
 
     def _edge(self, t: float, step: float) -> list[Point]:
         count = math.ceil(self.length / step)

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx_runtime.report import write_report
+from tests.runtime.report.test_surroundings import lit_highway, maker
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = [
@@ -140,4 +141,37 @@ def test_controls(open_report, overtaking, highway_map) -> None:
         "rows": "1",
         "row": "0.05",
         "playing": "Pause",
+    }
+
+
+# What is drawn at two times: lamps, headlights (by asking the canvas for the colour), weather.
+LOOK = """
+<script>
+const out = document.documentElement.dataset;
+const lamps = (time) => lampsOf(changeAt(DATA.surroundings.signals[0].changes, time)).join("-");
+out.before = lamps(1.9); out.after = lamps(2.0);
+clock.set(0.5); out.early = byId("weather").textContent;
+clock.set(3.0); out.late = byId("weather").textContent;
+out.gap = byId("gap").closest(".card").hidden;
+const beamsAt = (time) => {
+  let cones = 0;
+  drawBeams({beginPath() {}, moveTo() {}, lineTo() {}, fill() { cones += 1; }}, TRACKED[0], time);
+  return cones;
+};
+out.dark = beamsAt(0.5); out.lit = beamsAt(1.5);
+</script>
+"""
+
+
+def test_surroundings_are_those_of_the_time(open_report) -> None:
+    found = open_report(maker().text(80), lit_highway(), "", LOOK)
+    assert found == {
+        "ready": "true",
+        "before": "red--",
+        "after": "--green",
+        "early": "\u22123.0 °C · sun 29° high",
+        "late": "rain 7.2 mm/h · \u22123.0 °C · sun 6° below the horizon",
+        "gap": "true",
+        "dark": "0",
+        "lit": "2",
     }

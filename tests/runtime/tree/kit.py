@@ -9,8 +9,9 @@ from typing import Any
 from osc2tx_runtime.action import Action
 from osc2tx_runtime.behaviour import Behaviour, Event, Status
 from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.loop import Outcome, run_tree
 from osc2tx_runtime.registry import Method
-from osc2tx_runtime.runner import Outcome, run_tree, setup_tree
+from osc2tx_runtime.runner import setup_tree
 from osc2tx_runtime.settings import RunSettings
 from osc2tx_runtime.trace import TraceWriter
 
@@ -43,6 +44,7 @@ class FakeWorld:
             **{"x": self.x[actor], "y": 0.0, "z": -0.0, "h": 0.0, "v": self.v[actor], "a": 0.0},
             **{"road": None, "lane": None, "s": None, "offset": None},
             **{"length": 4.5, "width": 1.8, "height": 1.5, "rear": 1.0},
+            **{"pitch": 0.0, "roll": 0.0},
         )
 
     def command(self, actor: str, slot: str, command: Any) -> None:

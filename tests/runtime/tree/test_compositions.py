@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
 from typing import Any
 
 import py_trees
@@ -34,9 +36,10 @@ def run(tree: Behaviour, **options: Any) -> Run:
 
 @pytest.mark.parametrize("dt", [0.05, 0.01, 0.03])
 @pytest.mark.parametrize("seconds", [0.0, 0.1, 5.0, 0.3])
-def test_elapsed_takes_round_d_by_dt_steps(seconds: float, dt: float) -> None:
+def test_elapsed_ends_at_the_first_step_at_or_after_its_time(seconds: float, dt: float) -> None:
     done = run(Wait(elapsed(seconds)), dt=dt)
-    assert done.outcome.steps == round(seconds / dt)
+    least = Fraction(str(seconds)) / Fraction(str(dt))
+    assert done.outcome.steps == math.ceil(least)
 
 
 def test_serial_elapsed_adds_up_without_gaps() -> None:
@@ -45,7 +48,7 @@ def test_serial_elapsed_adds_up_without_gaps() -> None:
 
 
 @pytest.mark.parametrize(
-    ("period", "offset", "first"), [(0.2, 0.0, 0), (0.2, 0.1, 2), (0.01, 0.02, 0)]
+    ("period", "offset", "first"), [(0.2, 0.0, 0), (0.2, 0.1, 2), (0.01, 0.02, 1)]
 )
 def test_every_first_hit(period: float, offset: float, first: int) -> None:
     assert run(Wait(every(period, offset=offset))).outcome.steps == first

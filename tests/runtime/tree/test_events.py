@@ -219,7 +219,9 @@ def test_division_by_zero_in_a_condition_names_the_node() -> None:
     run = Run(Parallel("p", wait, Wait(elapsed(1.0))))
     with pytest.raises(ScenarioError) as caught:
         run.go()
-    assert str(caught.value) == "x.osc:7: the condition has no value: division by zero"
+    assert str(caught.value) == (
+        "x.osc:7: the condition has no value: division by zero (at 0.000 s)"
+    )
     assert run.lines[-1].startswith('{"kind":"result","status":"error","reason":"x.osc:7:')
 
 

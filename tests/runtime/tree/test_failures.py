@@ -162,6 +162,7 @@ def sampled() -> Behaviour:
     ],
 )
 def test_what_cannot_go_on_names_its_place(make: Callable[[], Behaviour], message: str) -> None:
+    message += " (at 0.100 s)" if make is sampled else " (at 0.000 s)"
     run = Run(numbered(make()), ids=("hero",), max_time=2.0)
     with pytest.raises(ScenarioError) as caught:
         run.go()

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
-import sys
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -293,61 +289,3 @@ def test_duration_override_and_reading_values() -> None:
         "ego approach (top.osc) failed at 0.500 s: not finished within 0.5 s;"
         " still running: ego drive"
     )
-
-
-MODULE = """
-from osc2tx_runtime.behaviour import Behaviour, Serial, Wait, elapsed
-from osc2tx_runtime.scenario import Scenario
-
-
-class Inner(Scenario):
-    name = "inner"
-    source = "inner.osc"
-
-    def behavior(self) -> Behaviour:
-        return Serial("inner", Wait(elapsed(0.1), label="pause"))
-
-
-class Outer(Scenario):
-    name = "outer"
-    source = "outer.osc"
-
-    def behavior(self) -> Behaviour:
-        return Serial("outer", self.invoke(Inner, label="first"), Wait(elapsed(0.2)))
-"""
-MAP = {
-    "version": 1,
-    "scenarios": {
-        "inner": {"file": "inner.osc", "line": 1, "nodes": [[2, "inner"], [3, "pause a bit"]]},
-        "outer": {
-            "file": "outer.osc",
-            "line": 1,
-            "nodes": [[5, "outer"], [6, "first"], [7, "wait more"]],
-        },
-    },
-}
-
-
-@pytest.fixture
-def outer(tmp_path: Path) -> Iterator[Any]:
-    path = tmp_path / "nested_module.py"
-    path.write_text(MODULE)
-    path.with_suffix(".map.json").write_text(json.dumps(MAP))
-    spec = importlib.util.spec_from_file_location("nested_module", path)
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["nested_module"] = module
-    spec.loader.exec_module(module)
-    yield module.Outer
-    sys.modules.pop("nested_module", None)
-
-
-def test_nodes_of_an_invoked_scenario_have_their_own_lines(outer: Any) -> None:
-    tree = outer().create_tree()
-    assert [(node.name, node.source) for node in reversed(list(tree.iterate()))] == [
-        ("outer", "outer.osc:5"),
-        ("wait more", "outer.osc:7"),
-        ("first", "outer.osc:6"),
-        ("inner", "inner.osc:2"),
-        ("pause a bit", "inner.osc:3"),
-    ]

@@ -47,7 +47,7 @@ def test_two_live_owners_conflict(swap: bool) -> None:
         run.go()
     assert str(caught.value) == (
         "x.osc:10: hero drive (x.osc:9) and hero drive (x.osc:10) control the longitudinal slot"
-        " of hero at the same time; let them run one after the other"
+        " of hero at the same time; let them run one after the other (at 0.000 s)"
     )
     assert run.world.commands == []
     assert not run.context.slots.live()

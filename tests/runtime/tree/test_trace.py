@@ -10,7 +10,9 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime.behaviour import Emit, Parallel
-from osc2tx_runtime.trace import TraceWriter, number
+from osc2tx_runtime.motions import OrientationRate, Velocity
+from osc2tx_runtime.parts import HitchReceiver
+from osc2tx_runtime.trace import TraceWriter, number, to_json
 from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
 
 HERO: Any = FakeActor("hero")
@@ -75,6 +77,19 @@ def test_names_are_escaped() -> None:
         {"t": 0.05, "kind": "event", "name": 'a"\n'},
         {"t": 0.05, "kind": "environment", "a": None, "b": 1.0},
     ]
+
+
+def test_values_of_structs_are_objects() -> None:
+    rate = OrientationRate(yaw=0.5)
+    assert json.loads(to_json(Velocity(angular=rate))) == {
+        "translational": {"x": 0.0, "y": 0.0, "z": 0.0},
+        "angular": {"roll": 0.0, "pitch": 0.0, "yaw": 0.5},
+    }
+    # What is not known is no number; whether something is coupled is no member of the value.
+    assert json.loads(to_json(HitchReceiver("ball", position_x=-0.9))) == {
+        **{"hitch_type": "ball", "position_x": -0.9, "position_z": None},
+        **{"max_rotation": None, "max_tilt": None},
+    }
 
 
 def test_a_disabled_trace_keeps_nothing() -> None:

@@ -6,8 +6,9 @@ import math
 
 import pytest
 
+from osc2tx_runtime.path_values import Path, Trajectory
 from osc2tx_runtime.paths import PathError, curve_of_path, curve_of_trajectory, stretch
-from osc2tx_runtime.values import Path, Pose, Trajectory
+from osc2tx_runtime.values import Pose
 
 
 def test_a_polyline_is_as_long_as_its_pieces() -> None:

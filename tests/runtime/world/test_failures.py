@@ -20,8 +20,9 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
+from osc2tx_runtime.path_values import Path, RelativePathSt, Trajectory
 from osc2tx_runtime.road_parts import Lane, Stretch
-from osc2tx_runtime.values import Path, RelativePathSt, RoutePoint, Trajectory
+from osc2tx_runtime.values import RoutePoint
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]
@@ -102,7 +103,7 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         "3.5 m sideways in 0.5 s takes more than 3 m/s^2; 2.60 s are possible",
     ),
     (
-        lambda s: s.a.change_lane(side="left", rate_peak=-1.0),
+        lambda s: s.a.change_lane(side="left", rate_peak=lambda: -1.0),
         "a change_lane",
         AT_ONCE,
         "rate_peak -1 m/s is not positive",

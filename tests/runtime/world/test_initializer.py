@@ -176,7 +176,6 @@ def test_cycle(highway: RoadMap, a: Vehicle, b: Vehicle) -> None:
         ([keep_lane()], "b cannot start with keep_lane"),
         ([speed(3.0, at="end")], "speed at the end is no start"),
         ([speed(3.0, rate_profile="smooth")], "a speed at the start takes no rate_profile"),
-        ([lane(1), yaw(0.5)], "b follows its lane, so it cannot start at an angle to it"),
         ([position(x=9.0, y=-2.0), lane(1)], "b: its point is not on lane 1 from the right"),
         ([position(x=9.0, y=-2.0), lane(same_as="a")], "no room for a lane relative to a"),
     ],

@@ -2,51 +2,43 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
+from lxml import etree
 
+import osc2tx_runtime
 from osc2tx_runtime import (
-    Behaviour,
     CompoundLane,
     CompoundRoute,
     Junction,
     Lane,
     LaneSection,
-    Map,
     Road,
-    RoadPath,
-    Scenario,
     ScenarioError,
-    Serial,
-    Vehicle,
-    Wait,
-    elapsed,
+    at_least,
+    at_most,
+    within,
 )
 from osc2tx_runtime.map_solver import MapSolver, Relation
 from osc2tx_runtime.modifiers import (
-    along,
     compound_lane_side,
     end_lane,
-    lane,
     lane_side,
     number_of_lanes,
-    on_path,
-    position,
     roads_follow_in_junction,
     routes_are_in_sequence,
     routes_are_opposite,
     routes_overlap,
-    set_map_file,
-    speed,
     start_lane,
 )
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.road_parts import RoadPart
 
 Load = Callable[[str], RoadMap]
+MAPS = Path(osc2tx_runtime.__file__).parent / "maps"
 
 
 def solve(road_map: RoadMap, parts: list[RoadPart], *modifiers: Any) -> None:
@@ -240,176 +232,83 @@ def test_contradictions_name_the_part(load_map: Load) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "what"),
+    ("arguments", "type_"),
     [
-        ({"lane_type": "pedestrian"}, "pedestrian"),
-        ({"lane_use": "bus"}, "bus"),
-        ({"directionality": "split"}, "split"),
+        ({"lane_type": "pedestrian"}, "sidewalk"),
+        ({"lane_use": "sidewalk", "directionality": "free"}, "sidewalk"),
+        ({"lane_type": "driving", "directionality": "uni_direction"}, "driving"),
     ],
 )
-def test_what_maps_do_not_tell_is_refused(arguments: dict[str, str], what: str) -> None:
-    with pytest.raises(ScenarioError, match=f"`{what}` cannot be told from a map"):
-        number_of_lanes(Road(), 2, **arguments)
+def test_lanes_of_a_kind_are_counted(load_map: Load, arguments: dict[str, Any], type_: str) -> None:
+    """The arms of the crossing have two lanes each way and a sidewalk on either side."""
+    found = etree.parse(MAPS / "urban_crossing.xodr").find("road[@id='1']")
+    assert found is not None
+    count = len(found.findall(f".//lane[@type='{type_}']"))
+    road, other = Road(anchors=["1"]), Road(anchors=["1"])
+    solve(load_map("urban_crossing"), [road], number_of_lanes(road, count, **arguments))
+    with pytest.raises(ScenarioError, match="number_of_lanes"):
+        solve(load_map("urban_crossing"), [other], number_of_lanes(other, count - 1, **arguments))
 
 
-class Placed(Scenario):
-    """A car on a lane that is chosen by what is beside it."""
-
-    name = "placed"
-    source = "placed.osc"
-    file = "highway"
-
-    def declare(self) -> None:
-        self.net = Map()
-        self.one, self.other, self.way = Lane(), Lane(), LaneSection()
-        self.car, self.second = Vehicle(), Vehicle()
-
-    def placement(self) -> None:
-        self.require(self.net, set_map_file(self.file))
-        self.require(self.net, lane_side(self.one, "left", self.other, 2))
-        self.require(self.net, number_of_lanes(self.way, 3))
-        self.place(self.car, along(self.one), position(30.0), speed(10.0))
-        self.place(self.second, along(self.way, start_offset=5.0), lane(2), position(30.0))
-
-    def behavior(self) -> Behaviour:
-        return Wait(elapsed(0.1))
-
-
-def test_actors_start_on_what_was_chosen(run: Callable[..., Any]) -> None:
-    """Two lanes left of the outermost; and against s, from the end of the road of 2 km."""
-    done = run(Placed)
-    start = done.at("car", 0.0)
-    assert (start["road"], start["lane"], start["s"]) == ("1", -2, pytest.approx(30.0))
-    other = done.at("second", 0.0)
-    assert other["lane"] == 2 and other["s"] == pytest.approx(2000.0 - 35.0, abs=1e-3)
-
-
-def test_two_maps_are_one_too_many(run: Callable[..., Any]) -> None:
-    class Two(Placed):
-        def declare(self) -> None:
-            super().declare()
-            self.net = Map(map_file="merge")
-
-    with pytest.raises(ScenarioError, match="two maps are named: merge and highway"):
-        run(Two)
-
-
-def turning(direction: Any, **more: Any) -> type[Scenario]:
-    """A car that goes along the way from arm 1 through the junction."""
-
-    class Turning(Scenario):
-        name = "turning"
-        source = "turning.osc"
-
-        def declare(self) -> None:
-            self.net = Map(map_file="urban_crossing")
-            self.arm, self.out, self.way = Road(anchors=["1"]), Road(), CompoundRoute()
-            self.car = Vehicle()
-
-        def placement(self) -> None:
-            self.require(
-                self.net,
-                roads_follow_in_junction(
-                    in_road=self.arm,
-                    out_road=self.out,
-                    direction=direction,
-                    resulting_route=self.way,
-                ),
-            )
-            self.place(self.car, along(self.way), position(100.0), *more.get("start", ()))
-
-        def behavior(self) -> Behaviour:
-            whole = along(self.way, end_offset=more.get("end", 0.0))
-            return Serial("drive", self.car.drive(whole, speed(8.0)))
-
-    return Turning
+def test_a_lane_by_its_kind(load_map: Load) -> None:
+    """Drivable lanes come first; others only if their kind is asked for."""
+    plain, walk, bus = Lane(), Lane(lane_type="pedestrian", width=2.5), Lane(lane_use="bus")
+    solve(load_map("crossing"), [plain, walk])
+    assert (plain.found.lane, walk.found.lane) == (-1, -2)
+    with pytest.raises(ScenarioError, match="no lane for which lane_use is bus"):
+        solve(load_map("crossing"), [bus])
 
 
 @pytest.mark.parametrize(
-    ("direction", "lane_id", "inside", "end"),
+    ("part", "wish"),
     [
-        # Quarter circles around the corners of a crossing of 40 m, lanes 3.5 m wide.
-        ("left", -1, math.pi / 2 * (20.0 + 1.75), "4"),
-        ("straight", -2, 40.0, "3"),
-        ("right", -2, math.pi / 2 * (20.0 - 3.5 - 1.75), "2"),
+        (Road(length=at_least(1e4)), "there are at least 10000 m"),
+        (Road(length=within(1.0, 2.0)), "there are 1 to 2 m"),
+        (Road(length=7.0), "there are 7 m"),
+        (LaneSection(min_lanes=3), "there are at least 3 lanes"),
+        (LaneSection(max_lanes=at_most(0)), "there are at most 0 lanes"),
+        (Road(directionality="bi_direction"), "directionality is bi_direction"),
+        (Lane(width=within(1.0, 2.0)), "width is 1 to 2 m"),
     ],
 )
-def test_driving_along_a_route(
-    run: Callable[..., Any], direction: Any, lane_id: int, inside: float, end: str
-) -> None:
-    """It starts in a lane that leads there, takes the branch, and ends 50 m before the end."""
-    done = run(turning(direction, end=50.0))
-    assert done.result.status == "success"
-    first, last = done.at("car", 0.0), done.states("car")[-1]
-    assert (first["road"], first["lane"]) == ("1", lane_id)
-    assert last["road"] == end and last["s"] == pytest.approx(50.0, abs=0.5)
-    way = 50.0 + inside + 100.0
-    # From a stand: 8 m/s with half of 4 m/s^2 and a jerk of 10 m/s^3 takes 4.2 s and half the way.
-    assert done.result.time == pytest.approx(way / 8.0 + 0.5 * 4.2, abs=0.1)
+def test_what_a_part_asks_for_is_named(load_map: Load, part: RoadPart, wish: str) -> None:
+    with pytest.raises(ScenarioError, match=f"map crossing has no {part.kind} for which {wish}"):
+        solve(load_map("crossing"), [part])
 
 
-def test_a_route_may_end_where_the_map_ends(run: Callable[..., Any]) -> None:
-    done = run(turning("left"))
-    assert done.result.status == "success"
-    assert done.states("car")[-1]["s"] == pytest.approx(0.0, abs=0.5)
+def test_wishes_that_the_map_fulfils(load_map: Load) -> None:
+    """The street is 500 m long, its driving lanes 3.5 m wide."""
+    road = Road(length=within(499.0, 501.0), directionality="split", min_lanes=2, max_lanes=2)
+    lane_ = Lane(width=at_least(3.0), length=500.0)
+    solve(load_map("crossing"), [road, lane_])
+    assert road.found.road == lane_.found.road == "1"
 
 
-def test_a_lane_that_does_not_lead_along_the_route(run: Callable[..., Any]) -> None:
-    """From the right lane nobody turns left; the action fails where that is settled."""
-    done = run(turning("left", start=(lane(1),)))
-    assert done.result.status == "failure"
-    assert "no lane leads from lane -2 of road 11 to the end of its route" in done.result.reason
+def test_parts_that_are_listed(load_map: Load) -> None:
+    """The motorway behind the merge has three sections; the first one three lanes."""
+    lanes = [Lane(), Lane(), Lane()]
+    wide, others = LaneSection(lanes=lanes, s_axis=lanes[0]), [LaneSection(), LaneSection()]
+    road = Road(s_positive=[wide, *others])
+    solve(load_map("merge"), [*lanes, wide, *others, road])
+    assert [lane.found.lane for lane in lanes] == [-3, -2, -1]
+    assert [part.found.section for part in (wide, *others)] == [0, 1, 2]
+    assert {part.found.road for part in (wide, *others, road)} == {"2"}
 
 
-def test_a_path_is_the_longest_section_with_all_that_is_asked(load_map: Load) -> None:
-    """Three driving lanes only the direction against s has, so the choice is no accident."""
-    highway, path = load_map("highway"), RoadPath(max_lanes=3, min_lanes=3, min_length=100.0)
-    solve(highway, [path])
-    assert not path.found.forwards
-    wide = RoadPath()
-    solve(load_map("merge"), [wide])
-    found = load_map("merge").roads[wide.found.road].sections[wide.found.section or 0]
-    longest = max(
-        s.end - s.begin
-        for road in load_map("merge").roads.values()
-        if road.junction is None
-        for s in road.sections
-    )
-    assert found.end - found.begin == pytest.approx(longest)
+def test_members_of_compound_parts(load_map: Load) -> None:
+    chain = [Lane(), Lane(), Lane()]
+    whole, road = CompoundLane(lanes=chain), Road(anchors=["2"])
+    solve(load_map("merge"), [*chain, whole, road], routes_overlap(whole, road, "equal"))
+    sections = [lane.found.section for lane in chain]
+    assert sections == [0, 1, 2] and whole.found.parts == tuple(lane.found for lane in chain)
+    arms = [Road() for _ in range(4)]
+    junction = Junction(roads=arms)
+    solve(load_map("urban_crossing"), [*arms, junction])
+    assert [arm.found.road for arm in arms] == ["1", "2", "3", "4"]
 
 
-@pytest.mark.parametrize(
-    ("path", "message"),
-    [
-        (RoadPath(min_lanes=9), "no path for which there are at least 9 lanes"),
-        (RoadPath(max_lanes=0), "no path for which there are at most 0 lanes"),
-        (RoadPath(min_length=1e6), "no path for which there are 1e\\+06 m"),
-    ],
-)
-def test_a_path_that_the_map_has_not(load_map: Load, path: RoadPath, message: str) -> None:
-    with pytest.raises(ScenarioError, match=message):
-        solve(load_map("highway"), [path])
-
-
-def test_actors_on_a_path_have_room_behind_them(load_map: Load, run: Callable[..., Any]) -> None:
-    """The first starts a third into it, and who starts 30 m behind still fits on the road."""
-
-    class OnPath(Scenario):
-        def declare(self) -> None:
-            self.map = Map(map_file="highway")
-            self.path = RoadPath(min_lanes=4)
-            self.first, self.second = Vehicle(), Vehicle()
-
-        def placement(self) -> None:
-            self.place(self.first, on_path(self.path), lane(2))
-            self.place(self.second, on_path(self.path), position(30.0, behind=self.first))
-
-        def behavior(self) -> Behaviour:
-            return Wait(elapsed(0.1))
-
-    found = run(OnPath)
-    first, second = found.at("first", 0.0), found.at("second", 0.0)
-    length = load_map("highway").roads[first["road"]].length
-    assert first["s"] >= length / 3.0
-    assert first["lane"] == second["lane"] == -3
-    assert first["s"] - second["s"] == pytest.approx(30.0, abs=6.0)
+@pytest.mark.parametrize("count", [1, 5])
+def test_lists_of_another_length(load_map: Load, count: int) -> None:
+    lanes = [Lane() for _ in range(count)]
+    with pytest.raises(ScenarioError, match="nothing for which the list of its members holds"):
+        solve(load_map("urban_crossing"), [*lanes, LaneSection(lanes=lanes)])

@@ -1,4 +1,4 @@
-"""Paths and trajectories in whole scenarios, measured against their geometry."""
+"""Paths in whole scenarios, measured against their geometry."""
 
 from __future__ import annotations
 
@@ -11,19 +11,17 @@ import pytest
 
 from osc2tx_runtime import (
     Behaviour,
-    Map,
     Parallel,
     Person,
-    Scenario,
     Serial,
-    Vehicle,
     Wait,
     elapsed,
 )
-from osc2tx_runtime.actors import OdrPoint, Point, Pose
-from osc2tx_runtime.modifiers import along, along_trajectory, physical_movement, position, yaw
+from osc2tx_runtime.actors import Point, Pose
+from osc2tx_runtime.modifiers import along, physical_movement, position, yaw
+from osc2tx_runtime.path_values import Path, RelativePath
 from osc2tx_runtime.paths import curve_of_path
-from osc2tx_runtime.values import Path, RelativePath, RelativeTrajectory, RoutePoint, Trajectory
+from osc2tx_runtime.values import RoutePoint
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]
@@ -220,150 +218,9 @@ def test_points_in_s_and_t(run: Run) -> None:
     assert (states[-1]["x"], states[-1]["y"]) == pytest.approx((90.0, -7.25), abs=0.5)
 
 
-TIMED = Trajectory((Pose(50.0, -8.75), Pose(70.0, -8.75), Pose(90.0, -2.0)), (0.0, 2.0, 5.0))
-
-
-def test_replay_of_a_trajectory_is_exact_in_time(run: Run) -> None:
-    done = run(scenario(lambda s: s.a.replay_trajectory(absolute=TIMED)))
-    assert done.result.time == pytest.approx(5.0)
-    assert done.states("a")[20]["x"] == pytest.approx(60.0)
-    assert done.states("a")[20]["v"] == pytest.approx(10.0)
-    at = done.at("a", 3.5)
-    assert (at["x"], at["y"]) == pytest.approx((80.0, -5.375))
-    assert at["v"] == pytest.approx(math.hypot(20.0, 6.75) / 3.0, abs=1e-6)
-    assert at["h"] == pytest.approx(math.atan2(6.75, 20.0), abs=1e-6)
-
-
-def test_a_trajectory_with_time_to_get_there(run: Run) -> None:
-    late = Trajectory((Pose(70.0, -8.75), Pose(90.0, -8.75)), (4.0, 6.0))
-    done = run(scenario(lambda s: s.a.replay_trajectory(absolute=late)))
-    assert done.at("a", 2.0)["x"] == pytest.approx(60.0)
-    assert done.at("a", 5.0)["x"] == pytest.approx(80.0)
-    assert done.result.time == pytest.approx(6.0)
-
-
-def test_offsets_of_a_trajectory(run: Run) -> None:
-    straight = Trajectory((Pose(50.0, -8.75), Pose(90.0, -8.75)), (0.0, 4.0))
-
-    def body(s: TwoCars) -> Behaviour:
-        return s.a.replay_trajectory(absolute=straight, start_offset=10.0, end_offset=5.0)
-
-    done = run(scenario(body))
-    assert done.at("a", 1.0)["x"] == pytest.approx(70.0)
-    assert done.result.time == pytest.approx(2.5)
-
-
-def test_follow_a_trajectory_in_time(run: Run) -> None:
-    times = tuple(0.5 * i for i in range(17))
-    points = tuple(Pose(50.0 + 10.0 * t + 0.25 * t * t, -8.75 + 0.2 * t * t) for t in times)
-    trajectory = Trajectory(points, times, "smooth")
-    done = run(scenario(lambda s: s.a.follow_trajectory(absolute=trajectory)))
-    assert done.result.status == "success"
-    assert done.result.time == pytest.approx(8.0, abs=0.15)
-    for t in (2.0, 4.0, 6.0, 7.5):
-        at = done.at("a", t)
-        x, y = 50.0 + 10.0 * t + 0.25 * t * t, -8.75 + 0.2 * t * t
-        assert math.hypot(at["x"] - x, at["y"] - y) < 0.35
-        assert at["v"] == pytest.approx(math.hypot(10.0 + 0.5 * t, 0.4 * t), abs=0.3)
-
-
-def test_a_trajectory_that_is_too_fast(run: Run) -> None:
-    fast = Trajectory((Pose(50.0, -8.75), Pose(2050.0, -8.75)), (0.0, 4.0))
-    done = run(scenario(lambda s: s.a.follow_trajectory(absolute=fast)))
-    assert done.result.status == "failure"
-    assert "m from the end, 10 s after its time" in done.result.reason
-
-
-def test_relative_trajectory(run: Run) -> None:
-    relative = RelativeTrajectory((Pose(0.0, 0.0), Pose(20.0, 2.0)), (0.0, 2.0))
-    done = run(scenario(lambda s: s.a.replay_trajectory(relative=relative)))
-    last = done.states("a")[-1]
-    assert (last["x"], last["y"]) == pytest.approx((70.0, -6.75))
-
-
 def test_along_is_a_path_in_a_drive(run: Run) -> None:
     exact = physical_movement("prefer_non_physical")
     replayed = run(scenario(lambda s: s.a.drive(along(lambda: ASIDE), exact)))
     assert replayed.states("a")[-1]["y"] == pytest.approx(10.0)
     followed = run(scenario(lambda s: s.a.drive(along(ASIDE, end_offset=40.0))))
     assert followed.states("a")[-1]["x"] == pytest.approx(120.0, abs=0.6)
-    timed = run(scenario(lambda s: s.a.drive(along_trajectory(TIMED), exact)))
-    assert timed.result.time == pytest.approx(5.0)
-
-
-# --- change_position --------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "target",
-    [
-        {"target_xyz": Point(150.0, -5.25)},
-        {"target_position": OdrPoint("1", "-2", 150.0)},
-        {"target_odr": OdrPoint("1", -2, 150.0, 0.0)},
-    ],
-)
-def test_change_position_on_the_road(run: Run, target: dict[str, Any]) -> None:
-    done = run(scenario(lambda s: s.a.change_position(**target)))
-    assert done.result.status == "success"
-    last = done.states("a")[-1]
-    assert (last["x"], last["y"]) == pytest.approx((150.0, -5.25), abs=0.55)
-    assert (last["lane"], last["h"]) == (-2, pytest.approx(0.0, abs=0.02))
-
-
-def test_change_position_across_the_grass(run: Run) -> None:
-    def body(s: TwoCars) -> Behaviour:
-        return s.a.change_position(
-            target_xyz=Point(120.0, 30.0), on_road_network=False, interpolation="smooth"
-        )
-
-    last = run(scenario(body)).states("a")[-1]
-    assert (last["x"], last["y"]) == pytest.approx((120.0, 30.0), abs=0.6)
-
-
-def test_change_position_behind_is_no_way(run: Run) -> None:
-    done = run(scenario(lambda s: s.a.change_position(target_xyz=Point(20.0, -8.75))))
-    assert done.result.status == "failure"
-    assert "no way along lanes leads" in done.result.reason
-
-
-def test_a_person_walks_to_a_place(run: Run) -> None:
-    class Walk(Scenario):
-        name = source = "walk"
-
-        def declare(self) -> None:
-            self.road = Map(map_file="crossing")
-            self.walker = Person()
-
-        def placement(self) -> None:
-            self.place(
-                self.walker, position(at_point=Point(250.0, -6.0), project_on_route=False), yaw(0.0)
-            )
-
-        def behavior(self) -> Behaviour:
-            return self.walker.change_position(target_xyz=Point(250.0, 6.0))
-
-    states = run(Walk).states("walker")
-    assert (states[-1]["x"], states[-1]["y"]) == pytest.approx((250.0, 6.0), abs=0.1)
-
-
-def test_on_a_curved_road_a_path_follows_the_lane(run: Run) -> None:
-    class Curved(Scenario):
-        name = source = "curved"
-
-        def declare(self) -> None:
-            self.road = Map(map_file="crossing")
-            self.a = Vehicle()
-
-        def behavior(self) -> Behaviour:
-            return self.a.change_position(
-                target_xyz=lambda: ahead(self, 60.0), on_road_network=True
-            )
-
-    def ahead(s: Any, distance: float) -> Point:
-        state, road_map = s.a.state, s.a.context.world.map
-        pose = road_map.pose(road_map.advance(state.lane_position, distance).position)
-        return Point(pose.x, pose.y, pose.z)
-
-    done = run(Curved)
-    assert done.result.status == "success"
-    assert max(abs(e["offset"]) for e in done.states("a")) < 0.2

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import itertools
+import math
 
 import pytest
 
 from osc2tx_runtime.world.catalogue import Limits
 from osc2tx_runtime.world.commands import SpeedChange
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
-from osc2tx_runtime.world.profiles import Linear, Profile, Quintic, SCurve, quintic_duration
+from osc2tx_runtime.world.profiles import (
+    Cosine,
+    Linear,
+    Profile,
+    Quintic,
+    SCurve,
+    cosine_duration,
+    quintic_duration,
+)
 
 CAR = Limits(4.0, 8.0)
 
@@ -29,8 +38,16 @@ def peaks(profile: Profile) -> tuple[float, float]:
 
 @pytest.mark.parametrize(
     "profile",
-    [Linear(3.0, 11.0, 2.5), Quintic(3.0, 11.0, 2.5), SCurve(3.0, 11.0, 4.0, 10.0)],
-    ids=lambda p: type(p).__name__,
+    [
+        Linear(3.0, 11.0, 2.5),
+        Cosine(3.0, 11.0, 2.5),
+        Quintic(3.0, 11.0, 2.5),
+        SCurve(3.0, 11.0, 4.0, 10.0),
+        SCurve(3.0, 11.0, 4.0, 10.0, 2.0),
+        SCurve(3.0, 11.0, 4.0, 10.0, -3.0),
+        SCurve(3.0, 11.0, 4.0, 10.0, 6.0),
+    ],
+    ids=lambda p: f"{type(p).__name__}-{getattr(p, 'start_rate', 0.0):g}",
 )
 def test_value_runs_from_start_to_end_and_is_the_integral_of_the_rate(profile: Profile) -> None:
     assert profile.value(0.0) == pytest.approx(3.0, abs=1e-12)
@@ -42,6 +59,13 @@ def test_value_runs_from_start_to_end_and_is_the_integral_of_the_rate(profile: P
         for a, b in itertools.pairwise(times)
     )
     assert area == pytest.approx(8.0, abs=1e-3)
+
+
+def test_cosine_has_the_peaks_of_the_table() -> None:
+    rate, slope = peaks(Cosine(0.0, 8.0, 4.0))
+    assert rate == pytest.approx(math.pi / 2 * 8.0 / 4.0, rel=1e-5)
+    assert slope == pytest.approx(4.935 * 8.0 / 16.0, rel=1e-3)
+    assert cosine_duration(8.0, 2.0) == pytest.approx(2.0 * math.pi)
 
 
 def test_quintic_has_the_peaks_of_the_table() -> None:
@@ -69,12 +93,37 @@ def test_s_curve_keeps_both_limits(change: float, peak: float) -> None:
 
 
 @pytest.mark.parametrize(
+    ("end", "start_rate", "peak", "duration"),
+    [
+        # 10 m/s, limits 4 m/s^2 and 10 m/s^3: v = 10 + the integral of these trapezoids
+        (20.0, 2.0, 4.0, 0.2 + (10.0 - 0.6 - 0.8) / 4.0 + 0.4),
+        (20.0, -2.0, 4.0, 0.6 + (10.0 - 0.6 - 0.8) / 4.0 + 0.4),
+        (20.0, 6.0, 6.0, 0.2 + (10.0 - 1.0 - 0.8) / 4.0 + 0.4),
+        (10.2, 2.0, 2.0, 0.2),  # what it takes to bring the acceleration to zero
+        (10.0, 2.0, 2.0, 0.2 + 0.2 * 2.0**0.5),  # and back again what it gains meanwhile
+    ],
+)
+def test_s_curve_takes_over_a_rate(
+    end: float, start_rate: float, peak: float, duration: float
+) -> None:
+    profile = SCurve(10.0, end, 4.0, 10.0, start_rate)
+    _, slope = peaks(profile)
+    assert profile.rate(0.0) == start_rate
+    assert profile.rate(profile.duration - 1e-9) == pytest.approx(0.0, abs=1e-6)
+    assert slope == pytest.approx(10.0, rel=1e-3)
+    assert max(abs(profile.rate(t)) for t in samples(profile)) == pytest.approx(
+        max(peak, abs(start_rate)), rel=1e-3
+    )
+    assert profile.duration == pytest.approx(duration)
+
+
+@pytest.mark.parametrize(
     ("command", "start", "duration"),
     [
         (SpeedChange(20.0, "constant", 2.0), 10.0, 5.0),
         (SpeedChange(20.0, "constant", None, 4.0), 10.0, 4.0),
         (SpeedChange(20.0, "constant"), 10.0, 5.0),  # comfortable: half of 4 m/s^2
-        (SpeedChange(20.0, "smooth", 3.0), 10.0, 6.25),
+        (SpeedChange(20.0, "smooth", 3.0), 10.0, math.pi / 2 * 10 / 3),
         (SpeedChange(20.0, "smooth", None, 8.0), 10.0, 8.0),
         (SpeedChange(20.0, "asap"), 10.0, 2.9),
         (SpeedChange(0.0, "asap"), 10.0, 2.05),

@@ -8,11 +8,20 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime import Behaviour, Parallel, Serial, Wait, elapsed
+from osc2tx_runtime import (
+    Behaviour,
+    HitchCoupler,
+    HitchReceiver,
+    Parallel,
+    Serial,
+    Vehicle,
+    Wait,
+    elapsed,
+)
 from osc2tx_runtime.actors import Point, Pose, Trailer
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import lane, position, speed, tow_trailer
-from osc2tx_runtime.values import Path
+from osc2tx_runtime.path_values import Path
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]
@@ -119,6 +128,72 @@ def test_what_cannot_be_coupled(
     done = run(towing(body, is_coupled=is_coupled))
     assert done.result.status == "failure"
     assert reason in done.result.reason
+
+
+class Hitches(Towing):
+    """The same with hitches as the scenario has them."""
+
+    receiver = HitchReceiver()
+    coupler = HitchCoupler()
+
+    def declare(self) -> None:
+        super().declare()
+        self.a = Vehicle(trailer_receiver=self.receiver)
+        self.t = Trailer(vehicle_category="trailer", coupler=self.coupler)
+
+
+@pytest.mark.parametrize(
+    ("receives", "couples", "fits"),
+    [
+        ("ball", "ball", True),
+        ("none", "pintle", True),
+        ("ball", "", True),
+        ("ball", "pintle", False),
+    ],
+    ids=["same", "receiver not said", "coupler not said", "different"],
+)
+def test_halves_of_a_hitch_must_be_of_one_type(
+    run: Run, receives: str, couples: str, fits: bool
+) -> None:
+    class Made(Hitches):
+        receiver, coupler = HitchReceiver(receives), HitchCoupler(couples)
+
+        def behavior(self) -> Behaviour:
+            return self.a.drive(duration=1.0)
+
+    class Later(Made):
+        coupled = False
+
+        def behavior(self) -> Behaviour:
+            return self.a.connect_trailer(trailer=self.t)
+
+    if fits:
+        assert run(Made).result.status == run(Later).result.status == "success"
+        return
+    reason = "a cannot tow t: a pintle coupler does not fit a ball receiver"
+    with pytest.raises(ScenarioError, match=reason):
+        run(Made)
+    assert reason in run(Later).result.reason
+
+
+def test_a_hitch_is_where_the_scenario_has_it(run: Run) -> None:
+    """Here 0.6 m behind the rear axle of the car and 4 m before that of the trailer."""
+
+    class Made(Hitches):
+        receiver, coupler = HitchReceiver(position_x=-0.6), HitchCoupler(position_x=4.0)
+
+        def behavior(self) -> Behaviour:
+            watched = Serial(
+                "watched",
+                Wait(lambda: self.t.coupler.is_towed and self.a.trailer_receiver.is_towing),
+            )
+            return Serial("all", self.a.change_lane(side="left"), watched)
+
+    done = run(Made)
+    assert done.result.status == "success"
+    for a, t in zip(done.states("a"), done.states("t"), strict=True):
+        x, y = a["x"] - 0.6 * math.cos(a["h"]), a["y"] - 0.6 * math.sin(a["h"])
+        assert math.hypot(x - t["x"], y - t["y"]) == pytest.approx(4.0, abs=1e-5)
 
 
 def test_a_towed_trailer_does_not_drive(run: Run) -> None:

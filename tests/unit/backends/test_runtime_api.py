@@ -10,11 +10,14 @@ from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     API_LEVEL,
-    CONSTRUCTOR_KEYWORDS,
+    FLAT_MEMBERS,
+    NESTED_OBJECTS,
     STRUCT_CLASSES,
     runtime_support,
 )
 from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol, StructSymbol
+from osc2tx.semantics.types import StructType
 from osc2tx_runtime.capabilities import capabilities
 
 REPOSITORY = Path(__file__).parent.parent.parent.parent
@@ -38,9 +41,28 @@ def test_modifiers_can_be_imported_by_their_names() -> None:
         assert hasattr(osc2tx_runtime.modifiers, identifier(name))
 
 
-def test_constructor_keywords_exist() -> None:
-    known = set().union(*runtime_support().objects.values())
-    assert set(CONSTRUCTOR_KEYWORDS.values()) <= known
+def test_members_that_are_objects_are_so_in_the_library() -> None:
+    for (owner, member), type_ in NESTED_OBJECTS.items():
+        assert member in runtime_support().objects[owner]
+        assert type_ in STRUCT_CLASSES
+        if (owner, member) != ("physical_object", "center"):  # of the box, which is flat
+            assert library_struct(owner, member).name == type_
+
+
+def test_flat_members_are_taken_apart_by_the_constructors() -> None:
+    for owner, member in FLAT_MEMBERS:
+        members = library_struct(owner, member).members.values()
+        fields = {each.name for each in members if isinstance(each, FieldSymbol)}
+        assert fields <= runtime_support().objects[owner]
+
+
+def library_struct(owner: str, member: str) -> StructSymbol:
+    """The struct that a member of the library is."""
+    (type_,) = shared_library("2.1", "asam", "all").scope.types[owner]
+    assert isinstance(type_, ActorSymbol | StructSymbol)
+    field = type_.members[member]
+    assert isinstance(field, FieldSymbol) and isinstance(field.type, StructType)
+    return field.type.symbol
 
 
 def test_scenarios_do_not_hide_what_the_base_uses() -> None:

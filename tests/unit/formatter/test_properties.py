@@ -60,7 +60,10 @@ def assert_well_formatted(text: str) -> bool:
 
 
 def format_of(text: str) -> str | None:
-    return format_source(SourceFile("s.osc", text), DiagnosticSink())
+    """Return the formatted text; `None` if it has syntax errors."""
+    sink, source = DiagnosticSink(), SourceFile("s.osc", text)
+    parse(source, sink)
+    return None if sink.has_errors else format_source(source)
 
 
 def tree_of(text: str) -> str:

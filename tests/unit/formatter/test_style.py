@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.driver import Compilation
 from osc2tx.formatter import format_source
+from osc2tx.options import CompileOptions
+from osc2tx.syntax import parse
 
 LINES = [
     ("after commas", "f( a ,b,c )", "f(a, b, c)"),
@@ -146,18 +151,24 @@ def test_strings_stay_as_they_are() -> None:
 
 def test_comments_of_other_languages_stay_where_they_are_allowed() -> None:
     source = SourceFile("s.osc", "/* one\n two */\nactor /* three */ a\n")
-    text = format_source(source, DiagnosticSink(), allow=frozenset({"OSC111"}))
-    assert text == "/* one\n two */\nactor /* three */ a\n"
+    assert format_source(source) == "/* one\n two */\nactor /* three */ a\n"
 
 
 def test_a_text_with_syntax_errors_is_refused() -> None:
-    sink = DiagnosticSink()
-    assert format_source(SourceFile("s.osc", "actor (\n"), sink) is None
-    assert sink.has_errors
+    compilation = Compilation(Path("s.osc"), "s.osc", CompileOptions(), text="actor (\n")
+    assert compilation.formatted is None
+    assert compilation.sink.has_errors
 
 
-def formatted(text: str) -> str | None:
+def test_a_text_with_errors_of_meaning_is_not() -> None:
+    compilation = Compilation(Path("s.osc"), "s.osc", CompileOptions(), text="actor a inherits b\n")
+    assert not compilation.check()
+    assert compilation.formatted == "actor a inherits b\n"
+
+
+def formatted(text: str) -> str:
     sink = DiagnosticSink()
-    result = format_source(SourceFile("s.osc", text), sink)
+    source = SourceFile("s.osc", text)
+    parse(source, sink)
     assert not sink.has_errors, sink.sorted()
-    return result
+    return format_source(source)

@@ -44,11 +44,11 @@ ANY = "int with:\n        keep(it in [1..99])"
 NEVER_READ = "members of an action are for the package that carries it out; nothing can read it"
 
 OBJECT = {
-    ast.EventDeclaration: Case("event seen", code="OSC506", do="wait @it_.seen"),
+    ast.EventDeclaration: Case("event seen", text="Wait(self.it__seen)", do="wait @it_.seen"),
     ast.ParameterDeclaration: Case("y: int = 41", text="y: int = 41"),
-    ast.VariableDeclaration: Case("var y: int = 42", code="OSC503", do="wait it_.y == 42"),
+    ast.VariableDeclaration: Case("var y: int = 42", text="y: int = 42", do="wait it_.y == 42"),
     ast.KeepConstraint: Case("keep(x < 43)", text="within(1, 42)", before=f"x: {ANY}"),
-    ast.RemoveDefault: Case("remove_default(x)", code="OSC501"),
+    ast.RemoveDefault: Case("remove_default(x)", text='required("it_.x", int)'),
     ast.MethodDeclaration: Case(
         "def y() -> int is expression x * 44", text="* 44", do="wait it_.y() > 1"
     ),
@@ -76,7 +76,7 @@ CASES = {
         ast.MethodDeclaration: Case("def y() -> int is expression x * 44", reason=NEVER_READ),
         ast.CoverageDeclaration: Case("cover(x)", code="OSC501"),
         ast.ModifierApplication: Case("keep_lane()", code="OSC406"),
-        ast.DoDirective: Case("do wait elapsed(45s)", code="OSC506"),
+        ast.DoDirective: Case("do wait elapsed(45s)", text="Wait(elapsed(45 * s))"),
         ast.OnDirective: Case(
             "on elapsed(46s):\n        emit seen", code="OSC506", before="event seen"
         ),
@@ -93,9 +93,15 @@ CASES = {
             do="it_.drive(duration: 1s) with:\n        thing(x: n)",
         ),
         ast.RemoveDefault: Case(
-            "remove_default(x)", code="OSC501", before="x: int = 1\n    lane(x)"
+            "remove_default(x)",
+            text='required("drive.thing.x", int)',
+            before="x: int = 1\n    lane(x)",
         ),
-        ast.MethodDeclaration: Case("def y() -> int is expression x * 44", code="OSC508"),
+        ast.MethodDeclaration: Case(
+            "def y() -> int is expression x * 2",
+            text="lane(1 * 2)",
+            before="x: int = 1\n    lane(y())",
+        ),
         ast.CoverageDeclaration: Case("cover(x)", code="OSC508"),
         ast.ModifierApplication: Case("keep_lane()", text="keep_lane()"),
         ast.DoDirective: Case("do wait elapsed(45s)", code="OSC108"),

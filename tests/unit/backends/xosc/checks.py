@@ -6,6 +6,7 @@ lead nowhere, events that can never start, acts that can never end.
 """
 
 import os
+import re
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -27,6 +28,8 @@ KINDS = {
     "event": "Event",
     "action": "Action",
 }
+TRACED = "//Event | //Init/Actions/GlobalAction | //Init/Actions/Private | //ScenarioObject"
+LEADS_BACK = re.compile(r"\.osc:\d+")
 NEVER_ENDS = ".//*[@continuous='true']", ".//CustomCommandAction"
 
 
@@ -69,6 +72,17 @@ def checker_issues(xml: str, folder: Path) -> list[str]:
         if checker.status == StatusType.ERROR
     ]
     return issues + failed
+
+
+def untraced(xml: str) -> list[str]:
+    """Return the elements above which no comment names a line of the source."""
+    found = []
+    for node in etree.fromstring(xml.encode()).xpath(TRACED):
+        above = node.getprevious()
+        text = above.text if isinstance(above, etree._Comment) else ""
+        if not LEADS_BACK.search(text or ""):
+            found.append(f"<{node.tag}> {node.get('name')}")
+    return found
 
 
 def story_problems(xml: str) -> list[str]:
@@ -182,6 +196,8 @@ class Story:
         state = condition.find(".//StoryboardElementStateCondition")
         if state is not None:
             kind, name = state.get("storyboardElementType"), state.get("storyboardElementRef")
+            if state.get("state") == "standbyState":
+                return True
             if state.get("state") == "completeState":
                 return (kind, name) in self.done
             return name in (acts if kind == "act" else started)

@@ -7,107 +7,11 @@ before them in the document did in the same step, and completions one step later
 """
 
 import math
-import re
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from itertools import pairwise
 
 from lxml import etree
 
-Node = etree._Element
-RULES: dict[str, Callable[[float, float], bool]] = {
-    "greaterThan": lambda a, b: a > b,
-    "lessThan": lambda a, b: a < b,
-    "greaterOrEqual": lambda a, b: a >= b - 1e-9,
-    "lessOrEqual": lambda a, b: a <= b + 1e-9,
-    "equalTo": lambda a, b: a == b,
-    "notEqualTo": lambda a, b: a != b,
-}
-Course = Callable[[float], float]  # seconds since its start -> value
-LANES = {-1: -1.75, -2: -5.25, -3: -8.75, -4: -12.25}  # of highway.xodr: left edge at t = 0
-
-
-def number(node: Node, name: str, default: float = 0.0) -> float:
-    text = node.get(name)
-    return default if text is None else value_of(text, node.getroottree().getroot())
-
-
-def value_of(text: str, root: Node) -> float:
-    """Return the value of an attribute: a number, `$name` or `${arithmetic}`."""
-    if not text.startswith("$"):
-        return float(text)
-    declared = {node.get("name"): node.get("value") for node in root.iter("ParameterDeclaration")}
-    plain = re.sub(r"\$(\w+)", lambda found: f"({declared[found[1]]})", text.strip("${}"))
-    if not text.startswith("${"):
-        return float(declared[text[1:]])
-    assert re.fullmatch(r"[-+*/(). 0-9e]+", plain), text
-    return float(eval(plain))
-
-
-def shaped(shape: str, start: float, end: float, time: float) -> Course:
-    """Return the course of a transition."""
-
-    def course(t: float) -> float:
-        if t >= time - 1e-9:
-            return end
-        part = t / time
-        if shape == "sinusoidal":
-            part = (1.0 - math.cos(math.pi * part)) / 2.0
-        elif shape == "cubic":
-            part = part * part * (3.0 - 2.0 * part)
-        return start + (end - start) * part
-
-    return course
-
-
-def with_jerk(start: float, end: float, limit: float, jerk: float) -> tuple[Course, float]:
-    """Return the fastest course within limits of acceleration and jerk, and its length."""
-    change = abs(end - start)
-    ramp = min(limit / jerk, math.sqrt(change / jerk))
-    peak = jerk * ramp
-    flat = change / peak - ramp if peak else 0.0
-    total = 2.0 * ramp + flat
-    sign = math.copysign(1.0, end - start)
-
-    def course(t: float) -> float:
-        if t >= total - 1e-9:
-            return end
-        rising = min(t, ramp)
-        gained = 0.5 * jerk * rising * rising
-        gained += peak * min(max(t - ramp, 0.0), flat)
-        falling = max(t - ramp - flat, 0.0)
-        gained += peak * falling - 0.5 * jerk * falling * falling
-        return start + sign * gained
-
-    return course, total
-
-
-@dataclass
-class Entity:
-    """A moving object: x along the road, y to its left."""
-
-    name: str
-    front: float
-    rear: float
-    max_speed: float
-    x: float = 0.0
-    y: float = 0.0
-    v: float = 0.0
-    lane: int | None = None
-    actions: dict[str, "Running"] = field(default_factory=dict)
-
-
-@dataclass
-class Running:
-    """An action at work."""
-
-    entity: Entity
-    begun: float
-    course: Course | None
-    length: float | None  # None: never
-    follow: Node | None = None
-    done: bool = False
-    path: list[tuple[float, float, float]] = field(default_factory=list)
+from tests.unit.backends.xosc.courses import RULES, Node, number
+from tests.unit.backends.xosc.stage import Entity, Running, Stage
 
 
 class Player:
@@ -117,10 +21,8 @@ class Player:
         self.is_lazy = is_lazy
         self.root = etree.fromstring(xml.encode())
         self.dt = dt
-        self.time = 0.0
-        self.entities = {
-            node.get("name"): self._entity(node) for node in self.root.iter("ScenarioObject")
-        }
+        self.stage = Stage(self.root, dt)
+        self.entities = self.stage.entities
         self.variables = {
             node.get("name"): node.get("value")
             for tag in ("VariableDeclaration", "ParameterDeclaration")
@@ -141,6 +43,11 @@ class Player:
         for entity in self.entities.values():
             entity.actions.clear()
 
+    @property
+    def time(self) -> float:
+        """Seconds since the start."""
+        return self.stage.time
+
     def play(self, most: float = 120.0) -> float:
         """Play to the end; return when that is."""
         steps = 0
@@ -152,10 +59,10 @@ class Player:
                 return self.time
             for act in self.root.iter("Act"):
                 self._step_act(act)
-            self._advance()
+            self.stage.advance()
             self.visible = set(self.completed)
             steps += 1
-            self.time = round(steps * self.dt, 9)
+            self.stage.time = round(steps * self.dt, 9)
         return math.inf
 
     # --- storyboard -------------------------------------------------------------------------------
@@ -188,8 +95,15 @@ class Player:
             self.state[event] = state = "standby" if again else "complete"
             if not again:
                 self._complete(event)
+            for condition in (
+                event.iterfind("StartTrigger/ConditionGroup/Condition") if again else ()
+            ):
+                self.history.pop(condition, None)
+                self.last.pop(condition, None)
         if state == "standby" and self._fires(event.find("StartTrigger")):
             self.state[event] = "running"
+            for condition in event.iter("Condition"):  # while it runs nothing is looked at
+                self.history.pop(condition, None)
             self.starts.setdefault(event.get("name"), self.time)
             group = event.getparent().getparent()
             actor = group.find("Actors/EntityRef")
@@ -240,9 +154,10 @@ class Player:
                 return RULES[node.get("rule")](self.time, number(node, "value"))
             case "VariableCondition" | "ParameterCondition":
                 name = node.get("variableRef") or node.get("parameterRef")
-                return (self.variables[name] == node.get("value")) is (
-                    node.get("rule") == "equalTo"
-                )
+                value, rule = self.variables[name], node.get("rule")
+                if rule in ("equalTo", "notEqualTo"):
+                    return (value == node.get("value")) is (rule == "equalTo")
+                return RULES[rule](float(value), float(node.get("value")))
             case "StoryboardElementStateCondition":
                 kind = {"act": "Act", "event": "Event"}[node.get("storyboardElementType")]
                 named = next(
@@ -252,7 +167,8 @@ class Player:
                 )
                 if node.get("state") == "completeState":
                     return named in self.visible
-                return self.state.get(named) == "running"
+                running = self.state.get(named, "standby")
+                return running == node.get("state").removesuffix("State")
             case "ByEntityCondition":
                 entity = self.entities[node.find("TriggeringEntities/EntityRef").get("entityRef")]
                 return self._test_entity(entity, node.find("EntityCondition")[0])
@@ -269,17 +185,9 @@ class Player:
         if node.tag == "RelativeDistanceCondition":
             other = self.entities[node.get("entityRef")]
             return RULES[node.get("rule")](
-                self._distance(entity, other, node), number(node, "value")
+                self.stage.distance(entity, other, node), number(node, "value")
             )
         raise NotImplementedError(node.tag)
-
-    def _distance(self, a: Entity, b: Entity, node: Node) -> float:
-        if node.get("relativeDistanceType") in ("euclidianDistance", "cartesianDistance"):
-            return math.hypot(b.x - a.x, b.y - a.y)
-        if node.get("freespace") != "true":
-            return abs(b.x - a.x)
-        behind, ahead = (a, b) if a.x <= b.x else (b, a)
-        return max(ahead.x - ahead.rear - behind.x - behind.front, 0.0)
 
     # --- actions ----------------------------------------------------------------------------------
 
@@ -290,153 +198,4 @@ class Player:
             self.variables[name] = inner.find("SetAction").get("value")
             return None
         assert entity is not None
-        match inner.tag:
-            case "TeleportAction":
-                self._teleport(entity, inner.find("Position")[0])
-                return None
-            case "LongitudinalAction":
-                return self._take(entity, "longitudinal", self._longitudinal(entity, inner[0]))
-            case "LateralAction":
-                return self._take(entity, "lateral", self._lateral(entity, inner[0]))
-            case "RoutingAction":
-                entity.actions.pop("longitudinal", None)
-                return self._take(entity, "path", self._path(entity, inner[0]))
-        raise NotImplementedError(inner.tag)
-
-    def _take(self, entity: Entity, domain: str, run: Running) -> Running:
-        replaced = entity.actions.get(domain)
-        if replaced is not None:
-            replaced.done = True
-        entity.actions[domain] = run
-        if run.length == 0.0:
-            self._move(entity, domain, run, 0.0)
-        return run
-
-    def _longitudinal(self, entity: Entity, node: Node) -> Running:
-        if node.tag == "LongitudinalDistanceAction":
-            return Running(entity, self.time, None, None, follow=node)
-        if node.tag == "SpeedProfileAction":
-            return self._profile(entity, node)
-        target = node.find("SpeedActionTarget/AbsoluteTargetSpeed")
-        end = entity.v if target is None else number(target, "value")
-        dynamics = node.find("SpeedActionDynamics")
-        shape, time = dynamics.get("dynamicsShape"), number(dynamics, "value")
-        if dynamics.get("dynamicsDimension") == "rate":
-            time = {"linear": 1.0, "sinusoidal": math.pi / 2}[shape] * abs(end - entity.v) / time
-        time = 0.0 if shape == "step" else time
-        return Running(entity, self.time, shaped(shape, entity.v, end, time), time)
-
-    def _profile(self, entity: Entity, node: Node) -> Running:
-        entries = node.findall("SpeedProfileEntry")
-        limits = node.find("DynamicConstraints")
-        if limits is not None:
-            end = number(entries[0], "speed")
-            faster = end > entity.v
-            limit = number(limits, "maxAcceleration" if faster else "maxDeceleration")
-            course, time = with_jerk(entity.v, end, limit, number(limits, "maxAccelerationRate"))
-            return Running(entity, self.time, course, time)
-        points = [(0.0, entity.v)]
-        for entry in entries:
-            points.append((points[-1][0] + number(entry, "time"), number(entry, "speed")))
-        return Running(entity, self.time, lambda t: between(points, t), points[-1][0])
-
-    def _lateral(self, entity: Entity, node: Node) -> Running:
-        assert entity.lane is not None
-        if node.tag == "LaneOffsetAction":
-            target = LANES[entity.lane] + number(node.find("LaneOffsetTarget")[0], "value")
-            dynamics = node.find("LaneOffsetActionDynamics")
-            peak = number(dynamics, "maxLateralAcc")
-            time = math.pi * math.sqrt(0.5 * abs(target - entity.y) / peak)
-        else:
-            beside = node.find("LaneChangeTarget/RelativeTargetLane")
-            own = nearest_lane(self.entities[beside.get("entityRef")].y)
-            entity.lane = own + int(beside.get("value"))
-            target = LANES[entity.lane] + number(node, "targetLaneOffset")
-            dynamics = node.find("LaneChangeActionDynamics")
-            time = number(dynamics, "value")
-        course = shaped(dynamics.get("dynamicsShape"), entity.y, target, time)
-        return Running(entity, self.time, course, time)
-
-    def _path(self, entity: Entity, node: Node) -> Running:
-        path = []
-        for vertex in node.iter("Vertex"):
-            place = vertex.find("Position/WorldPosition")
-            path.append((number(vertex, "time"), number(place, "x"), number(place, "y")))
-        return Running(entity, self.time, None, path[-1][0], path=path)
-
-    def _teleport(self, entity: Entity, place: Node) -> None:
-        match place.tag:
-            case "LanePosition":
-                entity.lane = int(place.get("laneId"))
-                entity.x = number(place, "s")
-                entity.y = LANES[entity.lane] + number(place, "offset")
-            case "RelativeLanePosition":
-                other = self.entities[place.get("entityRef")]
-                assert other.lane is not None
-                entity.lane = other.lane + int(place.get("dLane"))
-                entity.x = other.x + number(place, "dsLane") + number(place, "ds")
-                entity.y = LANES[entity.lane] + number(place, "offset")
-            case "WorldPosition":
-                entity.x, entity.y = number(place, "x"), number(place, "y")
-            case _:
-                raise NotImplementedError(place.tag)
-
-    def _advance(self) -> None:
-        for entity in self.entities.values():
-            before = entity.v
-            for domain in ("longitudinal", "path"):
-                run = entity.actions.get(domain)
-                if run is not None and not run.done:
-                    self._move(entity, domain, run, self.time + self.dt - run.begun)
-            if "path" in entity.actions:
-                continue
-            way, aside = 0.5 * (before + entity.v) * self.dt, entity.y
-            run = entity.actions.get("lateral")
-            if run is not None and not run.done:
-                self._move(entity, "lateral", run, self.time + self.dt - run.begun)
-            entity.x += math.sqrt(max(way * way - (entity.y - aside) ** 2, 0.0))
-
-    def _move(self, entity: Entity, domain: str, run: Running, time: float) -> None:
-        if run.follow is not None:
-            self._keep_gap(entity, run.follow)
-        elif run.path:
-            xs = [(t, x) for t, x, _ in run.path]
-            ys = [(t, y) for t, _, y in run.path]
-            x, y = between(xs, time), between(ys, time)
-            entity.v = math.hypot(x - entity.x, y - entity.y) / self.dt
-            entity.x, entity.y = x, y
-        elif domain == "longitudinal":
-            entity.v = run.course(time) if run.course else entity.v
-        else:
-            entity.y = run.course(time) if run.course else entity.y
-        run.done = run.length is not None and time >= run.length - 1e-9
-
-    def _keep_gap(self, entity: Entity, node: Node) -> None:
-        """Follow with the stiffest control that the limit allows."""
-        leader = self.entities[node.get("entityRef")]
-        gap = leader.x - leader.rear - entity.x - entity.front
-        error, closing = gap - number(node, "distance"), leader.v - entity.v
-        rate = 2.0 * error + 2.0 * math.sqrt(2.0) * closing
-        limits = node.find("DynamicConstraints")
-        low, high = -number(limits, "maxDeceleration"), number(limits, "maxAcceleration")
-        entity.v += min(max(rate, low), high) * self.dt
-
-    def _entity(self, node: Node) -> Entity:
-        centre, size = node.find(".//Center"), node.find(".//Dimensions")
-        half, x = number(size, "length") / 2, number(centre, "x")
-        performance = node.find(".//Performance")
-        top = math.inf if performance is None else number(performance, "maxSpeed")
-        return Entity(node.get("name"), half + x, half - x, top)
-
-
-def nearest_lane(y: float) -> int:
-    """Return the lane in which a point is."""
-    return min(LANES, key=lambda lane: abs(LANES[lane] - y))
-
-
-def between(points: list[tuple[float, float]], at: float) -> float:
-    """Interpolate linearly."""
-    for (t0, v0), (t1, v1) in pairwise(points):
-        if at <= t1:
-            return v0 + (v1 - v0) * max(at - t0, 0.0) / (t1 - t0)
-    return points[-1][1]
+        return self.stage.begin(action, entity)

@@ -2,7 +2,8 @@
 
 import pytest
 
-from osc2tx.backends.xosc.facts import Linear, Quintic, Waypoint, drawn
+from osc2tx.backends.xosc.facts import Linear, Quintic
+from osc2tx.backends.xosc.facts_ways import Waypoint, drawn
 from osc2tx.backends.xosc.places import Arrival
 from osc2tx.backends.xosc.rates import Ramp
 from osc2tx.backends.xosc.report import Inexpressible

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc.parameters import _evaluated
+from osc2tx.backends.xosc.comparison import evaluated
 from osc2tx.backends.xosc.symbols import LONGEST, Symbol
 from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlVersion
@@ -22,7 +22,7 @@ scenario ranges:
     do serial:
         ego.drive(duration: {duration}) with:
             speed({speed})
-        ego.change_speed(target: {target}, rate_profile: constant, {course})
+        ego.change_speed(target: {target}, rate_profile: {profile}, {course})
 """
 RANGE = "    {}: {} with:\n        keep(it in {})\n"
 V = RANGE.format("v", "speed", "[10mps..20mps]")
@@ -37,10 +37,16 @@ def emitted(
     speed: str = "10mps",
     target: str = "15mps",
     course: str = "duration: 4s",
+    profile: str = "constant",
 ):  # type: ignore[no-untyped-def]
     path = folder / "a.osc"
     text = SOURCE.format(
-        values=values, duration=duration, speed=speed, target=target, course=course
+        values=values,
+        duration=duration,
+        speed=speed,
+        target=target,
+        course=course,
+        profile=profile,
     )
     path.write_text(text, encoding="utf-8")
     options = XmlOptions(version=version, allow_approx=True)
@@ -115,24 +121,14 @@ def test_the_oldest_version_has_no_expressions(tmp_path: Path) -> None:
     assert grades(found) == {"parameter v": "approximated"}
 
 
-def test_what_no_expression_says_keeps_one_value(tmp_path: Path) -> None:
-    """From 10 m/s it gets faster, from 20 m/s slower: how long that takes is no one expression."""
-    found = emitted(tmp_path, V, speed="v", course="rate_peak: 2mpss")
-    assert grades(found) == {"parameter v": "approximated"}
-    assert declared(found) == [] and "$" not in found.xml
-    (loss,) = (entry for entry in found.report.entries if entry.construct == "parameter v")
-    assert "v is 15 of [10..20]" in loss.bound
-    above = RANGE.format("v", "speed", "[16mps..20mps]")
-    found = emitted(tmp_path, above, speed="v", course="rate_peak: 2mpss")
-    assert grades(found) == {"parameter v": "exact"}
-
-
-def test_each_parameter_is_judged_for_itself(tmp_path: Path) -> None:
-    both = V + RANGE.format("n", "int", "[1..2]")
-    found = emitted(tmp_path, both, speed="v", target="v + n * 1mps")
-    assert grades(found)["parameter n"] == "approximated"
-    assert grades(found)["parameter v"] == "exact"
-    assert [name for name, _, _ in declared(found)] == ["v"]
+def test_elements_that_depend_on_it_leave_it_one_value(tmp_path: Path) -> None:
+    """From 30 m/s the way to 15 m/s is a profile within limits of the jerk, or an even one."""
+    profile = RANGE.format("p", "dynamic_profile", "[dynamic_profile!none, dynamic_profile!smooth]")
+    found = emitted(tmp_path, profile + V, speed="v", course="rate_peak: 2mpss", profile="p")
+    assert grades(found) == {"parameter p": "approximated", "parameter v": "exact"}
+    assert next(name for name, _, _ in declared(found)) == "v"
+    (loss,) = (entry for entry in found.report.entries if entry.construct == "parameter p")
+    assert loss.bound.endswith("p is none of [none, smooth]")
 
 
 def test_a_set_is_listed(tmp_path: Path) -> None:
@@ -141,18 +137,15 @@ def test_a_set_is_listed(tmp_path: Path) -> None:
     assert [node.get("value") for node in root.iter("Element")] == ["10", "12", "20"]
 
 
-def test_constraints_hold_in_every_row(tmp_path: Path) -> None:
-    both = V + RANGE.format("w", "speed", "[10mps..20mps]") + "    keep(v < w)\n"
-    found = emitted(tmp_path, both, speed="v", target="w")
-    root = etree.fromstring(found.parameters.encode())
-    rows = [
-        {node.get("parameterRef"): float(node.get("value")) for node in row}
-        for row in root.iter("ParameterValueSet")
-    ]
-    assert len(rows) == 10  # of 25 combinations of five values each
-    assert all(row["v"] < row["w"] for row in rows)
-    nominal = {name: float(value) for name, _, value in declared(found)}
-    assert nominal["v"] < nominal["w"]
+def test_a_whole_number_has_the_type_of_whole_numbers(tmp_path: Path) -> None:
+    both = V + RANGE.format("n", "int", "[1..2]")
+    for version, type_ in (("1.1", "integer"), ("1.2", "int")):
+        found = emitted(tmp_path, both, version, speed="v", target="v + n * 1mps")
+        root = etree.fromstring(found.xml.encode())
+        types = {n.get("name"): n.get("parameterType") for n in root.iter("ParameterDeclaration")}
+        assert (types["v"], types["n"]) == ("double", type_)
+        assert set(grades(found).values()) == {"exact"}
+        assert 'value="${$v + $n}"' in found.xml
 
 
 def test_a_range_that_nobody_looks_at_changes_nothing(tmp_path: Path) -> None:
@@ -181,7 +174,7 @@ def test_a_range_that_nobody_looks_at_changes_nothing(tmp_path: Path) -> None:
 def test_expressions_say_what_was_computed(compute, value: float) -> None:  # type: ignore[no-untyped-def]
     result = compute(Symbol(3.0, "$x"))
     assert isinstance(result, Symbol)
-    assert _evaluated(result.attribute, {"x": value}) == pytest.approx(compute(value), rel=1e-9)
+    assert evaluated(result.attribute, {"x": value}) == pytest.approx(compute(value), rel=1e-9)
     assert float(result) == pytest.approx(compute(3.0))
 
 

@@ -92,8 +92,9 @@ class Top(Scenario):
             "top",
             self.do_parallel(),
             On(
-                Event(self.told, lambda: self.told["v"] > 1 * mps),
+                self.told,
                 Emit(self.done),
+                condition=lambda: self.told["v"] > 1 * mps,
             ),
         )
 

@@ -30,7 +30,7 @@ class DoubleDecker(Coach):
     kinds = ("double_decker", *Coach.kinds)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Limits:
     """Struct `limits` (input.osc:5)."""
 
@@ -68,7 +68,11 @@ class OwnMethods(Scenario):
         return (limits.low + limits.high) / 2.0
 
     def coach_is_full(self, coach: Coach, guests: int) -> bool:  # input.osc:14
-        return guests >= coach.seats
+        return (
+            self.double_decker_is_full(coach, guests)
+            if isinstance(coach, DoubleDecker)
+            else guests >= coach.seats
+        )
 
     def double_decker_is_full(
         self, double_decker: DoubleDecker, guests: int

@@ -25,7 +25,7 @@ from osc2tx_runtime.units import m, mps, s
 require_api(1)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class DrivingStyle:
     """Struct `driving_style` (input.osc:6).
 
@@ -37,14 +37,14 @@ class DrivingStyle:
     gap: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class CalmStyle(DrivingStyle):
     """Struct `calm_style` (input.osc:12)."""
 
     patience: float = 5 * s
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Waypoint(Point):
     """Struct `waypoint` (input.osc:15)."""
 

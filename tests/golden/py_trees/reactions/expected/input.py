@@ -52,9 +52,10 @@ class Reactions(Scenario):
                 Emit(self.seen),
             ),
             On(
-                Event(self.seen, lambda: self.ego.speed > 10 * kph),
+                self.seen,
                 # once more
                 Emit(self.reported),
+                condition=lambda: self.ego.speed > 10 * kph,
             ),
         )
 

@@ -1,0 +1,125 @@
+"""Scenario `own_shape`.
+
+C19 Own shapes: a speed that swells and falls back, computed by the scenario itself, and an
+acceleration that fades; what the shapes say of themselves can be read as well.
+
+Made by osc2tx from capabilities/C19_own_shape.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+
+from osc2tx_runtime import (
+    AnyAccelerationShape,
+    AnySpeedShape,
+    Behaviour,
+    CommonSpeedShape,
+    Event,
+    Map,
+    OwnShape,
+    Parallel,
+    Scenario,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+    rise,
+)
+from osc2tx_runtime.modifiers import acceleration, lane, position, speed
+from osc2tx_runtime.units import m, mps, mpss, s
+
+require_api(1)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Swell(AnySpeedShape):
+    """Struct `swell` (capabilities/C19_own_shape.osc:8).
+
+    Up by `height` and down again, on a parabola over `length`.
+    """
+
+    base: float
+    height: float
+    length: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fading(AnyAccelerationShape):
+    """Struct `fading` (capabilities/C19_own_shape.osc:17).
+
+    Falls evenly to zero.
+    """
+
+    first: float
+    length: float
+
+
+class OwnShapeScenario(Scenario):
+    """Scenario `own_shape` (capabilities/C19_own_shape.osc:23)."""
+
+    name = "own_shape"
+    source = "capabilities/C19_own_shape.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.swelling = Vehicle()
+        self.starting = Vehicle()
+        self.wave = Swell(base=10 * mps, height=4 * mps, length=8 * s)
+        self.push = Fading(first=3 * mpss, length=6 * s)
+        self.ramp = CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpss, target=6 * mps)
+        self.half_way = Event(
+            rise(
+                lambda: self.swelling.speed
+                >= self.swell_compute(self.wave, self.swell_duration(self.wave) / 4.0)
+            )
+        )
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(
+            self.swelling, lane(1), position(50 * m), speed(self.swell_compute(self.wave, 0 * s))
+        )
+        self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
+
+    def swell_duration(self, swell: Swell) -> float:  # capabilities/C19_own_shape.osc:12
+        return swell.length
+
+    def swell_compute(
+        self, swell: Swell, time: float
+    ) -> float:  # capabilities/C19_own_shape.osc:14
+        return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
+
+    def fading_compute(
+        self, fading: Fading, time: float
+    ) -> float:  # capabilities/C19_own_shape.osc:21
+        return fading.first * (1.0 - time / fading.length)
+
+    def fading_duration(self, fading: Fading) -> float:  # capabilities/C19_own_shape.osc:20
+        return fading.length
+
+    def swell_bow(self, swell: Swell, share: float) -> float:  # capabilities/C19_own_shape.osc:13
+        return 4.0 * share * (1.0 - share)
+
+    def behavior(self) -> Behaviour:  # capabilities/C19_own_shape.osc:42
+        return Parallel(
+            "own_shape",
+            self.swelling.drive(
+                speed(shape=OwnShape(self.wave, self.swell_compute, self.swell_duration)),
+                duration=self.swell_duration(self.wave),
+            ),
+            self.starting.drive(
+                acceleration(shape=OwnShape(self.push, self.fading_compute, self.fading_duration)),
+                duration=self.swell_duration(self.wave) + self.ramp.duration(),
+            ),
+            Wait(self.half_way),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return OwnShapeScenario().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(OwnShapeScenario))

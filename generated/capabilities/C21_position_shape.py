@@ -1,0 +1,96 @@
+"""Scenario `position_shape`.
+
+C21 Position shapes: where a car is at any time. One stops smoothly after 60 m, one closes a gap
+to another car, one has a course of its own.
+
+Made by osc2tx from capabilities/C21_position_shape.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+
+from osc2tx_runtime import (
+    AnyPositionShape,
+    Behaviour,
+    CommonPositionShape,
+    Map,
+    OwnShape,
+    Parallel,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import distance, lane, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Gaining(AnyPositionShape):
+    """Struct `gaining` (capabilities/C21_position_shape.osc:8).
+
+    Goes on at `pace`, and faster and faster: `more` further after `period`.
+    """
+
+    pace: float
+    more: float
+    period: float
+
+
+class PositionShape(Scenario):
+    """Scenario `position_shape` (capabilities/C21_position_shape.osc:15)."""
+
+    name = "position_shape"
+    source = "capabilities/C21_position_shape.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.stopping = Vehicle()
+        self.lead = Vehicle()
+        self.closing = Vehicle()
+        self.own = Vehicle()
+        self.smoothly = CommonPositionShape(rate_profile="smooth")
+        self.faster = Gaining(pace=10 * mps, more=4 * m, period=4 * s)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.stopping, lane(1), position(20 * m), speed(12 * mps))
+        self.place(self.lead, lane(2), position(80 * m), speed(12 * mps))
+        self.place(self.closing, lane(2), position(40 * m, behind=self.lead), speed(10 * mps))
+        self.place(
+            self.own, lane(3), speed(10 * mps), position(self.gaining_compute(self.faster, 0 * s))
+        )
+
+    def gaining_compute(
+        self, gaining: Gaining, time: float
+    ) -> float:  # capabilities/C21_position_shape.osc:13
+        return gaining.pace * time + gaining.more * self.gaining_square(
+            gaining, time / gaining.period
+        )
+
+    def gaining_square(
+        self, gaining: Gaining, share: float
+    ) -> float:  # capabilities/C21_position_shape.osc:12
+        return share * share
+
+    def behavior(self) -> Behaviour:  # capabilities/C21_position_shape.osc:27
+        return Parallel(
+            "position_shape",
+            self.stopping.drive(distance(60 * m, shape=self.smoothly)),
+            self.lead.drive(),
+            self.closing.drive(position(25 * m, behind=self.lead, shape=self.smoothly, at="end")),
+            self.own.drive(position(shape=OwnShape(self.faster, self.gaining_compute))),
+            duration=8 * s,
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return PositionShape().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(PositionShape))

@@ -1,0 +1,111 @@
+"""Scenario `lateral_speeds`.
+
+C22 Lateral speeds: across the lane so fast at the end, or at the start only; and a way across of
+its own.
+
+Made by osc2tx from capabilities/C22_lateral_speeds.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+
+from osc2tx_runtime import (
+    AnyLateralShape,
+    Behaviour,
+    Map,
+    OwnShape,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import lane, lateral, position, speed
+from osc2tx_runtime.units import m, mps, s
+
+require_api(1)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bulge(AnyLateralShape):
+    """Struct `bulge` (capabilities/C22_lateral_speeds.osc:8).
+
+    Out by `reach` and back, on a parabola.
+    """
+
+    reach: float
+    length: float
+
+
+class LateralSpeeds(Scenario):
+    """Scenario `lateral_speeds` (capabilities/C22_lateral_speeds.osc:15)."""
+
+    name = "lateral_speeds"
+    source = "capabilities/C22_lateral_speeds.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.drifting = Vehicle()
+        self.bulging = Vehicle()
+        self.leaning = Vehicle()
+        self.out = Bulge(reach=0.8 * m, length=4 * s)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.drifting, lane(1), position(50 * m), speed(15 * mps))
+        self.place(
+            self.bulging,
+            lane(2),
+            position(120 * m),
+            speed(15 * mps),
+            lateral(self.bulge_compute(self.out, 0 * s)),
+        )
+        self.place(
+            self.leaning,
+            lane(3),
+            position(50 * m),
+            speed(15 * mps),
+            speed(0.5 * mps, direction="lateral"),
+        )
+
+    def bulge_compute(
+        self, bulge: Bulge, time: float
+    ) -> float:  # capabilities/C22_lateral_speeds.osc:13
+        return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
+
+    def bulge_duration(self, bulge: Bulge) -> float:  # capabilities/C22_lateral_speeds.osc:11
+        return bulge.length
+
+    def bulge_bow(
+        self, bulge: Bulge, share: float
+    ) -> float:  # capabilities/C22_lateral_speeds.osc:12
+        return 4.0 * share * (1.0 - share)
+
+    def behavior(self) -> Behaviour:  # capabilities/C22_lateral_speeds.osc:24
+        return Parallel(
+            "lateral_speeds",
+            self.drifting_serial(),
+            self.bulging.drive(
+                lateral(shape=OwnShape(self.out, self.bulge_compute, self.bulge_duration)),
+                duration=4 * s,
+            ),
+            self.leaning.drive(duration=4 * s),
+        )
+
+    def drifting_serial(self) -> Behaviour:  # capabilities/C22_lateral_speeds.osc:25
+        return Serial(
+            "drifting: serial",
+            self.drifting.drive(speed(0.6 * mps, direction="lateral", at="end"), duration=2 * s),
+            self.drifting.drive(speed(0.6 * mps, direction="lateral"), duration=2 * s),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return LateralSpeeds().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(LateralSpeeds))

@@ -1,0 +1,135 @@
+"""Refuses objects, actors and values of structs, that the runtime library cannot make."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.runtime_api import (
+    ACTOR_CLASSES,
+    STRUCT_CLASSES,
+    RuntimeSupport,
+    constructor_path,
+    list_element,
+    nested_object,
+)
+from osc2tx.backends.py_trees.type_table import ROOT
+from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.light_dataclass import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class _Object:
+    """An object, or a member that is an object itself; `name` is its path."""
+
+    name: str
+    span: Span
+    lineage: tuple[str, ...]
+    values: tuple[ir.FieldValue, ...]
+
+    def member(self, field: str, lineage: tuple[str, ...]) -> _Object:
+        below = tuple(
+            replace(v, path=v.path[1:]) for v in self.values if v.path[0] == field and v.path[1:]
+        )
+        return _Object(f"{self.name}.{field}", self.span, lineage, below)
+
+
+class ObjectCheck:
+    """Checks objects against what the runtime can make.
+
+    Args:
+        own: The module's own types.
+        runtime: The tables of the runtime.
+        sink: Where complaints go.
+    """
+
+    def __init__(
+        self, own: Mapping[str, ir.OwnType], runtime: RuntimeSupport, sink: DiagnosticSink
+    ) -> None:
+        """See the class."""
+        self._own = own
+        self._runtime = runtime
+        self._sink = sink
+
+    def check(self, declaration: ir.Actor | ir.Struct) -> None:
+        """Check a declared object that is no other value as a whole."""
+        is_actor = isinstance(declaration, ir.Actor)
+        known: Mapping[str, str] = ACTOR_CLASSES if is_actor else STRUCT_CLASSES
+        self._object(
+            _Object(
+                declaration.name, declaration.span, declaration.lineage, tuple(declaration.values)
+            ),
+            known,
+        )
+
+    def _object(self, object_: _Object, classes: Mapping[str, str]) -> None:
+        kind = next((name for name in object_.lineage if name in classes), None)
+        is_own = object_.lineage[0] in self._own and object_.lineage[-1] in {*self._own, ROOT}
+        is_own = is_own and kind is None
+        if not is_own and (kind is None or kind not in self._runtime.objects):
+            self._sink.report(
+                "OSC501",
+                object_.span,
+                f"the runtime has no objects of type `{object_.lineage[0]}`",
+            )
+            return
+        objects = {field.name: field for field in self._object_fields(object_.lineage)}
+        for field in objects.values():
+            is_whole = any(value.path == (field.name,) for value in object_.values)
+            if not is_whole:
+                member = object_.member(field.name, self._lineage(field.type.name))
+                self._object(member, STRUCT_CLASSES)
+        for value in object_.values:
+            if value.path[0] in objects or self._is_own(object_.lineage, value.path):
+                continue
+            if kind is None or not self._can_fix(kind, object_.lineage, value.path):
+                self._sink.report(
+                    "OSC502",
+                    value.span,
+                    f"the runtime cannot fix `{'.'.join(value.path)}` of a `{object_.lineage[0]}`",
+                    help="it is as the runtime makes it: read it, or leave it out",
+                )
+        if kind is not None and classes is STRUCT_CLASSES:
+            self._needed(object_, kind)
+
+    def _object_fields(self, lineage: Sequence[str]) -> Iterator[ir.OwnField]:
+        for type_ in lineage:
+            if type_ in self._own:
+                fields = self._own[type_].fields
+                yield from (field for field in fields if field.type.kind is ir.Kind.STRUCT)
+
+    def _is_own(self, lineage: Sequence[str], path: tuple[str, ...]) -> bool:
+        types = [self._own[name] for name in lineage if name in self._own]
+        names = {field.name for type_ in types for field in type_.fields}
+        return len(path) == 1 and path[0] in names
+
+    def _lineage(self, type_: str) -> tuple[str, ...]:
+        names = [type_]
+        while names[-1] in self._own and (base := self._own[names[-1]].base) is not None:
+            names.append(base)
+        return tuple(names)
+
+    def _can_fix(self, kind: str, lineage: Sequence[str], path: tuple[str, ...]) -> bool:
+        """Whether a constructor takes a member."""
+        member, *below = constructor_path(lineage, path)
+        element = list_element(lineage, member) if below else None
+        if element is not None:
+            inside = tuple(below[1:])  # behind the number
+            return not inside or (bool(element) and self._can_fix(element[0], element, inside))
+        inner = nested_object(lineage, member)
+        if inner is not None and below:
+            return self._can_fix(inner, (inner,), tuple(below))
+        return not below and member in self._runtime.objects[kind]
+
+    def _needed(self, object_: _Object, kind: str) -> None:
+        """Report members that a value cannot do without."""
+        given = {constructor_path(object_.lineage, value.path)[0] for value in object_.values}
+        missing = ", ".join(f"`{name}`" for name in sorted(self._runtime.needed[kind] - given))
+        if missing:
+            self._sink.report(
+                "OSC501",
+                object_.span,
+                f"`{object_.name}` does not say its {missing}",
+                help="give it a whole value, or `keep(it.member == value)` for each member",
+            )

@@ -1,0 +1,68 @@
+"""Constructor calls of objects: actors, and values of structs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.calls import comments
+from osc2tx.backends.py_trees.code import name_expression
+from osc2tx.backends.py_trees.expressions import ExpressionWriter
+from osc2tx.backends.py_trees.list_elements import write_elements
+from osc2tx.backends.py_trees.runtime_api import constructor_path, list_element, nested_object
+from osc2tx.backends.py_trees.type_table import TypeTable
+from osc2tx.backends.py_trees.view import ArgumentView, CallView
+
+
+class ObjectWriter:
+    """Writes the objects of one scenario.
+
+    Args:
+        expressions: Writer of what is in them.
+        types: All types that the module knows.
+    """
+
+    def __init__(self, expressions: ExpressionWriter, types: TypeTable) -> None:
+        """See the class."""
+        self._expressions = expressions
+        self._types = types
+
+    def write(self, lineage: tuple[str, ...], values: tuple[ir.FieldValue, ...]) -> ArgumentView:
+        """Write the constructor of an object; members that are objects too stand inside."""
+        arguments: dict[str, ArgumentView] = {}
+        owners = {field.name: owner for owner, field in self._types.owned_fields(lineage)}
+        keyed = [replace(v, path=constructor_path(lineage, v.path)) for v in values]
+        for value in keyed:
+            first = value.path[0]
+            inner = self._member_lineage(lineage, first)
+            if len(value.path) > 1 and (element := list_element(lineage, first)) is not None:
+                class_of_it = self._types.class_of(element) if element else None
+                inside = [v for v in keyed if v.path[0] == first]
+                write = self._expressions.write
+                arguments[first] = write_elements(class_of_it, inside, write)
+            elif inner is None or len(value.path) == 1:
+                arguments[".".join(value.path)] = ArgumentView(
+                    code=self._expressions.write(value.value),
+                    comments=comments(value.comments),
+                )
+            elif first not in arguments:
+                below = tuple(replace(v, path=v.path[1:]) for v in keyed if v.path[0] == first)
+                arguments[first] = self.write(inner, below)
+        for field in self._types.fields(lineage):
+            if field.type.kind is ir.Kind.STRUCT and field.name not in arguments:
+                arguments[field.name] = self.write(self._types.lineage(field.type.name), ())
+        written = (
+            replace(a, keyword=self._types.member(owners.get(keyword, ""), keyword))
+            for keyword, a in arguments.items()
+        )
+        class_ = name_expression(self._types.class_of(lineage))
+        return ArgumentView(call=CallView(class_, tuple(written)))
+
+    def _member_lineage(self, lineage: tuple[str, ...], member: str) -> tuple[str, ...] | None:
+        """Return the types of a member that is an object itself; `None` if it is none."""
+        field = self._types.field(lineage, member)
+        if field is not None:
+            is_object = field.type.kind is ir.Kind.STRUCT
+            return self._types.lineage(field.type.name) if is_object else None
+        library = nested_object(lineage, member)
+        return None if library is None else (library,)

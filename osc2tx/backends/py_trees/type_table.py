@@ -1,0 +1,118 @@
+"""The types that a module knows: classes of its own, and those of the runtime."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, name_expression
+from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.runtime_api import (
+    ACTOR_CLASSES,
+    ANNOTATIONS,
+    STRUCT_CLASSES,
+    runtime_support,
+)
+from osc2tx.backends.py_trees.uses import Uses
+
+CLASSES = {**ACTOR_CLASSES, **STRUCT_CLASSES}
+
+# The type that all actors derive from.
+ROOT = "osc_actor"
+
+
+def class_key(type_: str) -> str:
+    """Return the key of a type in the table of the module's classes."""
+    return f"type {type_}"
+
+
+class TypeTable:
+    """Names classes and annotations, and knows the fields of the module's own types.
+
+    Args:
+        own: The module's own types, bases first.
+        classes: Names of the module's classes.
+        uses: What the module has to import.
+    """
+
+    def __init__(self, own: Sequence[ir.OwnType], classes: NameTable, uses: Uses) -> None:
+        """See the class."""
+        self._own = {each.name: each for each in own}
+        self._classes = classes
+        self._uses = uses
+        self._of_actors = runtime_support().reserved | {"fields", "self"}
+        self._of_structs = frozenset(_seen_by_classes(own))
+
+    def class_of(self, lineage: Sequence[str]) -> PyName:
+        """Name the class of an object, the first type of its lineage that has one."""
+        if class_key(lineage[0]) in self._classes:
+            return self._classes[class_key(lineage[0])]
+        return self._uses.name(next(CLASSES[name] for name in lineage if name in CLASSES))
+
+    def base_of(self, own: ir.OwnType) -> PyName | None:
+        """Name the base class of an own type; an actor of no special kind is an `Actor`."""
+        if own.is_actor and own.base in (None, ROOT):
+            return self._uses.name("Actor")
+        return None if own.base is None else self.class_of((own.base,))
+
+    def member(self, owner: str, name: str) -> PyName:
+        """Name a member of an object.
+
+        One of an own actor must not hide what the runtime has there, one of a struct not what the
+        body of its class reads: the fields below a field `m` would take it for the unit.
+        """
+        wanted = identifier(name)
+        own = self._own.get(owner)
+        if own is None:
+            return PyName(wanted)
+        taken = self._of_actors if own.is_actor else self._of_structs
+        return PyName(f"{wanted}_" if wanted in taken else wanted)
+
+    def annotation(self, type_: ir.ValueType | None, later: frozenset[str] = frozenset()) -> PyExpr:
+        """Write a type; `None` is that of what is called for what it does.
+
+        Args:
+            type_: The type.
+            later: Own types whose classes are not defined yet where it stands.
+        """
+        if type_ is None:
+            return PyExpr("object", Level.ATOM)
+        if type_.element is not None:
+            is_list = type_.kind is ir.Kind.LIST
+            outer = "list" if is_list else str(self._uses.name("Range"))
+            return PyExpr(f"{outer}[{self.annotation(type_.element, later)}]", Level.ATOM)
+        plain = ANNOTATIONS.get(type_.kind.value)
+        if plain is not None:
+            return name_expression(PyName(plain))
+        name = self.class_of((type_.name,))
+        return literal(str(name)) if type_.name in later else name_expression(name)
+
+    def field(self, lineage: Sequence[str], name: str) -> ir.OwnField | None:
+        """Return a field that an own type of a lineage declares."""
+        return next((field for field in self.fields(lineage) if field.name == name), None)
+
+    def fields(self, lineage: Sequence[str]) -> Iterator[ir.OwnField]:
+        """Yield the fields that own types of a lineage declare, those of bases first."""
+        return (field for _, field in self.owned_fields(lineage))
+
+    def owned_fields(self, lineage: Sequence[str]) -> Iterator[tuple[str, ir.OwnField]]:
+        """Yield the same, each with the type that declares it."""
+        for type_ in reversed(lineage):
+            if type_ in self._own:
+                yield from ((type_, field) for field in self._own[type_].fields)
+
+    def lineage(self, type_: str) -> tuple[str, ...]:
+        """Return a type and its bases, up to the first one of the library."""
+        names = [type_]
+        while names[-1] in self._own and (base := self._own[names[-1]].base) is not None:
+            names.append(base)
+        return tuple(names)
+
+
+def _seen_by_classes(own: Sequence[ir.OwnType]) -> Iterator[str]:
+    """Yield the names that annotations and defaults in classes of structs use."""
+    yield from {*ANNOTATIONS.values(), "list", "dataclass", *CLASSES.values(), "Range"}
+    defaults = (field.default for type_ in own for field in type_.fields)
+    for part in (part for default in defaults if default is not None for part in ir.walk(default)):
+        if isinstance(part, ir.Quantity):
+            yield identifier(part.unit.name)

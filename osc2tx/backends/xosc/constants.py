@@ -1,0 +1,54 @@
+"""What expressions are worth that do not change during a run."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from osc2tx.light_dataclass import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A member of an enum."""
+
+    enum: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """An actor or struct of the scenario, by its name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """A range."""
+
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What a method of the library makes of constants: a point, a path, states of lamps.
+
+    Attributes:
+        method: The method.
+        owner: Name of the actor or struct whose method it is.
+        arguments: By parameter.
+    """
+
+    method: str
+    owner: str
+    arguments: tuple[tuple[str, Constant], ...]
+
+    def get(self, parameter: str) -> Constant | None:
+        """Return an argument."""
+        return dict(self.arguments).get(parameter)
+
+
+Constant: TypeAlias = (
+    "bool | int | float | str | Member | Named | Bounds | Made | tuple[Constant, ...]"
+)

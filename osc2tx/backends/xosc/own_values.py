@@ -1,0 +1,39 @@
+"""Values that the scenario's own types give: defaults of fields."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from osc2tx import ir
+
+
+class OwnTypes:
+    """The actors and structs that the files of a module declare.
+
+    Args:
+        types: Those types.
+    """
+
+    def __init__(self, types: Iterable[ir.OwnType] = ()) -> None:
+        self._types = {own.name: own for own in types}
+
+    def default(self, type_name: str, path: tuple[str, ...]) -> ir.Expression | None:
+        """Return what a member of an object has if nothing else is said about it.
+
+        Args:
+            type_name: The type of the object.
+            path: The member, and members of it.
+        """
+        field = self._field(type_name, path[0])
+        if field is None or len(path) == 1:
+            return None if field is None else field.default
+        return self.default(field.type.name, path[1:])
+
+    def _field(self, type_name: str, name: str) -> ir.OwnField | None:
+        fields = (field for own in self._lineage(type_name) for field in own.fields)
+        return next((field for field in fields if field.name == name), None)
+
+    def _lineage(self, type_name: str | None) -> Iterator[ir.OwnType]:
+        while type_name in self._types:
+            yield self._types[type_name]
+            type_name = self._types[type_name].base

@@ -1,0 +1,41 @@
+"""Expressions with some of their parts replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from typing import Any
+
+from osc2tx.ir.expressions import Argument, Expression
+from osc2tx.ir.values import ExpressionBase
+
+
+def rewrite(
+    expression: Expression, replacement: Callable[[Expression], Expression | None]
+) -> Expression:
+    """Return an expression with its outermost parts replaced that have a replacement.
+
+    Args:
+        expression: The expression.
+        replacement: Gives what a part becomes; `None` if it stays, and its parts are looked at.
+    """
+    found = replacement(expression)
+    if found is not None:
+        return found
+
+    def changed(value: Any) -> Any:
+        match value:
+            case ExpressionBase():
+                return rewrite(value, replacement)  # type: ignore[arg-type]  # all of them are
+            case Argument():
+                return replace(value, value=rewrite(value.value, replacement))
+            case tuple():
+                parts = tuple(changed(part) for part in value)
+                kept = all(new is old for new, old in zip(parts, value, strict=True))
+                return value if kept else parts
+            case _:
+                return value
+
+    old = {field.name: getattr(expression, field.name) for field in fields(expression)}
+    new = {name: made for name, value in old.items() if (made := changed(value)) is not value}
+    return replace(expression, **new) if new else expression

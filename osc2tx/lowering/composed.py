@@ -1,0 +1,32 @@
+"""Behaviors that say what they do: scenarios, and actions with a `do` of their own (§7.3.8.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TypeAlias, TypeGuard
+
+from osc2tx.semantics import symbols as sym
+from osc2tx.syntax import ast
+
+Composed: TypeAlias = sym.ScenarioSymbol | sym.ActionSymbol
+
+
+def is_composed(symbol: sym.Symbol | None) -> TypeGuard[Composed]:
+    """Whether a module has a class for a behavior, instead of leaving it to the runtime."""
+    if isinstance(symbol, sym.ActionSymbol):
+        return symbol.origin == "user" and has_behavior(symbol)
+    return isinstance(symbol, sym.ScenarioSymbol)
+
+
+def has_behavior(behavior: Composed) -> bool:
+    """Whether a behavior or one of its bases has a `do`."""
+    statements = (s for each in lineage_of(behavior) for s in each.statements)
+    return any(isinstance(statement, ast.DoDirective) for statement in statements)
+
+
+def lineage_of(behavior: Composed) -> Iterator[Composed]:
+    """Yield a behavior and its bases, up to the library."""
+    current: Composed | None = behavior
+    while current is not None:
+        yield current
+        current = current.base

@@ -1,0 +1,43 @@
+"""Fields of roads, lanes and lights: a map fills them in before the start of a run.
+
+Scenarios may bound some of them; the runtime then looks for parts of the map that fit.
+"""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.semantics import symbols as sym
+
+# Types of what a map fills in: their fields can be read when the scenario is on its map, ...
+OF_THE_MAP = frozenset(
+    {"compound_lane", "compound_route", "crossing", "crossing_type", "junction", "lane"}
+    | {"lane_section", "map", "road", "route", "traffic_light", "traffic_light_group"}
+    | {"traffic_light_stop_line"}
+)
+# ... but for those that a scenario itself says.
+SAID_BY_SCENARIOS = frozenset({"group", "map_id", "traffic_light_control", "traffic_light_group"})
+# Numbers that a scenario may leave to the map within bounds.
+WISHES = frozenset({"length", "max_lanes", "min_lanes", "width"})
+
+NOT_SEARCHED_BY = "this constraint is about what the map fills in, and not one it is searched by"
+SEARCHED_BY = (
+    "bounds such as `keep(it.length >= 100m)` and `keep(it.width in [3m..4m])` are looked for; so"
+    " are values, lists of members and modifiers of the map"
+)
+
+
+def is_wish(field: sym.FieldSymbol) -> bool:
+    """Whether a range for a field is for the map to fill in, and not for the run to draw from."""
+    return says_the_map(field) and field.name in WISHES
+
+
+def says_the_map(field: sym.FieldSymbol) -> bool:
+    """Whether a field of an object is known only when there is a map."""
+    is_part = field.owner is not None and field.owner.name in OF_THE_MAP
+    return is_part and field.name not in SAID_BY_SCENARIOS
+
+
+def asks_the_map(expression: ir.Expression) -> bool:
+    """Whether an expression reads what a map fills in."""
+    attributes = (part for part in ir.walk(expression) if isinstance(part, ir.Attribute))
+    return any(part.is_variable and part.owner in OF_THE_MAP for part in attributes)

@@ -1,0 +1,39 @@
+"""Types and units as the IR has them."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+
+PRIMITIVE_KINDS = {
+    "bool": ir.Kind.BOOL,
+    "int": ir.Kind.INTEGER,
+    "uint": ir.Kind.INTEGER,
+    "float": ir.Kind.FLOAT,
+    "string": ir.Kind.STRING,
+}
+
+
+def lower_type(type_: types.Type) -> ir.ValueType:
+    """Return the IR's view of a type."""
+    match type_:
+        case types.PrimitiveType(name=name):
+            return ir.ValueType(PRIMITIVE_KINDS[name], name)
+        case types.PhysicalType():
+            return ir.ValueType(ir.Kind.QUANTITY, str(type_))
+        case types.EnumType():
+            return ir.ValueType(ir.Kind.ENUM, str(type_))
+        case types.ActorType():
+            return ir.ValueType(ir.Kind.ACTOR, str(type_))
+        case types.ListType(element=element):
+            return ir.ValueType(ir.Kind.LIST, str(type_), lower_type(element))
+        case types.RangeType(element=element):
+            return ir.ValueType(ir.Kind.RANGE, str(type_), lower_type(element))
+        case _:
+            return ir.ValueType(ir.Kind.STRUCT, str(type_))
+
+
+def lower_unit(unit: sym.UnitSymbol) -> ir.Unit:
+    """Return the IR's view of a unit."""
+    return ir.Unit(unit.name, unit.factor, unit.offset, is_standard=unit.origin == "library")

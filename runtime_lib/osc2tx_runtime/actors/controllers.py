@@ -1,0 +1,13 @@
+"""Who switches traffic lights (DSL 8.15.8)."""
+
+from __future__ import annotations
+
+from .base import Actor
+
+__all__ = ["TrafficLightController"]
+
+
+class TrafficLightController(Actor):
+    """Switches traffic lights."""
+
+    kinds = ("traffic_light_controller", *Actor.kinds)

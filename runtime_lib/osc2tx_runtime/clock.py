@@ -1,0 +1,23 @@
+"""Scenario time: whole steps. What lasts some seconds ends at the first step at or after them."""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["whole_steps"]
+
+_ROUNDING = 1e-6
+"""Part of a step by which seconds over steps may miss a whole number: 4.5 / 0.05 is 90."""
+
+_NEVER = 2.0**62
+"""Steps that no run gets to, for a time that dt divides into more than a float can say."""
+
+
+def whole_steps(seconds: float, dt: float) -> int:
+    """Return the first step at or after a time.
+
+    Args:
+        seconds: Finite; negative before the start.
+        dt: Length of a step (s).
+    """
+    return math.ceil(min(seconds / dt, _NEVER) - _ROUNDING)

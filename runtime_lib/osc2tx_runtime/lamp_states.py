@@ -1,0 +1,61 @@
+"""What scenarios say that traffic lights show (DSL 8.15.2): lamps, states, meanings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.world.lamps import BulbColor, BulbState, Lamp, Meaning, lamps_that_mean
+
+__all__ = ["Bulbs", "Shown", "TrafficLightBulb", "states_of"]
+
+
+@dataclass(frozen=True, slots=True)
+class TrafficLightBulb:
+    """A lamp.
+
+    Attributes:
+        color: Its color.
+        icon: The symbol on it.
+        map_id: Its id in the map; maps have none.
+        icon_positive: The symbol shines, on dark ground.
+        state: What it does now.
+    """
+
+    color: BulbColor
+    icon: str = "circle"
+    map_id: str | None = None
+    icon_positive: bool = True
+    state: BulbState = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What a box shows when it means something; its lamps are known once there is a map.
+
+    Attributes:
+        meaning: The meaning.
+    """
+
+    meaning: Meaning
+
+
+Bulbs = Sequence[TrafficLightBulb | BulbState] | Shown
+"""Lamps in their states, plain states, or what they are to mean."""
+
+
+def states_of(bulbs: Bulbs, lamps: Sequence[Lamp], what: str) -> tuple[BulbState, ...]:
+    """States of the lamps of a box, in their order.
+
+    Raises:
+        ScenarioError: They do not fit the lamps of the box.
+    """
+    if isinstance(bulbs, Shown):
+        states = lamps_that_mean(lamps, bulbs.meaning)
+        if states is None:
+            raise ScenarioError(f"{what} has no lamps that mean {bulbs.meaning}")
+        return states
+    if len(bulbs) != len(lamps):
+        raise ScenarioError(f"{what} has {len(lamps)} lamps, not {len(bulbs)}")
+    return tuple(bulb.state if isinstance(bulb, TrafficLightBulb) else bulb for bulb in bulbs)

@@ -1,0 +1,92 @@
+"""What lanes of OpenDRIVE are in the words of the domain model (DSL 8.12.6, 8.12.12, 8.12.13)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal, NamedTuple
+
+__all__ = ["LANE_TYPES", "Directionality", "LaneKind", "LaneType", "LaneUse", "kind_of_lane"]
+
+Directionality = Literal["uni_direction", "bi_direction", "split", "free", "none", "other"]
+LaneType = Literal["driving", "non_driving", "vru_vehicles", "pedestrian", "other"]
+LaneUse = Literal[
+    "normal",
+    "exit",
+    "entry",
+    "on_ramp",
+    "off_ramp",
+    "connecting_ramp",
+    "hov",
+    "bus",
+    "mixed_traffic_vru",
+    "parking",
+    "stop",
+    "restricted",
+    "border",
+    "shoulder",
+    "curb",
+    "median",
+    "bicycle",
+    "motorcycle",
+    "sidewalk",
+    "protected_sidewalk",
+    "none",
+    "other",
+]
+
+
+class LaneKind(NamedTuple):
+    """What a lane is for.
+
+    Attributes:
+        type: Roughly, for whom.
+        use: More finely.
+        directionality: In which directions one may move along it.
+    """
+
+    type: LaneType
+    use: LaneUse
+    directionality: Directionality
+
+
+_DRIVING: Mapping[str, LaneUse] = {
+    "driving": "normal",
+    "entry": "entry",
+    "mwyEntry": "entry",
+    "exit": "exit",
+    "mwyExit": "exit",
+    "onRamp": "on_ramp",
+    "offRamp": "off_ramp",
+    "connectingRamp": "connecting_ramp",
+    "slipLane": "other",
+    "HOV": "hov",
+    "bus": "bus",
+    "taxi": "other",
+}
+_NON_DRIVING: Mapping[str, LaneUse] = {
+    "parking": "parking",
+    "stop": "stop",
+    "restricted": "restricted",
+    "border": "border",
+    "shoulder": "shoulder",
+    "curb": "curb",
+    "median": "median",
+    "none": "none",
+}
+_KINDS: Mapping[str, LaneKind] = {
+    **{name: LaneKind("driving", use, "uni_direction") for name, use in _DRIVING.items()},
+    **{name: LaneKind("non_driving", use, "none") for name, use in _NON_DRIVING.items()},
+    "bidirectional": LaneKind("driving", "normal", "bi_direction"),
+    "biking": LaneKind("vru_vehicles", "bicycle", "uni_direction"),
+    "sidewalk": LaneKind("pedestrian", "sidewalk", "free"),
+    "walking": LaneKind("pedestrian", "sidewalk", "free"),
+}
+
+
+LANE_TYPES = frozenset(_KINDS) - {"none"}
+"""Types of OpenDRIVE that are lanes at all, for vehicles or not."""
+
+
+def kind_of_lane(type_: str) -> LaneKind:
+    """What a lane of a type of OpenDRIVE is."""
+    return _KINDS.get(type_, LaneKind("other", "other", "other"))

@@ -1,0 +1,151 @@
+"""The loop of a run: one instant after the other until the tree ends or the time is over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.behaviour.base import (
+    FAILURE,
+    INVALID,
+    RUNNING,
+    SUCCESS,
+    Behaviour,
+    Status,
+    pulse_of,
+)
+from osc2tx_runtime.behaviour.events import Event
+from osc2tx_runtime.behaviour.reasons import failure_reason, timeout_reason
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["OnProgress", "Outcome", "run_tree", "settle"]
+
+OnProgress = Callable[[float, float], None]
+"""Takes the time of the run and the time at which it has to end, in seconds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How a tree ended: `success`, `failure` or `timeout`, why, and after how many steps."""
+
+    status: str
+    reason: str
+    steps: int
+
+
+def run_tree(
+    root: Behaviour, context: ExecutionContext, on_progress: OnProgress | None = None
+) -> Outcome:
+    """Run a tree that is set up until it ends or the time is over.
+
+    However it ends, no node is RUNNING and no slot is owned afterwards, and the trace is closed.
+
+    Raises:
+        ScenarioError: If the scenario cannot go on.
+    """
+    outcome = Outcome("error", "", 0)
+    try:
+        outcome = loop(root, context, on_progress)
+    except BaseException as error:
+        if isinstance(error, ScenarioError) and not isinstance(error, SettingsError):
+            error.happened(context.time)
+        text = str(error) if isinstance(error, ScenarioError) else repr(error)
+        if isinstance(error, KeyboardInterrupt):
+            text = f"interrupted at {context.time:g} s"
+        outcome = Outcome("error", text, context.step)
+        raise
+    finally:
+        close(root, context, outcome)
+    return outcome
+
+
+def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
+    """Leave the tree, free the slots, and write the end of the trace."""
+    try:
+        if root.status is RUNNING:
+            root.stop(INVALID)
+    finally:
+        for node in root.iterate():  # what a broken `on_stop` kept from being left
+            if node.status is RUNNING:
+                node.status = INVALID
+        context.clear()
+        context.trace.end_instant(context.time, states(context))
+        context.trace.result(outcome.status, outcome.reason, outcome.steps)
+
+
+def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | None) -> Outcome:
+    """Settle one instant after the other until the tree ends or the time is over."""
+    pulse = pulse_of(root)
+    world, settings = context.world, context.settings
+    last_step = context.steps(settings.max_time)
+    progress_steps = max(1, context.steps(1.0))
+    signals = signals_by_step(context)
+    step = 0
+    while True:
+        context.begin_step(step)
+        status = settle(pulse, context, signals.get(step, ()))
+        context.check_conflicts()
+        context.commit()
+        if status is SUCCESS:
+            return Outcome("success", "", step)
+        if status is FAILURE:
+            return Outcome("failure", failure_reason(root, context), step)
+        if step >= last_step:
+            return Outcome("timeout", timeout_reason(root, context), step)
+        context.trace.end_instant(context.time, states(context))
+        if on_progress is not None and step % progress_steps == 0:
+            on_progress(context.time, settings.max_time)
+        world.step()
+        step += 1
+        for one, other in world.collisions():
+            context.note_collision(step, one, other)
+
+
+def settle(
+    pulse: Callable[[], Status], context: ExecutionContext, signals: tuple[Event, ...]
+) -> Status:
+    """Pulse the tree until nothing more happens at this instant.
+
+    Signals are visible from the first pass on, so a wait that starts just now does not see them.
+    Those at the very start become visible one pass later: the first waits do see them.
+    """
+    if context.step > 0:
+        post_all(context, signals)
+    context.begin_pass()
+    if context.step == 0:
+        post_all(context, signals)
+    status = pulse()
+    while status is RUNNING and context.next_pass():
+        context.begin_pass()
+        status = pulse()
+    return status
+
+
+def post_all(context: ExecutionContext, signals: tuple[Event, ...]) -> None:
+    """Post events from outside; their parameters have their defaults."""
+    for event in signals:
+        context.post(event, event.complete({}))
+
+
+def signals_by_step(context: ExecutionContext) -> dict[int, tuple[Event, ...]]:
+    """Return the signals of the settings by the first step at or after their time."""
+    found: dict[int, tuple[Event, ...]] = {}
+    for name, seconds in context.settings.signal.items():
+        step = context.steps(seconds)
+        event = context.events[name]
+        problem = event.problem(())
+        if problem:
+            raise SettingsError(f"--signal {name}: {problem}")
+        found[step] = (*found.get(step, ()), event)
+    return found
+
+
+def states(context: ExecutionContext) -> Iterator[tuple[str, ActorState]]:
+    """Yield the states of the placed actors, in the order of the cast."""
+    state = context.world.state
+    return ((actor_id, state(actor_id)) for actor_id in context.cast())

@@ -1,0 +1,70 @@
+"""Numbers read from the world.
+
+A car that is 5 m behind another one and 20 km/h faster is 20 m ahead of it after 4.5 s; summing up
+the steps gives 19.999999999999986 m. So comparisons of what was measured allow for rounding:
+`>=` holds at 4.5 s in every run, `>` one step later.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+__all__ = ["ROUNDING", "Measured"]
+
+ROUNDING = 1e-9
+"""Numbers that differ by less, or by less of their size, count as equal."""
+
+
+class Measured(float):
+    """A measured value in SI units; what is calculated from it is one as well."""
+
+    __slots__ = ()
+
+    __hash__ = float.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are the same but for rounding."""
+        if not isinstance(other, float | int):
+            return NotImplemented
+        return math.isclose(self, other, rel_tol=ROUNDING, abs_tol=ROUNDING)
+
+    def __ne__(self, other: object) -> bool:
+        """Whether they differ by more than rounding."""
+        return not self == other
+
+    def __lt__(self, other: float) -> bool:
+        """Whether it is less, by more than rounding."""
+        return float.__lt__(self, other) and self != other
+
+    def __le__(self, other: float) -> bool:
+        """Whether it is less, or the same but for rounding."""
+        return float.__le__(self, other) or self == other
+
+    def __gt__(self, other: float) -> bool:
+        """Whether it is more, by more than rounding."""
+        return float.__gt__(self, other) and self != other
+
+    def __ge__(self, other: float) -> bool:
+        """Whether it is more, or the same but for rounding."""
+        return float.__ge__(self, other) or self == other
+
+
+def _keeping(name: str) -> Callable[..., Any]:
+    """Return an operation of numbers whose result counts as measured."""
+    operation = getattr(float, name)
+
+    def operate(self: Measured, *others: object) -> Any:
+        result = operation(self, *others)
+        return result if result is NotImplemented else Measured(result)
+
+    operate.__name__ = name
+    return operate
+
+
+for _name in ("add", "sub", "mul", "truediv", "mod"):
+    setattr(Measured, f"__{_name}__", _keeping(f"__{_name}__"))
+    setattr(Measured, f"__r{_name}__", _keeping(f"__r{_name}__"))
+for _name in ("neg", "abs"):
+    setattr(Measured, f"__{_name}__", _keeping(f"__{_name}__"))

@@ -1,0 +1,102 @@
+"""What changes at instants around the actors: traffic lights, weather, lights of vehicles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from .values import Json, number, short, text
+
+__all__ = ["SignalShape", "SignalSource", "Surroundings"]
+
+
+class SignalShape(Protocol):
+    """What is read of a signal (`osc2tx_runtime.opendrive.Signal`)."""
+
+    @property
+    def id(self) -> str:
+        """Id, unique in the map."""
+
+    @property
+    def road(self) -> str:
+        """Road id."""
+
+    @property
+    def s(self) -> float:
+        """Road coordinate (m)."""
+
+    @property
+    def t(self) -> float:
+        """Lateral coordinate (m, left positive)."""
+
+
+class PoseShape(Protocol):
+    """What is read of a pose."""
+
+    @property
+    def x(self) -> float:
+        """World x (m)."""
+
+    @property
+    def y(self) -> float:
+        """World y (m)."""
+
+
+class SignalSource(Protocol):
+    """The part of `osc2tx_runtime.opendrive.RoadMap` that knows where lights stand."""
+
+    def signals(self) -> Sequence[SignalShape]:
+        """All signals."""
+
+    def road_pose(self, road: str, s: float, t: float) -> PoseShape:
+        """Where a place beside a road is."""
+
+
+@dataclass
+class Surroundings:
+    """Changes by time, in the order of the trace.
+
+    Attributes:
+        signals: Id of a light to its changes: time, what it says, what its lamps do.
+        lights: Id of an actor to its changes: time, what shines.
+        weather: Time, and the values that are new then (SI units).
+    """
+
+    signals: dict[str, list[Json]] = field(default_factory=dict)
+    lights: dict[str, list[Json]] = field(default_factory=dict)
+    weather: list[Json] = field(default_factory=list)
+
+    def add(self, kind: str, time: float, line: Json) -> None:
+        """Take a line of the trace; those of other kinds are left out."""
+        t = short(time, 4)
+        if kind == "signal":
+            bulbs = line.get("bulbs")
+            lamps = [text(bulb) for bulb in bulbs] if isinstance(bulbs, list) else []
+            change: Json = {"t": t, "state": text(line.get("state")), "lamps": lamps}
+            self.signals.setdefault(text(line.get("signal")), []).append(change)
+        elif kind == "lights":
+            self.lights.setdefault(text(line.get("actor")), []).append(
+                {"t": t, "lit": text(line.get("lit"))}
+            )
+        elif kind == "environment":
+            values = {key: number(value) for key, value in line.items() if key not in ("t", "kind")}
+            self.weather.append({"t": t, "values": values})
+
+    def as_json(self, road_map: SignalSource | None) -> Json:
+        """What the page reads; without a map there are no places of traffic lights."""
+        return {
+            "signals": [] if road_map is None else self._placed(road_map),
+            "lights": self.lights,
+            "weather": self.weather,
+        }
+
+    def _placed(self, road_map: SignalSource) -> list[Json]:
+        placed: list[Json] = []
+        for signal in road_map.signals():
+            changes = self.signals.get(signal.id)
+            if changes:
+                pose = road_map.road_pose(signal.road, signal.s, signal.t)
+                x, y = short(pose.x, 2), short(pose.y, 2)
+                placed.append({"id": signal.id, "x": x, "y": y, "changes": changes})
+        return placed

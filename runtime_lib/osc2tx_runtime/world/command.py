@@ -1,0 +1,12 @@
+"""What all commands have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Command"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Command:
+    """Base of all commands. Two commands are the same only if they are one object."""

@@ -1,0 +1,63 @@
+"""Which vehicle tows which trailer, and how trailers come along."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from osc2tx_runtime.opendrive import RoadMap
+
+from .motion import Body
+from .state import ActorState
+from .towing import drawn
+
+__all__ = ["Couplings"]
+
+
+class Couplings:
+    """Trailers on their hitches; a trailer may tow another one."""
+
+    def __init__(self) -> None:
+        self._towed: dict[str, str] = {}  # towing vehicle to trailer
+
+    def attach(self, tow: str, trailer: str | None) -> str | None:
+        """Couple a trailer, or None; return the one that is uncoupled for that."""
+        before = self._towed.pop(tow, None)
+        if trailer is not None:
+            self._towed[tow] = trailer
+        return before
+
+    def trailer_of(self, tow: str) -> str | None:
+        """Id of the trailer that a vehicle tows."""
+        return self._towed.get(tow)
+
+    def is_towed(self, actor: str) -> bool:
+        """Whether an actor hangs on another one."""
+        return bool(self._towed) and actor in self._towed.values()
+
+    def pairs(self) -> tuple[tuple[str, str], ...]:
+        """Who is coupled to whom."""
+        return tuple(self._towed.items())
+
+    def draw(
+        self, bodies: Mapping[str, Body], states: list[ActorState], dt: float, road_map: RoadMap
+    ) -> None:
+        """Put trailers behind the new states of what tows them, the foremost first.
+
+        Args:
+            bodies: All actors, with their states at the begin of the step.
+            states: Those at its end, in the same order; those of trailers are replaced.
+            dt: Length of the step (s).
+            road_map: The map.
+        """
+        if not self._towed:
+            return
+        place = {actor: i for i, actor in enumerate(bodies)}
+        waiting = [tow for tow in self._towed if not self.is_towed(tow)]
+        for tow in waiting:
+            trailer = self._towed[tow]
+            body, new = bodies[trailer], states[place[tow]]
+            pose, speed = drawn(body.state, new, bodies[tow].state, dt)
+            a = (speed - body.state.v) / dt
+            states[place[trailer]] = body.free_state(pose, speed, a, road_map)
+            if trailer in self._towed:
+                waiting.append(trailer)

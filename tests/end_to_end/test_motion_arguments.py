@@ -1,0 +1,105 @@
+"""No argument of an action or modifier of motion is refused without need, or fails its run."""
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.runtime_api import runtime_support
+from osc2tx.diagnostics import Severity
+from osc2tx.driver import Compilation
+from osc2tx.options import CompileOptions
+from osc2tx_runtime import RunSettings, Scenario, run_scenario
+from tests.end_to_end.motion_arguments import CAST, PREAMBLE, REFUSED, ROWS
+
+Load = Callable[[GeneratedModule], type[Scenario]]
+MOTION = ("movable_object.", "vehicle.", "person.walk")
+WITHOUT_MOTION = {"connect_trailer", "disconnect_trailer", "set_lights"}
+BEYOND_THE_LIBRARY = {("keep_space_headway", "direction"), ("keep_time_headway", "direction")}
+OPTIONS = CompileOptions(standard="2.2")
+
+
+def scenario(name: str, statement: str) -> str:
+    """The scenario of a row."""
+    indent = " " * 12
+    parts = statement.split("; ")
+    lines: list[str] = []
+    for part in parts:
+        head, found, modifier = part.partition(" with: ")
+        inside = bool(lines) and " with:" in "".join(lines) and "." not in part.partition("(")[0]
+        lines.append(f"    {part}" if inside else head + (" with:" if found else ""))
+        if found:
+            lines.append(f"    {modifier}")
+    return CAST.format(name=name, statement=f"\n{indent}".join(lines))
+
+
+@cache
+def modules(folder: Path) -> Compilation:
+    """One file with the scenarios of all rows."""
+    path = folder / "motion.osc"
+    texts = (scenario(f"row_{i}", statement) for i, (_, _, statement) in enumerate(ROWS))
+    path.write_text(PREAMBLE + "".join(texts), encoding="utf-8")
+    return Compilation(path, path.name, OPTIONS)
+
+
+@pytest.fixture(scope="module")
+def classes(tmp_path_factory: pytest.TempPathFactory, load: Load) -> dict[str, type[Scenario]]:
+    compilation = modules(tmp_path_factory.mktemp("motion"))
+    assert compilation.ir is not None, [
+        d for d in compilation.diagnostics if d.severity is Severity.ERROR
+    ]
+    found = load(emit(compilation.ir))
+    module = __import__(found.__module__)
+    return {
+        value.name: value
+        for value in vars(module).values()
+        if isinstance(value, type) and issubclass(value, Scenario) and value is not Scenario
+    }
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", range(len(ROWS)), ids=lambda i: f"{ROWS[i][0]}-{i}")
+def test_it_is_carried_out(row: int, classes: dict[str, type[Scenario]]) -> None:
+    result = run_scenario(classes[f"row_{row}"], RunSettings(max_time=20.0, seed=row))
+    assert (result.status, result.reason) == ("success", ""), ROWS[row][2]
+
+
+@pytest.mark.parametrize("row", REFUSED, ids=lambda row: row[0])
+def test_it_is_refused(row: tuple[str, str, str, str], tmp_path: Path) -> None:
+    path = tmp_path / "case.osc"
+    path.write_text(PREAMBLE + scenario("row", row[2]), encoding="utf-8")
+    compilation = Compilation(path, path.name, OPTIONS)
+    assert compilation.module is None
+    codes = [d.code for d in compilation.diagnostics if d.severity is Severity.ERROR]
+    assert codes == [row[3]]
+
+
+def test_every_argument_has_a_row() -> None:
+    """All that the runtime lists for motion is tried."""
+    runtime = runtime_support()
+    wanted = {
+        (name.partition(".")[2], argument)
+        for name, entry in runtime.actions.items()
+        if name.startswith(MOTION)
+        for argument in entry.arguments
+    }
+    wanted |= {
+        (name, argument.rstrip("_"))
+        for name in {name for name, *_ in ROWS} & set(runtime.modifiers)
+        for argument in runtime.modifiers[name]
+        if (name, argument) not in DIALECT
+    }
+    tried = {
+        (name, each) for name, arguments, *_ in (*ROWS, *REFUSED) for each in arguments.split()
+    }
+    assert {pair for pair in wanted - tried if pair[0] not in WITHOUT_MOTION} == BEYOND_THE_LIBRARY
+
+
+DIALECT = {
+    *(("position", each) for each in ("x", "y", "z", "h", "frame")),
+    *(("speed", each) for each in ("rate_profile", "rate_peak")),
+}
+"""Parameters of the dialect `carla`."""

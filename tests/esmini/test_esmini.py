@@ -1,0 +1,166 @@
+"""The XML, played in esmini, does what the embedded world does.
+
+`OSC2TX_ESMINI` names a shared library of esmini (`libesminiLib.so`); without it nothing is tested
+here. How to get one: docs/how-to/legacy-xml.md.
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tomllib
+from dataclasses import dataclass, field, replace
+from functools import cache
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.xosc import emit
+from osc2tx.options import CompileOptions, XmlOptions
+from osc2tx_runtime import RunSettings
+from osc2tx_runtime.map_search import SHIPPED
+from tests.unit.backends.xosc.played import (
+    PLAIN,
+    Played,
+    compare,
+    compiled,
+    spread,
+    with_values_of,
+    world,
+)
+
+LIBRARY = os.environ.get("OSC2TX_ESMINI", "")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not LIBRARY, reason="OSC2TX_ESMINI does not name a library of esmini"),
+]
+
+HERE = Path(__file__).parent
+SCENARIOS = HERE.parents[1] / "scenarios"
+BOUNDS = tomllib.loads((HERE / "bounds.toml").read_text(encoding="utf-8"))
+NEAR = 0.2  # m, at steps of 0.01 s
+FINE, COARSE = 0.01, 0.05
+ALL_IT_CAN = XmlOptions(profile="esmini", allow_approx=True)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A scenario, and what it needs from outside."""
+
+    path: Path
+    settings: RunSettings = field(default_factory=lambda: RunSettings(dt=FINE), compare=False)
+    options: CompileOptions = PLAIN
+    xml: XmlOptions = ALL_IT_CAN
+    maps: Path = SHIPPED
+
+
+@cache
+def documents(given: Given) -> dict[str, str]:
+    """Return the documents of a source by scenario."""
+    module = compiled(given.path, given.options).ir
+    assert module is not None
+    found = emit(module, given.xml, given.path.parent)
+    return {each.name: each.xml for each in found if each.xml is not None}
+
+
+def play(given: Given, document: str, dt: float, folder: Path) -> Played:
+    """Play a document in esmini."""
+    file, result = folder / f"{dt}.xosc", folder / f"{dt}.json"
+    file.write_text(document, encoding="utf-8")
+    told = [LIBRARY, str(file), str(given.maps), str(dt), "300", str(result)]
+    script = [sys.executable, str(HERE / "headless.py"), *told]
+    subprocess.run(script, check=True, capture_output=True, timeout=240)
+    data = json.loads(result.read_text(encoding="utf-8"))
+    assert "error" not in data, data["error"]
+    starts: dict[str, float] = {}
+    for time, name in data["starts"]:
+        starts.setdefault(name, time)
+    end = math.inf if data["end"] is None else data["end"]
+    return Played(end, starts, data["rows"])
+
+
+def both(given: Given, name: str, dt: float, folder: Path) -> tuple[str, Played, Played]:
+    """Return the document, what the world does, and what esmini does."""
+    document = documents(given)[name]
+    settings = with_values_of(document, replace(given.settings, dt=dt))
+    expected = world(given.path, name, settings, given.options)
+    return document, expected, play(given, document, dt, folder)
+
+
+OWN = ["cut_in", "cut_in_and_evade", "follow_leader", "pedestrian_crossing"]
+CAPABILITIES = [
+    path
+    for path in sorted((SCENARIOS / "capabilities").glob("*.osc"))
+    if path.stem != "C34_conflict_reported"  # which the world refuses to run
+]
+
+
+def case_study(maps: Path) -> Given:
+    """The scenario of the case study, with what its users supply at run time."""
+    return Given(
+        SCENARIOS / "hello_world.osc",
+        RunSettings(
+            dt=FINE,
+            signal={"go_signal": 1.0},
+            spawn={"hero": ("16", -3, 5.0)},
+            destination={"hero": "obstacle", "npc": "obstacle"},
+            map_path=(maps,),
+        ),
+        CompileOptions(dialect="carla"),
+        XmlOptions(signals=("go_signal@1s",), spawns=("hero=16,-3,5",), map_path=(str(maps),)),
+        maps,
+    )
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_own_scenarios(name: str, tmp_path: Path) -> None:
+    given = Given(SCENARIOS / f"{name}.osc", xml=XmlOptions())
+    fine = compare(*both(given, name, FINE, tmp_path), FINE)
+    coarse = compare(*both(given, name, COARSE, tmp_path), COARSE)
+    assert fine.farthest < NEAR
+    # esmini moves for a whole step at the speed of its end, so it nears the world as steps shrink.
+    assert coarse.farthest < max(NEAR, 2.0 * COARSE / FINE * fine.farthest)
+
+
+def test_case_study(test_data: Path, tmp_path: Path) -> None:
+    given = case_study(test_data / "maps" / "carla-2020")
+    # Half a kilometre and three minutes, with courses that stop at others' places
+    assert compare(*both(given, "hello_world", FINE, tmp_path), FINE).farthest < 0.25
+
+
+def _stem(path: Path) -> str:
+    return path.stem
+
+
+@pytest.mark.parametrize("path", CAPABILITIES, ids=_stem)
+def test_capabilities(path: Path, tmp_path: Path) -> None:
+    given, bound = Given(path), BOUNDS.get(path.stem, {})
+    what, near = bound.get("compare", "places"), bound.get("metres", NEAR)
+    patience = bound.get("seconds", 0.0)
+    if not documents(given):
+        pytest.skip("it has no XML")
+    for name in documents(given):
+        document, expected, found = both(given, name, FINE, tmp_path)
+        if what == "places":
+            difference = compare(document, expected, found, FINE, patience)
+            for actor, (metres, t) in difference.apart.items():
+                shifted = difference.late * spread(expected, actor)
+                assert metres < near + shifted, f"{actor} at {t} s"
+        elif what == "held":
+            assert distances(found) == pytest.approx(distances(expected), abs=near)
+
+
+def distances(played: Played) -> dict[tuple[str, str], float]:
+    """Return the distances (m) between the actors at the end."""
+    last = {actor: rows[-1] for actor, rows in played.track.items()}
+    return {
+        (one, other): math.dist(last[one][1:3], last[other][1:3])
+        for one, other in combinations(sorted(last), 2)
+    }
+
+
+def test_bounds_are_of_scenarios() -> None:
+    assert set(BOUNDS) <= set(map(_stem, CAPABILITIES))
+    assert all(bound["reason"] for bound in BOUNDS.values())

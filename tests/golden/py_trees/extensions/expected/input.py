@@ -1,0 +1,109 @@
+"""Scenarios `vehicle.commute`, `extensions`.
+
+Names of several namespaces, and what is added to types after they are declared.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+    within,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import mps, s
+
+require_api(1)
+
+# Units that the scenario declares
+kWh_100km = 36.0
+newton = 1.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Habits:
+    """Struct `habits` (input.osc:13)."""
+
+    pace: float = 10 * mps
+    spends: float = 15 * kWh_100km
+    reserve: float = 0.5
+
+
+class Commute(Scenario):
+    """Scenario `vehicle.commute` (input.osc:17)."""
+
+    name = "vehicle.commute"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.actor = Vehicle()
+        self.habit = self.argument("habit", Habits())
+        self.mood = self.parameter("mood", "calm")
+
+        # A default that a user may not want
+        self.top = self.parameter("top", 20 * mps)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.actor, speed(self.habit.pace), throughout=True)
+
+    def behavior(self) -> Behaviour:  # input.osc:22
+        return self.actor.drive(speed(self.habit.pace), duration=1 * s)
+
+
+class Extensions(Scenario):
+    """Scenario `extensions` (input.osc:36)."""
+
+    name = "extensions"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.state = self.parameter("state", "reckless")
+        self.economical_spends = self.parameter(
+            "economical.spends", within(100 * newton, 550 * newton)
+        )
+        self.economical = Habits(pace=8 * mps, spends=self.economical_spends)
+        self.fast_pace = self.parameter("fast.pace", within(14 * mps, 15 * mps))
+        self.fast = Habits(pace=self.fast_pace)
+        self.commute_top = self.parameter("commute.top", within(8.0, 15.0))
+
+        self.keep(self.fast.pace > 14 * mps)
+        self.keep(self.fast.pace < 15 * mps)
+        self.keep(self.commute_top > self.economical.pace)
+        self.keep(self.commute_top < self.fast.pace)
+
+    def habits_is_thrifty(self, habits: Habits) -> bool:  # input.osc:34
+        return habits.spends < 600 * newton and habits.reserve > 0.1
+
+    def behavior(self) -> Behaviour:  # input.osc:50
+        return Serial(
+            "extensions",
+            self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.commute_top),
+            self.invoke(Commute, actor=self.ego, habit=self.fast),
+            Wait(
+                lambda: self.habits_is_thrifty(self.economical)
+                and {"calm": 0, "brisk": 1, "hurried": 7, "reckless": 8}[self.state] == 8
+            ),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Extensions().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Commute, Extensions))

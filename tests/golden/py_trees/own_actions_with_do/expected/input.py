@@ -1,0 +1,143 @@
+"""Scenario `top`.
+
+Actions that say what they do, and modifiers that say what they modify.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from osc2tx_runtime import (
+    Behaviour,
+    Emit,
+    Event,
+    Map,
+    On,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import mps, s
+
+require_api(1)
+
+
+class Top(Scenario):
+    """Scenario `top` (input.osc:37)."""
+
+    name = "top"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Vehicle()
+        self.other = Vehicle()
+        self.seen = Event()
+
+    def behavior(self) -> Behaviour:  # input.osc:45
+        return Parallel(
+            "top",
+            self.do_serial(),
+            On(
+                self.event("quick.done"),
+                Emit(self.seen),
+            ),
+        )
+
+    def do_serial(self) -> Behaviour:  # input.osc:45
+        return Serial(
+            "do serial",
+            self.invoke(HurryMore, actor=self.ego, label="quick"),
+            self.invoke(Hurry, actor=self.ego, to=20 * mps * 0.25),
+            self.invoke(Platoon, first=self.ego, second=self.other, pace=8 * mps),
+            self.ego.drive(speed(9 * mps), duration=2 * s),
+            Wait(lambda: self.invoked("quick").to == 18 * mps),
+        )
+
+
+class HurryMore(Scenario):
+    """Action `vehicle.hurry_more` (input.osc:15)."""
+
+    name = "vehicle.hurry_more"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.actor = Vehicle()
+        self.to = 18 * mps
+        self.done = Event()
+
+    def behavior(self) -> Behaviour:  # input.osc:10
+        return Serial(
+            "hurry_more",
+            self.actor.change_speed(target=self.to),
+            Emit(self.done),
+            self.actor.drive(duration=1 * s),
+        )
+
+
+class Hurry(Scenario):
+    """Action `vehicle.hurry` (input.osc:7).
+
+    There and back to the speed it had
+    """
+
+    name = "vehicle.hurry"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.actor = Vehicle()
+        self.to = self.parameter("to", 15 * mps)
+        self.done = Event()
+
+    def behavior(self) -> Behaviour:  # input.osc:10
+        return Serial(
+            "hurry",
+            self.actor.change_speed(target=self.to),
+            Emit(self.done),
+            self.actor.drive(duration=1 * s),
+        )
+
+
+class Platoon(Scenario):
+    """Action `platoon` (input.osc:19).
+
+    Nobody in particular
+    """
+
+    name = "platoon"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.first = Vehicle()
+        self.second = Vehicle()
+        self.pace = self.required("pace", float)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.first, speed(self.pace), throughout=True)
+        self.place(self.second, speed(self.pace), throughout=True)
+
+    def behavior(self) -> Behaviour:  # input.osc:22
+        return Parallel(
+            "platoon",
+            self.first.drive(speed(self.pace)),
+            self.second.drive(speed(self.pace)),
+            duration=1 * s,
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Top().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Top))

@@ -1,0 +1,176 @@
+"""Scenarios `vehicle.step`, `walk_around`, `own_events`.
+
+Events of objects, of the scenario itself and deep inside of others.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from typing import Any
+
+from osc2tx_runtime import (
+    Behaviour,
+    Emit,
+    Event,
+    Map,
+    On,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    elapsed,
+    main,
+    require_api,
+    rise,
+    within,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import mps, mpsps, ms, s
+
+require_api(1)
+
+
+class Probe(Vehicle):
+    """Actor `probe` (input.osc:6)."""
+
+    kinds = ("probe", *Vehicle.kinds)
+
+    def __init__(self, *, limit: float = 12 * mps, **fields: Any) -> None:
+        super().__init__(**fields)
+        self.limit = limit
+
+
+class Step(Scenario):
+    """Scenario `vehicle.step` (input.osc:11)."""
+
+    name = "vehicle.step"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.actor = Vehicle()
+        self.pace = self.parameter("pace", within(5 * mps, 6 * mps))
+        self.moving = Event(parameters={"at": None})
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.actor, speed(self.pace), throughout=True)
+
+    def behavior(self) -> Behaviour:  # input.osc:15
+        return Serial(
+            "step",
+            self.actor.drive(speed(self.pace), duration=1 * s, label="roll"),
+            Emit(self.moving, at=lambda: self.actor.speed),
+            self.actor.drive(duration=1 * s),
+        )
+
+
+class WalkAround(Scenario):
+    """Scenario `walk_around` (input.osc:21)."""
+
+    name = "walk_around"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.car = Vehicle()
+
+    def behavior(self) -> Behaviour:  # input.osc:23
+        return Serial(
+            "walk_around",
+            self.invoke(Step, actor=self.car, label="inner"),
+        )
+
+
+class OwnEvents(Scenario):
+    """Scenario `own_events` (input.osc:26)."""
+
+    name = "own_events"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = Probe()
+        self.other = Vehicle()
+        self.begun = Event()
+        self.over = Event()
+        self.reached = Event()
+        self.told = Event()
+        self.heard = Event()
+
+        # Too fast for its own good
+        self.ego_fast = Event(rise(lambda: self.ego.speed > self.ego.limit))
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, speed(10 * mps))
+
+    def behavior(self) -> Behaviour:  # input.osc:44
+        return Parallel(
+            "own_events",
+            self.do_serial(),
+            On(
+                self.event("round.inner.moving"),
+                Emit(self.told),
+                condition=lambda: self.event("round.inner.moving")["at"] > 1 * mps,
+            ),
+        )
+
+    def do_serial(self) -> Behaviour:  # input.osc:44
+        return Serial(
+            "do serial",
+            # Right at the start
+            Emit(self.begun),
+            self.do_parallel(),
+            Emit(self.over),
+        )
+
+    def do_parallel(self) -> Behaviour:  # input.osc:44
+        return Parallel(
+            "do parallel",
+            self.invoke(WalkAround, car=self.other, label="round"),
+            self.ego_serial(),
+            self.serial(),
+            self.serial_2(),
+            self.serial_3(),
+        )
+
+    def ego_serial(self) -> Behaviour:  # input.osc:46
+        return Serial(
+            "ego: serial",
+            self.ego.drive(speed(15 * mps, at="end"), duration=3 * s),
+        )
+
+    def serial(self) -> Behaviour:  # input.osc:50
+        return Serial(
+            "serial",
+            Wait(self.ego_fast),
+            Emit(self.reached),
+        )
+
+    def serial_2(self) -> Behaviour:  # input.osc:53
+        return Serial(
+            "serial",
+            Wait(self.event("round.inner.roll.end")),
+            Wait(elapsed(lambda: self.other.speed / (10 * mpsps))),
+            Wait(lambda: self.other.speed < 7 * mps),
+            Emit(self.heard),
+        )
+
+    def serial_3(self) -> Behaviour:  # input.osc:58
+        return Serial(
+            "serial",
+            Wait(self.reached, elapsed(500 * ms)),
+            Wait(lambda: self.other.speed > 4 * mps),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return OwnEvents().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Step, WalkAround, OwnEvents))

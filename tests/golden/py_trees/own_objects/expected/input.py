@@ -1,0 +1,166 @@
+"""Scenarios `top`, `ride`.
+
+Objects in objects: structs, actors and lists as fields, defaults that read others.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from osc2tx_runtime import (
+    Actor,
+    Behaviour,
+    Map,
+    Person,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    any_of,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import mps, s
+
+require_api(1)
+
+
+class Company(Actor):
+    """Actor `company` (input.osc:24)."""
+
+    kinds = ("company", *Actor.kinds)
+
+    def __init__(self, *, name_: str = "Example", cars: list[Vehicle], **fields: Any) -> None:
+        super().__init__(**fields)
+        self.name_ = name_
+        self.cars = cars
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Leg:
+    """Struct `leg` (input.osc:8)."""
+
+    pace: float = 10 * mps
+    # twice as fast at most
+    most: float
+    time_of: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Journey:
+    """Struct `journey` (input.osc:15)."""
+
+    first: Leg
+    second: Leg
+    stops: list[str]
+    allowed: float
+    is_late: bool = False
+
+
+class Cab(Vehicle):
+    """Actor `cab` (input.osc:28)."""
+
+    kinds = ("cab", *Vehicle.kinds)
+
+    def __init__(self, *, trip: Journey, owner: Company, guest: Person, **fields: Any) -> None:
+        super().__init__(**fields)
+        self.trip = trip
+        self.owner = owner
+        self.guest = guest
+
+
+class Limousine(Cab):
+    """Actor `limousine` (input.osc:34)."""
+
+    kinds = ("limousine", *Cab.kinds)
+
+
+class Top(Scenario):
+    """Scenario `top` (input.osc:37)."""
+
+    name = "top"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.limit = self.global_parameter("limit", 14 * mps)
+        self.road = Map(map_file="highway.xodr")
+        self.other = Vehicle()
+        self.rentals = Company(cars=[self.other])
+        self.rider = Person()
+        self.ego = Limousine(
+            trip=Journey(
+                first=Leg(most=2 * (8 * mps), pace=8 * mps, time_of=1 * s),
+                second=Leg(most=2 * (12 * mps), pace=12 * mps, time_of=1.5 * s),
+                stops=["home", "work"],
+                allowed=self.limit,
+            ),
+            owner=self.rentals,
+            guest=self.rider,
+        )
+        self.names_1 = self.parameter("names.1", any_of("second", "third"))
+        self.names = ["first", self.names_1]
+
+        self.keep(self.names[0] == "first")
+        self.keep(self.names[1] in ["second", "third"])
+
+    def behavior(self) -> Behaviour:  # input.osc:54
+        return Serial(
+            "top",
+            self.invoke(Ride, it_is=self.ego),
+            self.ego.owner.cars[0].drive(speed(self.ego.trip.allowed), duration=1 * s),
+            Wait(
+                lambda: not self.ego.trip.is_late
+                and len(self.names) == 2
+                and self.ego.owner.name_ == "Example"
+            ),
+        )
+
+
+class Ride(Scenario):
+    """Scenario `ride` (input.osc:60)."""
+
+    name = "ride"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.it_is = self.required_argument("it_is", Cab)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.it_is, speed(self.it_is.trip.first.most), throughout=True)
+
+    def journey_longest(self, journey: Journey) -> float:  # input.osc:22
+        return journey.first.time_of + journey.second.time_of
+
+    def cab_fare(self, cab: Cab, km: float) -> float:  # input.osc:32
+        return self.limousine_fare(cab, km) if isinstance(cab, Limousine) else 2.5 * km
+
+    def limousine_fare(self, limousine: Limousine, km: float) -> float:  # input.osc:35
+        return 20.0 + 5.0 * km
+
+    def behavior(self) -> Behaviour:  # input.osc:62
+        return Serial(
+            "ride",
+            self.it_is.drive(
+                speed(self.it_is.trip.first.most), duration=self.it_is.trip.first.time_of
+            ),
+            self.it_is.drive(
+                speed(self.it_is.trip.second.pace),
+                duration=self.journey_longest(self.it_is.trip) - self.it_is.trip.first.time_of,
+            ),
+            Wait(lambda: self.cab_fare(self.it_is, 2.0) == 30.0),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Top().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Top, Ride))

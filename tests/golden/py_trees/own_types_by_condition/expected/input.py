@@ -1,0 +1,110 @@
+"""Scenarios `top`, `haul`.
+
+What an object is because of what a field of it is.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from typing import Any
+
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    any_of,
+    as_type,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import mps, s
+
+require_api(1)
+
+
+class Lorry(Vehicle):
+    """Actor `lorry` (input.osc:8)."""
+
+    kinds = ("lorry", *Vehicle.kinds)
+
+    def __init__(self, *, load: str, crew: int = 1, **fields: Any) -> None:
+        super().__init__(**fields)
+        self.load = load
+        self.crew = crew
+
+
+class LoadedLorry(Lorry):
+    """Actor `loaded_lorry` (input.osc:14).
+
+    Slower, and somebody helps to unload
+    """
+
+    kinds = ("loaded_lorry", *Lorry.kinds)
+
+    def __init__(self, *, weight: float = 7.5, **fields: Any) -> None:
+        super().__init__(**fields)
+        self.weight = weight
+
+
+class Top(Scenario):
+    """Scenario `top` (input.osc:19)."""
+
+    name = "top"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.road = Map(map_file="highway.xodr")
+        self.ego = LoadedLorry(crew=2, load="full")
+        self.other = Lorry(load="empty")
+
+    def behavior(self) -> Behaviour:  # input.osc:27
+        return Serial(
+            "top",
+            self.invoke(Haul, who=self.ego, hands=2),
+            self.invoke(Haul, who=self.other, hands=1),
+            Wait(lambda: as_type(self.ego, LoadedLorry).weight > 7.0 and self.other.load != "full"),
+        )
+
+
+class Haul(Scenario):
+    """Scenario `haul` (input.osc:32)."""
+
+    name = "haul"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.who_load = self.parameter("who.load", any_of("empty", "full"))
+        self.who = Lorry(load=self.who_load)
+        self.hands = self.required("hands", int)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.who, speed(self.lorry_pace(self.who)), throughout=True)
+
+    def lorry_pace(self, lorry: Lorry) -> float:  # input.osc:11
+        return self.loaded_lorry_pace(lorry) if isinstance(lorry, LoadedLorry) else 20 * mps
+
+    def loaded_lorry_pace(self, loaded_lorry: LoadedLorry) -> float:  # input.osc:17
+        return 12 * mps
+
+    def behavior(self) -> Behaviour:  # input.osc:35
+        return Serial(
+            "haul",
+            self.who.drive(speed(self.lorry_pace(self.who)), duration=1 * s),
+            Wait(lambda: self.who.crew == self.hands),
+        )
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Top().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Top, Haul))

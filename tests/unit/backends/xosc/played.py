@@ -1,0 +1,196 @@
+"""What a player made of a document, against what the embedded world made of the scenario.
+
+Events may come as much later as the chain of events before them is long, a step for each: a tool
+may see a completion one step late. Places may differ by what that makes at the speeds in question.
+"""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from osc2tx.driver import Compilation
+from osc2tx.loading import scenarios_of_module
+from osc2tx.options import CompileOptions
+from osc2tx_runtime import RunSettings, run_scenario
+
+PLAIN = CompileOptions()
+Row = tuple[float, float, float, float]  # t, x, y, v
+
+
+@dataclass(frozen=True)
+class Played:
+    """What happened.
+
+    Attributes:
+        end: When it was over (s).
+        starts: Times at which actions began: in the world by source line, in a tool by event.
+        track: Motion by actor.
+    """
+
+    end: float
+    starts: Mapping[str, float]
+    track: Mapping[str, Sequence[Row]]
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far a tool is off.
+
+    Attributes:
+        late: Longest delay of an event (s), against what is allowed for it.
+        apart: Longest distance (m) by actor, with its time.
+    """
+
+    late: float
+    apart: Mapping[str, tuple[float, float]]
+
+    @property
+    def farthest(self) -> float:
+        """Metres between an actor here and there, at most."""
+        return max((metres for metres, _ in self.apart.values()), default=0.0)
+
+
+@cache
+def compiled(path: Path, options: CompileOptions = PLAIN) -> Compilation:
+    return Compilation(path, path.name, options)
+
+
+def world(path: Path, name: str, settings: RunSettings, options: CompileOptions) -> Played:
+    """Return what the embedded world does."""
+    module = compiled(path, options).module
+    assert module is not None
+    with scenarios_of_module(module) as scenarios:
+        result = run_scenario(scenarios[name], settings)
+    assert result.status == "success", result.reason
+    starts: dict[str, float] = {}
+    track: dict[str, list[Row]] = {}
+    for line in map(json.loads, result.trace_lines):
+        if line["kind"] == "state":
+            row = (line["t"], line["x"], line["y"], line["v"])
+            track.setdefault(line["actor"], []).append(row)
+        elif line["kind"] == "action" and line["status"] == "start":
+            starts.setdefault(line["source"], line["t"])
+    return Played(result.time, starts, track)
+
+
+def with_values_of(document: str, settings: RunSettings) -> RunSettings:
+    """Return the settings of the run that a document stands for: with its parameters."""
+    declared = etree.fromstring(document.encode()).iterfind("ParameterDeclarations/*")
+    values = {node.get("name"): float(node.get("value")) for node in declared if _is_number(node)}
+    return replace(settings, set={**values, **settings.set})
+
+
+def _is_number(node: etree._Element) -> bool:
+    return node.get("parameterType") in ("double", "int", "integer")
+
+
+def events_by_source(root: etree._Element) -> dict[str, list[str]]:
+    """Return the events that stand for invocations, by the line that their comment names."""
+    found: dict[str, list[str]] = {}
+    for event in root.iter("Event"):
+        comment, name = event.getprevious(), event.get("name")
+        acts = next(event.iter("PrivateAction"), None) is not None
+        is_told = comment is not None and comment.tag is etree.Comment
+        if acts and is_told and not name.startswith("hold_"):
+            source = ":".join(str(comment.text).strip().split(":")[:2])
+            found.setdefault(source, []).append(name)
+    return found
+
+
+Moment = tuple[str, bool]  # an event, act or variable, and whether it is its end
+
+
+def hops(root: etree._Element) -> dict[str, int]:
+    """Return how many things have to happen, one after the other, for each event to start."""
+    before: dict[Moment, set[Moment]] = {}
+    for event in root.iter("Event"):
+        name, act = event.get("name"), next(event.iterancestors("Act")).get("name")
+        before[name, False] = {(act, False), *_asked_for(event.find("StartTrigger"))}
+        before[name, True] = {(name, False)}
+        before.setdefault((act, True), set()).add((name, False))
+        for action in (*event.iter("VariableAction"), *event.iter("ParameterAction")):
+            variable = action.get("variableRef") or action.get("parameterRef")
+            before.setdefault((variable, True), set()).add((name, False))
+    for act in root.iter("Act"):
+        before[act.get("name"), False] = _asked_for(act.find("StartTrigger"))
+        before.setdefault((act.get("name"), True), set()).update(
+            _asked_for(act.find("StopTrigger"))
+        )
+    most = sum(1 for _ in root.iter("Event", "Act"))
+    depth = dict.fromkeys(before, 0)
+    for _ in range(most):  # who waits for itself gets the most
+        for moment, others in before.items():
+            longest = max((depth.get(other, 0) for other in others), default=0)
+            depth[moment] = min(longest + (not moment[1]), most)
+    return {name: count for (name, is_end), count in depth.items() if not is_end}
+
+
+def _asked_for(trigger: etree._Element | None) -> set[Moment]:
+    found: set[Moment] = set()
+    for node in () if trigger is None else trigger.iter():
+        if node.tag == "StoryboardElementStateCondition":
+            found.add((node.get("storyboardElementRef"), node.get("state") != "runningState"))
+        elif node.tag in ("VariableCondition", "ParameterCondition"):
+            found.add((node.get("variableRef") or node.get("parameterRef"), True))
+    return found
+
+
+def compare(
+    document: str, expected: Played, found: Played, dt: float, patience: float = 0.0
+) -> Difference:
+    """Compare what a tool has done with what the embedded world does.
+
+    Args:
+        document: The XML.
+        expected: What the embedded world does.
+        found: What the tool has done.
+        dt: Length of a step (s), of both.
+        patience: Seconds that events may be off, besides those for the ones before.
+
+    Raises:
+        AssertionError: Something has not happened, came too late, or in another order.
+    """
+    root = etree.fromstring(document.encode())
+    depth = hops(root)
+    longest = patience + (1 + max(depth.values())) * dt
+    assert found.end == pytest.approx(expected.end, abs=longest + 1e-6)
+    times = []
+    for source, names in events_by_source(root).items():
+        if source in expected.starts:
+            begun = [(found.starts[name], name) for name in names if name in found.starts]
+            assert begun, f"nothing of {source} ever started"
+            at, name = min(begun)
+            late = patience + depth[name] * dt + 1e-6
+            assert at == pytest.approx(expected.starts[source], abs=late), source
+            times.append((expected.starts[source], at, late, source))
+    for (should, at, late, one), (should_then, then, later, other) in combinations(times, 2):
+        if should + late + later < should_then:  # what is clearly apart keeps its order
+            assert at < then, (one, other)
+    apart = {a: _apart(rows, found.track[a], longest) for a, rows in expected.track.items()}
+    return Difference(max((abs(at - should) for should, at, *_ in times), default=0.0), apart)
+
+
+def _apart(expected: Sequence[Row], found: Sequence[Row], late: float) -> tuple[float, float]:
+    """Return the longest distance (m), and its time; jumps may come late."""
+    worst, jumped = (0.0, 0.0), -late
+    for before, row, there in zip(expected, expected[1:], found[1:], strict=False):
+        t, x, y, v = row
+        assert there[0] == pytest.approx(t, abs=1e-6)
+        if math.dist(before[1:3], (x, y)) > 2.0 * max(v, before[3], 1.0) * (t - before[0]):
+            jumped = t
+        if t > jumped + late:
+            worst = max(worst, (math.dist((x, y), there[1:3]), t))
+    return worst
+
+
+def spread(played: Played, actor: str) -> float:
+    """Return between which speeds (m/s) an actor changes."""
+    speeds = [v for *_, v in played.track[actor]]
+    return max(speeds) - min(speeds)
