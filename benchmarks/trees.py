@@ -22,8 +22,8 @@ from osc2tx_runtime.behaviour import (
     elapsed,
 )
 from osc2tx_runtime.context import ExecutionContext
-from osc2tx_runtime.loop import settle
-from osc2tx_runtime.runner import setup_tree
+from osc2tx_runtime.running.loop import settle
+from osc2tx_runtime.running.runner import setup_tree
 
 LEAVES = (10, 100, 1000)
 DEPTHS = (10, 50, 200)

@@ -19,9 +19,9 @@ from osc2tx.loading import scenarios_of_file, scenarios_of_module
 from osc2tx.reporting import Exit, Reporter, complain, report_options
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import SettingsError
-from osc2tx_runtime.main import choose_scenario as choose
-from osc2tx_runtime.main import verdict
-from osc2tx_runtime.settings import OPTIONS
+from osc2tx_runtime.running.main import choose_scenario as choose
+from osc2tx_runtime.running.main import verdict
+from osc2tx_runtime.running.settings import OPTIONS
 
 if TYPE_CHECKING:
     from osc2tx.driver import Compilation

@@ -1,4 +1,4 @@
-"""Writes `osc2tx/backends/xosc/schema.json`: what each version of OpenSCENARIO XML has.
+"""Writes `osc2tx/backends/xosc/xml/schema.json`: what each version of OpenSCENARIO XML has.
 
 Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`). One type a line:
 
@@ -18,7 +18,7 @@ from typing import Any
 
 from lxml import etree
 
-TARGET = Path(__file__).parents[1] / "osc2tx" / "backends" / "xosc" / "schema.json"
+TARGET = Path(__file__).parents[1] / "osc2tx" / "backends" / "xosc" / "xml" / "schema.json"
 SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
 VERSIONS = tuple(SCHEMAS)
 XSD = "{http://www.w3.org/2001/XMLSchema}"

@@ -50,16 +50,25 @@ from osc2tx_runtime.behaviour import (
 )
 from osc2tx_runtime.behaviour.coverage import Unit
 from osc2tx_runtime.casts import as_type
-from osc2tx_runtime.crossings import Crossing, CrossingType
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.main import main
-from osc2tx_runtime.motions import (
+from osc2tx_runtime.measuring.motions import (
     Acceleration,
     OrientationAcceleration,
     OrientationRate,
     TranslationalAcceleration,
     TranslationalVelocity,
     Velocity,
+)
+from osc2tx_runtime.measuring.weather import (
+    Air,
+    CelestialLightSource,
+    CelestialPosition,
+    Clouds,
+    Fog,
+    GeodeticPosition,
+    Precipitation,
+    Weather,
+    Wind,
 )
 from osc2tx_runtime.parts import (
     Axle,
@@ -69,18 +78,9 @@ from osc2tx_runtime.parts import (
     HitchCoupler,
     HitchReceiver,
 )
-from osc2tx_runtime.path_values import (
-    Path,
-    RelativePathOdr,
-    RelativePathPose3d,
-    RelativePathSt,
-    RelativeTrajectoryOdr,
-    RelativeTrajectoryPose3d,
-    RelativeTrajectorySt,
-    Trajectory,
-)
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action, methods
-from osc2tx_runtime.road_parts import (
+from osc2tx_runtime.roads.crossings import Crossing, CrossingType
+from osc2tx_runtime.roads.road_parts import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -90,9 +90,10 @@ from osc2tx_runtime.road_parts import (
     RoadPath,
     Route,
 )
-from osc2tx_runtime.runner import RunResult, run_scenario
+from osc2tx_runtime.running.main import main
+from osc2tx_runtime.running.runner import RunResult, run_scenario
+from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.scenario import Range, Scenario, any_of, at_least, at_most, within
-from osc2tx_runtime.settings import RunSettings
 from osc2tx_runtime.shapes import (
     AnyAccelerationShape,
     AnyLateralShape,
@@ -105,24 +106,23 @@ from osc2tx_runtime.shapes import (
     CommonSpeedShape,
     OwnShape,
 )
-from osc2tx_runtime.stop_line_parts import TrafficLightStopLine
-from osc2tx_runtime.traffic_cycles import TrafficLightCycle, TrafficLightPhase
-from osc2tx_runtime.traffic_lights import (
+from osc2tx_runtime.signals.stop_line_parts import TrafficLightStopLine
+from osc2tx_runtime.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.signals.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
     TrafficLightGroup,
 )
 from osc2tx_runtime.values import GeodeticPoint, RoutePoint, XyzPoint
-from osc2tx_runtime.weather import (
-    Air,
-    CelestialLightSource,
-    CelestialPosition,
-    Clouds,
-    Fog,
-    GeodeticPosition,
-    Precipitation,
-    Weather,
-    Wind,
+from osc2tx_runtime.ways.path_values import (
+    Path,
+    RelativePathOdr,
+    RelativePathPose3d,
+    RelativePathSt,
+    RelativeTrajectoryOdr,
+    RelativeTrajectoryPose3d,
+    RelativeTrajectorySt,
+    Trajectory,
 )
 
 API_LEVEL = 1

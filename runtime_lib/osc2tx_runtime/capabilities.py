@@ -24,8 +24,8 @@ from osc2tx_runtime.actions.shaped import ShapedAction
 from osc2tx_runtime.actors import Actor
 from osc2tx_runtime.argument_rules import Rule
 from osc2tx_runtime.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
-from osc2tx_runtime.initializer import PLACEMENT_MODIFIERS
 from osc2tx_runtime.modifiers import MAP_MODIFIERS, MODIFIERS, Modifier
+from osc2tx_runtime.placing.initializer import PLACEMENT_MODIFIERS
 from osc2tx_runtime.registry import Method, methods
 
 __all__ = ["capabilities"]

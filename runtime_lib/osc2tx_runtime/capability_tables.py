@@ -20,14 +20,24 @@ from osc2tx_runtime.actors import (
     Trailer,
     Vehicle,
 )
-from osc2tx_runtime.crossings import Crossing, CrossingType
-from osc2tx_runtime.motions import (
+from osc2tx_runtime.measuring.motions import (
     Acceleration,
     OrientationAcceleration,
     OrientationRate,
     TranslationalAcceleration,
     TranslationalVelocity,
     Velocity,
+)
+from osc2tx_runtime.measuring.weather import (
+    Air,
+    CelestialLightSource,
+    CelestialPosition,
+    Clouds,
+    Fog,
+    GeodeticPosition,
+    Precipitation,
+    Weather,
+    Wind,
 )
 from osc2tx_runtime.parts import (
     Axle,
@@ -37,18 +47,9 @@ from osc2tx_runtime.parts import (
     HitchCoupler,
     HitchReceiver,
 )
-from osc2tx_runtime.path_values import (
-    Path,
-    RelativePathOdr,
-    RelativePathPose3d,
-    RelativePathSt,
-    RelativeTrajectoryOdr,
-    RelativeTrajectoryPose3d,
-    RelativeTrajectorySt,
-    Trajectory,
-)
-from osc2tx_runtime.road_network import RoadNetwork
-from osc2tx_runtime.road_parts import (
+from osc2tx_runtime.roads.crossings import Crossing, CrossingType
+from osc2tx_runtime.roads.road_network import RoadNetwork
+from osc2tx_runtime.roads.road_parts import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -58,7 +59,7 @@ from osc2tx_runtime.road_parts import (
     RoadPath,
     Route,
 )
-from osc2tx_runtime.route_position import RoutePosition
+from osc2tx_runtime.roads.route_position import RoutePosition
 from osc2tx_runtime.shapes import (
     AnyAccelerationShape,
     AnyLateralShape,
@@ -71,24 +72,23 @@ from osc2tx_runtime.shapes import (
     CommonShape,
     CommonSpeedShape,
 )
-from osc2tx_runtime.stop_line_parts import TrafficLightStopLine
-from osc2tx_runtime.traffic_cycles import TrafficLightCycle, TrafficLightPhase
-from osc2tx_runtime.traffic_lights import (
+from osc2tx_runtime.signals.stop_line_parts import TrafficLightStopLine
+from osc2tx_runtime.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.signals.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
     TrafficLightGroup,
 )
 from osc2tx_runtime.values import GeodeticPoint, OdrPoint, RoutePoint, XyzPoint
-from osc2tx_runtime.weather import (
-    Air,
-    CelestialLightSource,
-    CelestialPosition,
-    Clouds,
-    Fog,
-    GeodeticPosition,
-    Precipitation,
-    Weather,
-    Wind,
+from osc2tx_runtime.ways.path_values import (
+    Path,
+    RelativePathOdr,
+    RelativePathPose3d,
+    RelativePathSt,
+    RelativeTrajectoryOdr,
+    RelativeTrajectoryPose3d,
+    RelativeTrajectorySt,
+    Trajectory,
 )
 
 __all__ = ["FIELDS", "MANDATORY", "METHODS", "OBJECTS", "UNKNOWN"]

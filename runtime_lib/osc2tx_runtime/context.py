@@ -16,16 +16,16 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.clock import whole_steps
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.settings import RunSettings
+from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.running.trace import TraceWriter
 from osc2tx_runtime.slots import Effect, Effects, Slots
-from osc2tx_runtime.trace import TraceWriter
 
 if TYPE_CHECKING:
     from osc2tx_runtime.action import Action
     from osc2tx_runtime.actors import Actor
     from osc2tx_runtime.behaviour.events import Event
     from osc2tx_runtime.behaviour.variables import Sampled
-    from osc2tx_runtime.stretches import Stretch
+    from osc2tx_runtime.roads.stretches import Stretch
     from osc2tx_runtime.world.commands import Command
     from osc2tx_runtime.world.protocol import World
 

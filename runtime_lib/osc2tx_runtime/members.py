@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.actors import Actor
 from osc2tx_runtime.behaviour.events import Event
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.map_objects import MapObject
-from osc2tx_runtime.settings import check_known, near
+from osc2tx_runtime.roads.map_objects import MapObject
+from osc2tx_runtime.running.settings import check_known, near
 
 if TYPE_CHECKING:
     from osc2tx_runtime.scenario import Scenario

@@ -20,13 +20,13 @@ from osc2tx_runtime.behaviour.override import Mode
 from osc2tx_runtime.behaviour.parameters import Range, any_of, at_least, at_most, within
 from osc2tx_runtime.behaviour.variables import MISSING, Sampled
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.map_objects import MapObject
 from osc2tx_runtime.members import check_arguments, check_settings, name_members
 from osc2tx_runtime.modifiers import SetMapFile
 from osc2tx_runtime.placement import Placement
+from osc2tx_runtime.roads.map_objects import MapObject
+from osc2tx_runtime.running.settings import RunSettings, near
+from osc2tx_runtime.running.sidecar import read_source_map
 from osc2tx_runtime.scenario_values import ScenarioValues
-from osc2tx_runtime.settings import RunSettings, near
-from osc2tx_runtime.sidecar import read_source_map
 
 if TYPE_CHECKING:
     from osc2tx_runtime.modifiers import MapModifier, Modifier

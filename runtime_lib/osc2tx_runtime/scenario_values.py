@@ -10,9 +10,9 @@ from typing import Any, TypeVar, Unpack, overload
 from osc2tx_runtime.behaviour.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.behaviour.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 from osc2tx_runtime.errors import ScenarioError, SettingsError
-from osc2tx_runtime.external import external_function
-from osc2tx_runtime.settings import RunSettings
-from osc2tx_runtime.sidecar import SourceMap
+from osc2tx_runtime.running.external import external_function
+from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.running.sidecar import SourceMap
 
 __all__ = ["ATTEMPTS", "ScenarioValues"]
 

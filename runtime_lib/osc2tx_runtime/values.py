@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.path_values import Path
-    from osc2tx_runtime.road_parts import RoadPart
+    from osc2tx_runtime.roads.road_parts import RoadPart
+    from osc2tx_runtime.ways.path_values import Path
 
 __all__ = [
     "GeodeticPoint",

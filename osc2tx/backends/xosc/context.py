@@ -7,17 +7,17 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from osc2tx import ir
-from osc2tx.backends.xosc.cast import CastMember
-from osc2tx.backends.xosc.choosing import NOTHING_OPEN, Choosing
-from osc2tx.backends.xosc.facts_map import Stretch
-from osc2tx.backends.xosc.facts_roads import Roads, map_places, roads_of
-from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.found import Stretch
+from osc2tx.backends.xosc.facts.maps import Roads, map_places, roads_of
+from osc2tx.backends.xosc.logical.choosing import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState
-from osc2tx.backends.xosc.tree import Element, element
-from osc2tx.backends.xosc.values import Values
+from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.backends.xosc.xml.names import Names
+from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
+from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 
 from osc2tx import ir
-from osc2tx.backends.xosc.adapting import adapted
+from osc2tx.backends.xosc.actions.environment import initial_environment
+from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities import scenario_objects
-from osc2tx.backends.xosc.environment import initial_environment
-from osc2tx.backends.xosc.facts_roads import DEFAULT_MAP
-from osc2tx.backends.xosc.flatten import Flattener
-from osc2tx.backends.xosc.flow import Flow, at_time, single
-from osc2tx.backends.xosc.parameters import declaration
-from osc2tx.backends.xosc.placement import initial_actions
-from osc2tx.backends.xosc.storyboard import StoryboardWriter
-from osc2tx.backends.xosc.tree import Element, comment_text, element
+from osc2tx.backends.xosc.entities.entities import scenario_objects
+from osc2tx.backends.xosc.entities.placement import initial_actions
+from osc2tx.backends.xosc.facts.maps import DEFAULT_MAP
+from osc2tx.backends.xosc.flattening.flatten import Flattener
+from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
+from osc2tx.backends.xosc.logical.parameters import declaration
+from osc2tx.backends.xosc.xml.adapting import adapted
+from osc2tx.backends.xosc.xml.tree import Element, comment_text, element
 
 DATE = "2000-01-01T00:00:00"
 """The schema asks for a date; a real one would change the file each day."""

@@ -7,27 +7,27 @@ from importlib import import_module
 from pathlib import Path, PurePosixPath
 
 from osc2tx import ir
-from osc2tx.backends.xosc.choosing import Choosing
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.distributions import document as values_document
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
-from osc2tx.backends.xosc.facts_runs import read_signal, read_spawn
-from osc2tx.backends.xosc.logical import LogicalWriter
-from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.parameters_report import report_parameters
+from osc2tx.backends.xosc.facts.runs import read_signal, read_spawn
+from osc2tx.backends.xosc.logical.choosing import Choosing
+from osc2tx.backends.xosc.logical.distributions import document as values_document
+from osc2tx.backends.xosc.logical.documents import LogicalWriter
+from osc2tx.backends.xosc.logical.reporting import report_parameters
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
-from osc2tx.backends.xosc.tree import Element, serialize
+from osc2tx.backends.xosc.xml.names import Names
+from osc2tx.backends.xosc.xml.tree import Element, serialize
 from osc2tx.light_dataclass import dataclass
 from osc2tx.options import XmlOptions
 
 HANDLERS = (
-    "actions",
     "cycles",
     "environment",
     "gaps",
     "lanes",
     "lateral",
     "lights",
+    "movement",
     "paths",
     "places",
     "positions",
@@ -36,10 +36,10 @@ HANDLERS = (
     "speed_modifiers",
     "trailers",
 )
-"""Modules that register handlers when they are imported."""
+"""Modules of `actions` that register handlers when they are imported."""
 
 for _module in HANDLERS:
-    import_module(f"{__package__}.{_module}")
+    import_module(f"{__package__}.actions.{_module}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,12 +12,12 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from osc2tx import ir
-from osc2tx.backends.xosc.cast import CastMember, cast_member
-from osc2tx.backends.xosc.constants import Constant, Named
-from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.own_values import OwnTypes
+from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values import Values
+from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.backends.xosc.values.own_types import OwnTypes
+from osc2tx.backends.xosc.xml.names import Names
 
 
 @dataclass(slots=True, eq=False)

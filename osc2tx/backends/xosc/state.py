@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from osc2tx.backends.xosc.facts_roads import LanePosition, Pose
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 
 LONGITUDINAL, LATERAL, WAY = "longitudinal", "lateral", "way"
 """Domains that actions control; `way` is the motion of those off the lanes, which just goes on."""

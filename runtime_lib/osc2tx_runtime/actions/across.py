@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.modifiers import ChangeLane, Lane, Lateral, MovementModifier
 from osc2tx_runtime.modifiers.base import course_of, own_course
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.placing.poses import one_of_kind
 from osc2tx_runtime.shapes import OwnShape
 from osc2tx_runtime.world.commands import Beside, Command, LaneChange, LaneOffset
 from osc2tx_runtime.world.computed import Computed

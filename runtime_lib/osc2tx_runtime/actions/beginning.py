@@ -10,9 +10,9 @@ import math
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
-from osc2tx_runtime.places import Placer
-from osc2tx_runtime.poses import heading_of, headings_of, tilt_of
-from osc2tx_runtime.routes import along_lane
+from osc2tx_runtime.placing.places import Placer
+from osc2tx_runtime.placing.poses import heading_of, headings_of, tilt_of
+from osc2tx_runtime.roads.routes import along_lane
 from osc2tx_runtime.world.curve import turn_between
 from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
 

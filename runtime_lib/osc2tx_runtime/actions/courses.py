@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from osc2tx_runtime.in_world import path_in_world, trajectory_in_world
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.path_values import Path, Trajectory
-from osc2tx_runtime.paths import PathError, curve_of_path, curve_of_trajectory, stretch
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL
 from osc2tx_runtime.values import Pose
+from osc2tx_runtime.ways.in_world import path_in_world, trajectory_in_world
+from osc2tx_runtime.ways.path_values import Path, Trajectory
+from osc2tx_runtime.ways.paths import PathError, curve_of_path, curve_of_trajectory, stretch
 from osc2tx_runtime.world.commands import (
     Command,
     FollowCourse,

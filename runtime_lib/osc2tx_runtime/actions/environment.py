@@ -21,7 +21,7 @@ from .support import note_lights
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Environment
-    from osc2tx_runtime.weather import CelestialLightSource
+    from osc2tx_runtime.measuring.weather import CelestialLightSource
 
 __all__ = ["Air", "AssignCelestialPosition", "Clouds", "Fog", "Rain", "Snow", "Wind"]
 

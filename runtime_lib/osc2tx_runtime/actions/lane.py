@@ -28,7 +28,7 @@ from .support import Refused
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import PhysicalObject, Vehicle
     from osc2tx_runtime.behaviour.parameters import Range
-    from osc2tx_runtime.road_parts import Lane
+    from osc2tx_runtime.roads.road_parts import Lane
 
 __all__ = ["SIDES", "ChangeLane", "FollowLane", "LaneSide"]
 

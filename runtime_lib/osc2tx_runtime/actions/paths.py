@@ -13,17 +13,17 @@ from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.modifiers.base import now
-from osc2tx_runtime.path_values import (
+from osc2tx_runtime.placing.poses import one_of_kind
+from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.values import Pose
+from osc2tx_runtime.ways.path_values import (
     Path,
     RelativePath,
     RelativeTrajectory,
     RelativeTransform,
     Trajectory,
 )
-from osc2tx_runtime.paths import absolute
-from osc2tx_runtime.poses import one_of_kind
-from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
-from osc2tx_runtime.values import Pose
+from osc2tx_runtime.ways.paths import absolute
 from osc2tx_runtime.world.commands import Command
 
 from .courses import path_command, trajectory_commands

@@ -9,11 +9,11 @@ from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.modifiers.base import now
-from osc2tx_runtime.places import Placer
-from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.placing.places import Placer
+from osc2tx_runtime.placing.poses import place_of_odr
+from osc2tx_runtime.placing.spots import Spot
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action
-from osc2tx_runtime.routes import place_of_route
-from osc2tx_runtime.spots import Spot
+from osc2tx_runtime.roads.routes import place_of_route
 from osc2tx_runtime.values import OdrPoint, Orientation, Point, RoutePoint
 from osc2tx_runtime.world.attitude import Tilt
 

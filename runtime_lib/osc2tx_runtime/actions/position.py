@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, ClassVar, Unpack, cast
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.action import ActionOptions
-from osc2tx_runtime.along import way_between
 from osc2tx_runtime.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.modifiers import Modifier
 from osc2tx_runtime.modifiers.base import now
 from osc2tx_runtime.opendrive import DRIVING, LanePosition
-from osc2tx_runtime.path_values import Path, PathInterpolation
-from osc2tx_runtime.paths import PathError
-from osc2tx_runtime.poses import place_of_odr
+from osc2tx_runtime.placing.poses import place_of_odr
 from osc2tx_runtime.registry import LATERAL, action
-from osc2tx_runtime.routes import place_of_route
+from osc2tx_runtime.roads.routes import place_of_route
 from osc2tx_runtime.values import OdrPoint, Point, Pose, RoutePoint, XyzPoint
+from osc2tx_runtime.ways.along import way_between
+from osc2tx_runtime.ways.path_values import Path, PathInterpolation
+from osc2tx_runtime.ways.paths import PathError
 from osc2tx_runtime.world.commands import Command
 
 from .courses import path_command

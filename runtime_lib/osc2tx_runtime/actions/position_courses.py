@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Along, Distance, Position, value_of
 from osc2tx_runtime.modifiers.base import course_of, own_course, target_of
-from osc2tx_runtime.route_places import place_on_route
-from osc2tx_runtime.routes import along_lane
+from osc2tx_runtime.roads.route_places import place_on_route
+from osc2tx_runtime.roads.routes import along_lane
 from osc2tx_runtime.world.commands import Command, Cover, GapCourse
 from osc2tx_runtime.world.computed import Mapped, change_profile
 from osc2tx_runtime.world.distances import along_lanes

@@ -28,7 +28,7 @@ from osc2tx_runtime.modifiers import (
     Speed,
     Yaw,
 )
-from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.placing.poses import one_of_kind
 from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, Method
 from osc2tx_runtime.world.commands import Careful, Command
 

@@ -13,7 +13,7 @@ from osc2tx_runtime.world.lateral import excessive_shift
 from .support import Refused
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.road_parts import RoadPart
+    from osc2tx_runtime.roads.road_parts import RoadPart
 
     from .shaped import ShapedAction
     from .support import MotionAction

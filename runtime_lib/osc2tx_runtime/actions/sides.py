@@ -15,11 +15,11 @@ from osc2tx_runtime.modifiers import (
     value_of,
 )
 from osc2tx_runtime.modifiers.base import now
-from osc2tx_runtime.path_values import MadeRoute
-from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.placing.poses import one_of_kind
 from osc2tx_runtime.registry import LATERAL
-from osc2tx_runtime.road_graph import graph_of
-from osc2tx_runtime.road_parts import Route
+from osc2tx_runtime.roads.road_graph import graph_of
+from osc2tx_runtime.roads.road_parts import Route
+from osc2tx_runtime.ways.path_values import MadeRoute
 from osc2tx_runtime.world.commands import Command, FollowRoute
 from osc2tx_runtime.world.lanes import number_of_lane
 

@@ -15,7 +15,7 @@ from osc2tx_runtime.modifiers import (
     Speed,
 )
 from osc2tx_runtime.modifiers.base import course_of, now, own_course, value_of
-from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.placing.poses import one_of_kind
 from osc2tx_runtime.registry import LONGITUDINAL
 from osc2tx_runtime.world.commands import (
     Accelerate,

@@ -9,9 +9,9 @@ from osc2tx_runtime.behaviour.base import Status
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_runtime.modifiers import MovementModifier, PhysicalMovement
 from osc2tx_runtime.opendrive import MapError
-from osc2tx_runtime.paths import PathError
-from osc2tx_runtime.poses import one_of_kind
+from osc2tx_runtime.placing.poses import one_of_kind
 from osc2tx_runtime.registry import LONGITUDINAL
+from osc2tx_runtime.ways.paths import PathError
 from osc2tx_runtime.world.catalogue import TOP_SPEED
 from osc2tx_runtime.world.commands import Careful, Command, SpeedChange
 

@@ -10,13 +10,13 @@ from osc2tx_runtime.action import Action, ActionOptions
 from osc2tx_runtime.behaviour.base import Status
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import Modifier
-from osc2tx_runtime.traffic_lights import states_of
+from osc2tx_runtime.signals.traffic_lights import states_of
 from osc2tx_runtime.world.lamps import lamps_that_mean, meaning_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import TrafficLightController
-    from osc2tx_runtime.traffic_cycles import TrafficLightCycle
-    from osc2tx_runtime.traffic_lights import Bulbs
+    from osc2tx_runtime.signals.traffic_cycles import TrafficLightCycle
+    from osc2tx_runtime.signals.traffic_lights import Bulbs
     from osc2tx_runtime.world.lamps import BulbColor, BulbState, Meaning
     from osc2tx_runtime.world.signals import Signals
 

@@ -17,7 +17,7 @@ from .switching import SwitchAll, SwitchLamp, SwitchMeaning
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import TrafficLightController
-    from osc2tx_runtime.traffic_lights import Bulbs, TrafficLight, TrafficLightGroup
+    from osc2tx_runtime.signals.traffic_lights import Bulbs, TrafficLight, TrafficLightGroup
     from osc2tx_runtime.world.lamps import BulbColor, BulbState, Meaning
     from osc2tx_runtime.world.signals import Signals
 

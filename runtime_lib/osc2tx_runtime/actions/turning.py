@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.modifiers import Orient, Yaw
 from osc2tx_runtime.modifiers.base import own_course
-from osc2tx_runtime.poses import heading_base, heading_of, one_of_kind, tilt_of
+from osc2tx_runtime.placing.poses import heading_base, heading_of, one_of_kind, tilt_of
 from osc2tx_runtime.world.attitude import LEVEL, Tilt
 from osc2tx_runtime.world.commands import Command, Slant, Turn
 from osc2tx_runtime.world.computed import Mapped

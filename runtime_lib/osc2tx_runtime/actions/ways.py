@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.modifiers import Acceleration, Along, Distance, Position, Speed
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.poses import one_of_kind, pose_of
-from osc2tx_runtime.routes import along_lane
+from osc2tx_runtime.placing.poses import one_of_kind, pose_of
+from osc2tx_runtime.roads.routes import along_lane
 from osc2tx_runtime.world.commands import FollowSpeed
 
 from .support import Refused

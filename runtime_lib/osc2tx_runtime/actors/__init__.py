@@ -7,9 +7,9 @@ it in the registry.
 
 from __future__ import annotations
 
-from osc2tx_runtime.route_position import RoutePosition
+from osc2tx_runtime.measuring.weather import CelestialLightSource
+from osc2tx_runtime.roads.route_position import RoutePosition
 from osc2tx_runtime.values import OdrPoint, Orientation, Point, Pose
-from osc2tx_runtime.weather import CelestialLightSource
 
 from .base import Actor
 from .controllers import TrafficLightController

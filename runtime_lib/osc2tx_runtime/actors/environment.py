@@ -7,7 +7,7 @@ from datetime import timedelta, timezone
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.weather import (
+from osc2tx_runtime.measuring.weather import (
     CelestialLightSource,
     CelestialPosition,
     GeodeticPosition,

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.road_network import RoadNetwork
+from osc2tx_runtime.roads.road_network import RoadNetwork
 
 from .base import Actor
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.traffic_cycles import TrafficLightCycle
+    from osc2tx_runtime.signals.traffic_cycles import TrafficLightCycle
 
 __all__ = ["Map"]
 

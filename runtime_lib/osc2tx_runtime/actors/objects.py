@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, TypedDict, Unpack
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.known_parts import known_infrastructure, known_role
-from osc2tx_runtime.measures import Measures
+from osc2tx_runtime.measuring.measures import Measures
 from osc2tx_runtime.models import leave_to
 from osc2tx_runtime.parts import UNSAID, BehavioralModel, BoundingBox, completed, is_open
 from osc2tx_runtime.values import Point

@@ -13,8 +13,8 @@ from osc2tx_runtime.behaviour.override import Mode, guard
 from osc2tx_runtime.behaviour.parallel import Parallel
 from osc2tx_runtime.behaviour.variables import Sampling
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.settings import near
-from osc2tx_runtime.sidecar import apply_nodes, own_nodes
+from osc2tx_runtime.running.settings import near
+from osc2tx_runtime.running.sidecar import apply_nodes, own_nodes
 
 if TYPE_CHECKING:
     from osc2tx_runtime.placement import Placement

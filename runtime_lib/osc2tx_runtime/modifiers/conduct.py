@@ -12,8 +12,8 @@ from .base import Modifier, MovementModifier, Value, now
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import Trailer
-    from osc2tx_runtime.path_values import Path, Trajectory
-    from osc2tx_runtime.road_parts import RoadPath, Route
+    from osc2tx_runtime.roads.road_parts import RoadPath, Route
+    from osc2tx_runtime.ways.path_values import Path, Trajectory
 
 __all__ = [
     "Along",

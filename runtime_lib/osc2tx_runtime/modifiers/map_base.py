@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import ClassVar
 
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart
-from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.roads.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_parts import RoadPart
+from osc2tx_runtime.roads.stretches import Stretch
 
 from .base import Modifier
 

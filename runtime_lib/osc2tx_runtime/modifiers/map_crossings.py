@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.crossing_lines import laid
-from osc2tx_runtime.crossings import Crossing
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart
-from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.roads.crossing_lines import laid
+from osc2tx_runtime.roads.crossings import Crossing
+from osc2tx_runtime.roads.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_parts import RoadPart
+from osc2tx_runtime.roads.stretches import Stretch
 
 from .map_base import Known, MapModifier, Row, fits
 

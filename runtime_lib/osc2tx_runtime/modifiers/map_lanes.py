@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.lane_kinds import Directionality, LaneType, LaneUse, kind_of_lane
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart
-from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.roads.lane_kinds import Directionality, LaneType, LaneUse, kind_of_lane
+from osc2tx_runtime.roads.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_parts import RoadPart
+from osc2tx_runtime.roads.stretches import Stretch
 
 from .base import Side
 from .map_base import Known, MapModifier, Row, fits

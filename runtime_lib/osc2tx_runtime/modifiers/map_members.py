@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart
-from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.roads.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_parts import RoadPart
+from osc2tx_runtime.roads.stretches import Stretch
 
 from .map_base import Known, MapModifier, Row, fits
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPath
-from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.roads.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_parts import RoadPath
+from osc2tx_runtime.roads.stretches import Stretch
 
 from .map_base import Known, MapModifier, Row
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from osc2tx_runtime.errors import UnsupportedError
-from osc2tx_runtime.road_graph import RoadGraph
-from osc2tx_runtime.road_parts import RoadPart
-from osc2tx_runtime.stretches import Stretch
+from osc2tx_runtime.roads.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_parts import RoadPart
+from osc2tx_runtime.roads.stretches import Stretch
 
 from .map_base import Known, MapModifier, Row, fits
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from osc2tx_runtime.road_graph import RoadGraph
+from osc2tx_runtime.roads.road_graph import RoadGraph
 
 from .map_base import Known, MapModifier, Row
 from .map_crossings import CrossingConnects

@@ -9,11 +9,11 @@ from typing import Any
 from osc2tx_runtime.action import Action
 from osc2tx_runtime.behaviour import Behaviour, Event, Status
 from osc2tx_runtime.context import ExecutionContext
-from osc2tx_runtime.loop import Outcome, run_tree
 from osc2tx_runtime.registry import Method
-from osc2tx_runtime.runner import setup_tree
-from osc2tx_runtime.settings import RunSettings
-from osc2tx_runtime.trace import TraceWriter
+from osc2tx_runtime.running.loop import Outcome, run_tree
+from osc2tx_runtime.running.runner import setup_tree
+from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.running.trace import TraceWriter
 
 
 class FakeActor:

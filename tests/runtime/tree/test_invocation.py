@@ -23,9 +23,9 @@ from osc2tx_runtime.behaviour import (
 )
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.runner import run_scenario
+from osc2tx_runtime.running.runner import run_scenario
+from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.scenario import Scenario, within
-from osc2tx_runtime.settings import RunSettings
 
 
 class Approach(Scenario):

@@ -16,8 +16,8 @@ from osc2tx_runtime.actors import Environment, Map, Vehicle
 from osc2tx_runtime.behaviour import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
 from osc2tx_runtime.registry import MethodRegistry
+from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.scenario import Scenario, within
-from osc2tx_runtime.settings import RunSettings
 from tests.runtime.tree.kit import Run, Task
 
 MODULE = """

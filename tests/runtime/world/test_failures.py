@@ -20,9 +20,9 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.path_values import Path, RelativePathSt, Trajectory
-from osc2tx_runtime.road_parts import Lane, Stretch
+from osc2tx_runtime.roads.road_parts import Lane, Stretch
 from osc2tx_runtime.values import RoutePoint
+from osc2tx_runtime.ways.path_values import Path, RelativePathSt, Trajectory
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

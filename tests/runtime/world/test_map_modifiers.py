@@ -22,7 +22,6 @@ from osc2tx_runtime import (
     at_most,
     within,
 )
-from osc2tx_runtime.map_solver import MapSolver, Relation
 from osc2tx_runtime.modifiers import (
     compound_lane_side,
     end_lane,
@@ -35,7 +34,8 @@ from osc2tx_runtime.modifiers import (
     start_lane,
 )
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.road_parts import RoadPart
+from osc2tx_runtime.roads.map_solver import MapSolver, Relation
+from osc2tx_runtime.roads.road_parts import RoadPart
 
 Load = Callable[[str], RoadMap]
 MAPS = Path(osc2tx_runtime.__file__).parent / "maps"

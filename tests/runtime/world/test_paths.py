@@ -19,9 +19,9 @@ from osc2tx_runtime import (
 )
 from osc2tx_runtime.actors import Point, Pose
 from osc2tx_runtime.modifiers import along, physical_movement, position, yaw
-from osc2tx_runtime.path_values import Path, RelativePath
-from osc2tx_runtime.paths import curve_of_path
 from osc2tx_runtime.values import RoutePoint
+from osc2tx_runtime.ways.path_values import Path, RelativePath
+from osc2tx_runtime.ways.paths import curve_of_path
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -23,7 +23,6 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.map_solver import MapSolver
 from osc2tx_runtime.modifiers import (
     along,
     lane,
@@ -36,7 +35,8 @@ from osc2tx_runtime.modifiers import (
     speed,
 )
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.road_graph import graph_of
+from osc2tx_runtime.roads.map_solver import MapSolver
+from osc2tx_runtime.roads.road_graph import graph_of
 
 Load = Callable[[str], RoadMap]
 

@@ -20,7 +20,6 @@ from osc2tx_runtime.modifiers import (
     position,
     speed,
 )
-from osc2tx_runtime.path_values import Path, Trajectory
 from osc2tx_runtime.shapes import (
     AnyPositionShape,
     AnySpeedShape,
@@ -29,6 +28,7 @@ from osc2tx_runtime.shapes import (
     OwnShape,
 )
 from osc2tx_runtime.values import Point
+from osc2tx_runtime.ways.path_values import Path, Trajectory
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

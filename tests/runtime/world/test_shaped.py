@@ -32,7 +32,7 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.path_values import Path
+from osc2tx_runtime.ways.path_values import Path
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -30,9 +30,9 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.path_values import Path
-from osc2tx_runtime.road_parts import Lane, Stretch
+from osc2tx_runtime.roads.road_parts import Lane, Stretch
 from osc2tx_runtime.shapes import CommonAccelerationShape, CommonLateralShape, CommonSpeedShape
+from osc2tx_runtime.ways.path_values import Path
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -43,7 +43,7 @@ from osc2tx_runtime.modifiers import (
     tow_trailer,
     yaw,
 )
-from osc2tx_runtime.path_values import Path, Trajectory
+from osc2tx_runtime.ways.path_values import Path, Trajectory
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]

@@ -21,7 +21,7 @@ from osc2tx_runtime import (
 from osc2tx_runtime.actors import Point, Pose, Trailer
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import lane, position, speed, tow_trailer
-from osc2tx_runtime.path_values import Path
+from osc2tx_runtime.ways.path_values import Path
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]

@@ -13,7 +13,7 @@ from osc2tx_runtime import (
 )
 from osc2tx_runtime.actors import Pose
 from osc2tx_runtime.modifiers import along_trajectory, physical_movement
-from osc2tx_runtime.path_values import RelativeTrajectory, Trajectory
+from osc2tx_runtime.ways.path_values import RelativeTrajectory, Trajectory
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -14,8 +14,8 @@ from osc2tx_runtime import modifiers as runtime
 from osc2tx_runtime.actions.checks import check_modifiers
 from osc2tx_runtime.actions.movement import Drive
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.path_values import Path
 from osc2tx_runtime.shapes import CommonPositionShape
+from osc2tx_runtime.ways.path_values import Path
 
 SPAN = Span(SourceFile("x.osc", "x"), 0, 1)
 OTHER, WAY = Vehicle(name="other"), Path(())

@@ -1,8 +1,8 @@
 """Flows: an OR of ANDs, and what can be asked of them."""
 
-from osc2tx.backends.xosc.flow import NEVER, Flow, at_time, run_start, single, state_of
-from osc2tx.backends.xosc.flow import Test as Condition
-from osc2tx.backends.xosc.tree import element
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, at_time, run_start, single, state_of
+from osc2tx.backends.xosc.conditions.flow import Test as Condition
+from osc2tx.backends.xosc.xml.tree import element
 
 A, B = single(state_of("event", "a")), single(state_of("event", "b"))
 EDGE = single(Condition(element("ByEntityCondition"), "rising"))

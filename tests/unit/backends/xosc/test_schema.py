@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc.schema import element_type, has_attribute, has_child, literals
-from osc2tx.backends.xosc.tree import element, number_text, serialize
+from osc2tx.backends.xosc.xml.schema import element_type, has_attribute, has_child, literals
+from osc2tx.backends.xosc.xml.tree import element, number_text, serialize
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XML_VERSIONS, XmlVersion
 
@@ -20,7 +20,7 @@ SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
 
 def test_the_table_is_up_to_date() -> None:
     made = runpy.run_path(str(TOOL))["make"]()
-    shipped = (files("osc2tx.backends.xosc") / "schema.json").read_text(encoding="utf-8")
+    shipped = (files("osc2tx.backends.xosc.xml") / "schema.json").read_text(encoding="utf-8")
     assert json.loads(shipped) == json.loads(made)
     assert shipped == made
 

@@ -1,10 +1,10 @@
 """Triggers: what stands where in a group."""
 
-from osc2tx.backends.xosc import flow
-from osc2tx.backends.xosc.flow import Flow, run_start, state_of
-from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.storyboard import StoryboardWriter
-from osc2tx.backends.xosc.tree import Element, element
+from osc2tx.backends.xosc.conditions import flow
+from osc2tx.backends.xosc.conditions.flow import Flow, run_start, state_of
+from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
+from osc2tx.backends.xosc.xml.names import Names
+from osc2tx.backends.xosc.xml.tree import Element, element
 
 
 def on(name: str) -> Element:

@@ -1,0 +1,1 @@
+"""Actions and modifiers: handlers that write them down, and what these share."""

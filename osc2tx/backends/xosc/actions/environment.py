@@ -1,0 +1,284 @@
+"""Environment (§8.10, §8.11) as global actions.
+
+An action of the DSL says one thing about the weather and leaves the rest. From 1.1 on the XML can
+leave out the rest too; in 1.0 it has to be stated again, so all that was said before is kept.
+"""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.clock import environments, time_of_day
+from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.registry import global_action
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
+from osc2tx.backends.xosc.flattening.neighbours import is_first, runs_beside
+from osc2tx.backends.xosc.flattening.shape import actors_of
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.xml.tree import Element, commented, element
+
+NOON = "2000-01-01T12:00:00"
+"""Time of day where 1.0 asks for one and the scenario says none."""
+
+FULL_SUN = 100000.0
+"""Lux of the sun in the zenith; the DSL knows no brightness."""
+
+MMPH = 1e-3 / 3600.0
+"""Millimetres per hour in m/s."""
+
+HEAVIEST_RAIN = 50.0
+"""mm/h that are the intensity 1 of OpenSCENARIO XML 1.0, which has no unit."""
+
+FAR = 100000.0
+"""Visual range (m) where nobody speaks of fog."""
+
+OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+
+
+# --- sun and air --------------------------------------------------------------------------------
+
+
+@global_action("assign_celestial_position")
+def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+    azimuth, elevation = arguments.number("azimuth"), arguments.number("elevation")
+    source = arguments.expression("light_source")
+    if source is not None and source.span.text.endswith("moon"):
+        raise Inexpressible("there is no moon in OpenSCENARIO XML", node.span)
+    if azimuth is None and elevation is None:
+        raise Inexpressible("it says neither azimuth nor elevation", node.span)
+    if azimuth is not None:  # what nobody has said is open, and the XML says some value
+        ctx.weather["sun_azimuth"] = azimuth
+    if elevation is not None:
+        ctx.weather["sun_elevation"] = elevation
+    return (environment_action(ctx, node, _sun(ctx)),)
+
+
+def _sun(ctx: Context) -> Element:
+    elevation = ctx.weather.get("sun_elevation", math.pi / 2)
+    brightness = max(math.sin(elevation), 0.0)
+    return element(
+        "Sun",
+        azimuth=ctx.weather.get("sun_azimuth", 0.0),
+        elevation=elevation,
+        illuminance=round(FULL_SUN * brightness, 3) if ctx.version >= "1.2" else None,
+        intensity=round(brightness, 6) if ctx.version < "1.2" else None,
+    )
+
+
+@global_action("air")
+def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+    temperature, pressure = arguments.number("temperature"), arguments.number("pressure")
+    humidity = arguments.number("relative_humidity")
+    if temperature is not None:
+        ctx.weather["temperature"] = temperature
+    if humidity is not None:
+        ctx.report.approximate(
+            f"action {node.action}",
+            node.span,
+            "there is no humidity in OpenSCENARIO XML",
+            f"relative_humidity {humidity:g} is dropped; temperature and pressure are exact",
+        )
+    if temperature is None and pressure is None:
+        return ()
+    ctx.require("temperature and pressure of the air", "1.1", node.span)
+    return (environment_action(ctx, node, temperature=temperature, pressure=pressure),)
+
+
+@global_action("wind")
+def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+    ctx.require("wind", "1.1", node.span)
+    for name in ("speed", "direction"):
+        value = arguments.number(name)
+        if value is not None:
+            ctx.weather[f"wind_{name}"] = value
+    if "wind_speed" not in ctx.weather or "wind_direction" not in ctx.weather:
+        raise Inexpressible("the XML asks for both speed and direction", node.span)
+    # The DSL says where it comes from, clockwise from north; the XML whither, counter-clockwise
+    # from east.
+    whither = (-0.5 * math.pi - ctx.weather["wind_direction"]) % (2.0 * math.pi)
+    wind = element("Wind", direction=round(whither, 9), speed=ctx.weather["wind_speed"])
+    return (environment_action(ctx, node, wind),)
+
+
+# --- fog, clouds, rain and snow -----------------------------------------------------------------
+
+
+@global_action("fog")
+def _fog_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+    visual_range = arguments.number("visual_range")
+    if visual_range is None:
+        raise Inexpressible("it says no visual range", node.span)
+    ctx.weather["visual_range"] = visual_range
+    return (environment_action(ctx, node, _fog(ctx)),)
+
+
+def _fog(ctx: Context) -> Element:
+    return element("Fog", visualRange=ctx.weather.get("visual_range", FAR))
+
+
+@global_action("clouds")
+def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+    cloudiness = arguments.number("cloudiness")
+    if cloudiness is None or not 0.0 <= cloudiness < len(OKTAS):
+        raise Inexpressible("the cloud cover is not between 0 and 9 oktas", node.span)
+    ctx.weather["cloudiness"] = cloudiness
+    if ctx.version < "1.2" and 0 < cloudiness < 8:
+        ctx.report.approximate(
+            f"action {node.action}",
+            node.span,
+            f"OpenSCENARIO XML {ctx.version} counts no oktas",
+            f"{cloudiness:g} oktas are called cloudy, which is 1 to 7",
+            Remedy(version="1.2"),
+        )
+    if ctx.version >= "1.2":
+        cover = f"{OKTAS[round(cloudiness)]}Oktas"
+        return (environment_action(ctx, node, cover=cover),)
+    return (environment_action(ctx, node, state=_cloud_state(ctx)),)
+
+
+def _cloud_state(ctx: Context) -> str:
+    cloudiness = ctx.weather.get("cloudiness", 0.0)
+    if cloudiness == 0.0:
+        return "free"
+    return "cloudy" if cloudiness < 8.0 else "overcast"
+
+
+@global_action("rain", "snow")
+def _precipitation_action(
+    ctx: Context, node: ir.Invoke, arguments: Arguments
+) -> tuple[Element, ...]:
+    intensity = arguments.number("intensity")
+    if intensity is None:
+        raise Inexpressible("it says no intensity", node.span)
+    if node.action == "snow" and intensity > 0.0:
+        ctx.require_support("Precipitation/snow", node.span)
+    ctx.weather[f"{node.action}_intensity"] = intensity
+    if ctx.weather.get("rain_intensity", 0.0) > 0.0 and ctx.weather.get("snow_intensity", 0.0) > 0:
+        raise Inexpressible("OpenSCENARIO XML has one precipitation, not rain and snow", node.span)
+    if ctx.version == "1.0" and intensity > 0.0:
+        ctx.report.approximate(
+            f"action {node.action}",
+            node.span,
+            "the intensity has no unit in OpenSCENARIO XML 1.0",
+            f"1 stands for {HEAVIEST_RAIN:g} mm/h and more",
+            Remedy(version="1.1"),
+        )
+    return (environment_action(ctx, node, _precipitation(ctx)),)
+
+
+def _precipitation(ctx: Context) -> Element:
+    kind, intensity = "dry", 0.0
+    for name in ("rain", "snow"):
+        amount = ctx.weather.get(f"{name}_intensity", 0.0)
+        if amount > 0.0:
+            kind, intensity = name, round(amount / MMPH, 9)
+    if ctx.version == "1.0":
+        relative = round(min(intensity / HEAVIEST_RAIN, 1.0), 6)
+        return element("Precipitation", precipitationType=kind, intensity=relative)
+    return element("Precipitation", precipitationType=kind, precipitationIntensity=intensity)
+
+
+# --- the environment as a whole -----------------------------------------------------------------
+
+
+def initial_environment(ctx: Context) -> tuple[Element, ...]:
+    """Return the actions for what the environment is from the start on, whoever acts."""
+    actions: list[Element] = []
+    for actor in environments(ctx):
+        said = {value.path[0] for value in actor.values}
+        if "geodetic_position" in said:
+            ctx.report.approximate(
+                f"actor {actor.type}",
+                actor.span,
+                "where the world lies on the globe is a matter of the map in OpenSCENARIO XML",
+                "`geodetic_position` is dropped; nothing moves otherwise",
+            )
+        if "datetime" in said:
+            with ctx.report_as(f"actor {actor.type}", actor.span):
+                told = (
+                    environment_action(ctx, actor)  # in 1.0 all of it has to be stated
+                    if ctx.version == "1.0"
+                    else _environment(ctx, actor.name, time_of_day(ctx))
+                )
+                comment = ctx.comment(actor.span, f"date and time of {actor.name}")
+                actions.append(commented(told, comment))
+    return tuple(actions)
+
+
+def environment_action(
+    ctx: Context,
+    source: ir.Invoke | ir.Actor,
+    *weather: Element,
+    temperature: float | None = None,
+    pressure: float | None = None,
+    cover: str | None = None,
+    state: str | None = None,
+) -> Element:
+    """Return the action that changes parts of the weather; 1.0 has to state all of it."""
+    parts = {part.name: part for part in weather}
+    clock = None
+    if ctx.version == "1.0":
+        everything = (_sun(ctx), _fog(ctx), _precipitation(ctx))
+        parts = {part.name: part for part in everything}
+        state = _cloud_state(ctx)
+        clock = _stated_again(ctx, source)
+    told = element(
+        "Weather",
+        *parts.values(),
+        temperature=temperature,
+        atmosphericPressure=pressure,
+        fractionalCloudCover=cover,
+        cloudState=state,
+    )
+    name = source.name if isinstance(source, ir.Actor) else source.action
+    return _environment(ctx, name, told, clock, _road(ctx, source))
+
+
+def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> Element:
+    """Return the time of day that 1.0 asks for with each word about the weather."""
+    clock = time_of_day(ctx)
+    if clock is None:
+        return element("TimeOfDay", animation=False, dateTime=NOON)
+    if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+        ctx.report.approximate(
+            f"action {source.action}",
+            source.span,
+            "OpenSCENARIO XML 1.0 sets the time of day with the weather",
+            "the clock goes back to the start of the scenario",
+            Remedy(version="1.1"),
+        )
+    return clock
+
+
+def _environment(ctx: Context, name: str, *parts: Element | None) -> Element:
+    environment = element("Environment", *parts, name=ctx.names.new(f"environment_{name}"))
+    return element("GlobalAction", element("EnvironmentAction", environment))
+
+
+def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> Element | None:
+    """Return how slippery roads are: the DSL leaves that to the world, tools have to be told."""
+    adhesion = ADHESION.get(road_condition(ctx.weather))
+    if adhesion is None and ctx.version > "1.0" and "was_slippery" not in ctx.weather:
+        return None
+    if adhesion is not None:
+        ctx.weather["was_slippery"] = 1.0
+        if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+            _report_lost_grip(ctx, source, adhesion)
+    return element("RoadCondition", frictionScaleFactor=1.0 if adhesion is None else adhesion)
+
+
+def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
+    """Report that vehicles lose grip amid an action: the XML does not say what becomes of it."""
+    beside = runs_beside(ctx.scenario.body, source)
+    names = {name for member in beside for name in actors_of(member)}
+    if any(name in ctx.cast and not ctx.cast[name].walks for name in names):
+        ctx.report.approximate(
+            f"action {source.action}",
+            source.span,
+            "the road becomes slippery while vehicles move; what that does to an action that has"
+            " begun the XML leaves to the tool",
+            f"vehicles keep the acceleration that they were told, beyond {adhesion:g} of the grip"
+            " of a dry road",
+        )

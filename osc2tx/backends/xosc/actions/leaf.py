@@ -1,0 +1,206 @@
+"""One invocation of an action, as those see it who write it down.
+
+A handler of an action or a modifier takes a `Leaf` and returns what changes: one `Change` for each
+domain (longitudinal, lateral) that it controls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, Protocol, TypeAlias
+
+from osc2tx import ir
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.actors import Limits, held_by, road_condition
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import ActorState
+from osc2tx.backends.xosc.values.constants import Constant, Member, Named
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+Ending: TypeAlias = Literal["goal", "open", "instant"]
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What an action does in one domain.
+
+    Attributes:
+        domain: `longitudinal` or `lateral`.
+        actions: Elements that do it, `PrivateAction` or `GlobalAction`; none if it is so already.
+        time: Seconds until it is done; `None` if that is not known, infinite if it never is.
+        during: What is known about the actor until then.
+        after: What is known about it from then on.
+    """
+
+    domain: str
+    actions: tuple[Element, ...]
+    time: float | None
+    during: ActorState
+    after: ActorState
+
+
+@dataclass(frozen=True, slots=True)
+class Later:
+    """A global action that is carried out so many seconds after its invocation began."""
+
+    seconds: float
+    action: Element
+
+
+@dataclass(frozen=True, slots=True)
+class Performance:
+    """What an action does.
+
+    Attributes:
+        changes: By domain.
+        ends: At its goal, at once, or never by itself.
+        lasts: Seconds after which it is over, if that does not follow from its elements.
+        reached: Conditions that hold when it is over, likewise; any of them is enough.
+    """
+
+    changes: tuple[Change, ...]
+    ends: Ending
+    lasts: float | None = None
+    reached: tuple[Element, ...] = ()
+
+
+class Course(Protocol):
+    """A speed that changes for some time."""
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+
+    def value(self, t: float) -> float:
+        """Return the speed (m/s) after some seconds."""
+
+
+class Arguments:
+    """Arguments of an action or modifier by parameter, as constants."""
+
+    def __init__(
+        self, ctx: Context, arguments: tuple[ir.Argument, ...], source: ir.ModifierCall | ir.Invoke
+    ) -> None:
+        """Take the arguments; nothing is computed before it is asked for."""
+        self._ctx = ctx
+        self._by_name = {argument.parameter: argument for argument in arguments}
+        self._used: set[str] = set()
+        self.source = source
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._by_name
+
+    def expression(self, name: str) -> ir.Expression | None:
+        """Return the expression of an argument."""
+        self._used.add(name)
+        argument = self._by_name.get(name)
+        return None if argument is None else argument.value
+
+    def get(self, name: str) -> Constant | None:
+        """Return the value of an argument."""
+        expression = self.expression(name)
+        return None if expression is None else self._ctx.values.of(expression)
+
+    def number(self, name: str) -> float | None:
+        """Return a number, in SI units."""
+        expression = self.expression(name)
+        return None if expression is None else self._ctx.values.number(expression)
+
+    def member(self, name: str, default: str) -> str:
+        """Return the name of a member of an enum."""
+        value = self.get(name)
+        return value.name if isinstance(value, Member) else default
+
+    def text(self, name: str) -> str | None:
+        """Return a string."""
+        value = self.get(name)
+        return value if isinstance(value, str) else None
+
+    def entity(self, name: str) -> CastMember | None:
+        """Return an actor."""
+        value = self.get(name)
+        if value is None:
+            return None
+        if not isinstance(value, Named) or value.name not in self._ctx.cast:
+            raise Inexpressible(f"`{name}` is no entity of the XML", self.source.span)
+        return self._ctx.cast[value.name]
+
+    def finish(self) -> None:
+        """Refuse arguments that nobody has asked for: they would be dropped.
+
+        Raises:
+            Inexpressible: There are some.
+        """
+        for name, argument in self._by_name.items():
+            if name not in self._used:
+                raise Inexpressible(f"argument `{name}` has no counterpart", argument.span)
+
+
+class Leaf:
+    """An invocation.
+
+    Attributes:
+        ctx: The context.
+        node: The invocation.
+        member: Who acts.
+        arguments: Those of the action.
+        state: What is known about the actor at the start.
+        duration: Seconds, if the invocation says.
+        event: Name of the event that will carry it out.
+        is_start: It begins with the run.
+        course: Of the speed, where the changes say it.
+        way: Metres after which it is over.
+        reached: Conditions that hold when it is over.
+        others: Who does what from its end on, and a word for it.
+    """
+
+    def __init__(
+        self,
+        ctx: Context,
+        node: ir.Invoke,
+        member: CastMember,
+        event: str,
+        *,
+        is_start: bool,
+    ) -> None:
+        """Take the invocation."""
+        self.ctx = ctx
+        self.node = node
+        self.member = member
+        self.arguments = Arguments(ctx, node.arguments, node)
+        self.state = ctx.states[member.name]
+        self.duration = None if node.duration is None else ctx.values.number(node.duration)
+        self.event = event
+        self.is_start = is_start
+        self.course: Course | None = None
+        self.way: float | None = None
+        self.reached: tuple[Element, ...] = ()
+        self.others: list[tuple[CastMember, Element, str]] = []
+
+    def on_me(self, condition: Element) -> Element:
+        """Return a condition on the actor."""
+        me = element("EntityRef", entityRef=self.member.name)
+        return element(
+            "ByEntityCondition",
+            element("TriggeringEntities", me, triggeringEntitiesRule="any"),
+            element("EntityCondition", condition),
+        )
+
+    @property
+    def limits(self) -> Limits:
+        """What the actor can do on roads that the weather has wetted."""
+        return held_by(self.member.limits, road_condition(self.ctx.weather))
+
+    @property
+    def construct(self) -> str:
+        """What it is called in reports."""
+        return f"action {self.node.action}"
+
+
+Perform: TypeAlias = Callable[[Leaf], Performance]
+PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Element | Later, ...]]
+"""Returns `GlobalAction` elements."""
+
+Modify: TypeAlias = Callable[[Leaf, ir.ModifierCall, Arguments], tuple[Change, ...]]

@@ -1,0 +1,101 @@
+"""Actions of vehicles and walkers (§8.8), and the modifiers of their movement (§8.9).
+
+One entry of `ACTIONS` for each action, one of `MODIFIERS` for each modifier; environment, lights
+and the like add theirs in files of their own (`registry`).
+"""
+
+from __future__ import annotations
+
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, Performance
+from osc2tx.backends.xosc.actions.modify import modified
+from osc2tx.backends.xosc.actions.registry import action
+from osc2tx.backends.xosc.actions.speed_modifiers import time_to_cover
+from osc2tx.backends.xosc.actions.speeds import change_speed, hold_speed, jump_to
+from osc2tx.backends.xosc.actions.walking import stand, walk_on
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import LONGITUDINAL, known
+
+WAYS = {"along", "along_trajectory"}
+"""Modifiers that say where to go."""
+
+
+@action("drive", "move")
+def _drive(leaf: Leaf) -> Performance:
+    if leaf.state.pose is not None and leaf.member.walks:
+        return _walk(leaf)
+    changes = modified(leaf)
+    ends: Ending = "goal" if _has_goal(leaf) else "open"
+    return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
+
+
+@action("walk")
+def _walk(leaf: Leaf) -> Performance:
+    if leaf.state.pose is None:
+        return _drive(leaf)
+    names = {call.name for call in leaf.node.modifiers}
+    if names & WAYS and names <= WAYS | {"physical_movement", "speed"}:
+        return Performance(modified(leaf), "goal")
+    if names == {"keep_position"}:
+        leaf.ctx.report.exact("modifier keep_position", leaf.node.modifiers[0].span)
+        is_still = leaf.state.speed == known(0.0)
+        return Performance(() if is_still else (stand(leaf),), "open")
+    for call in leaf.node.modifiers:
+        if call.name != "speed" or call.at == "end":
+            raise Inexpressible(f"`{call.name}` of a walker off the lanes", call.span)
+    return Performance((walk_on(leaf, _walking_speed(leaf)),), "open")
+
+
+def _walking_speed(leaf: Leaf) -> float | None:
+    for call in leaf.node.modifiers:
+        arguments = Arguments(leaf.ctx, call.arguments, call)
+        with leaf.ctx.report_as(f"modifier {call.name}", call.span):
+            speed = arguments.number("speed")
+            arguments.finish()
+            return speed
+    return None
+
+
+@action("change_speed")
+def _change_speed(leaf: Leaf) -> Performance:
+    arguments = leaf.arguments
+    target = arguments.number("target")
+    if target is None:
+        raise Inexpressible("it has no target", leaf.node.span)
+    profile = arguments.member("rate_profile", "none")
+    peak = arguments.number("rate_peak")
+    change = change_speed(leaf, target, profile, peak, leaf.duration)
+    return Performance((change, *modified(leaf)), "goal")
+
+
+@action("assign_speed")
+def _assign_speed(leaf: Leaf) -> Performance:
+    target = leaf.arguments.number("speed")
+    if target is None:
+        raise Inexpressible("it has no speed", leaf.node.span)
+    return Performance((jump_to(leaf, target),), "goal")
+
+
+@action("keep_speed")
+def _keep_speed(leaf: Leaf) -> Performance:
+    changes = modified(leaf)
+    if any(domain == LONGITUDINAL for domain, _ in leaf.state.unfinished):
+        after = leaf.state.finished(LONGITUDINAL)
+        held = Change(LONGITUDINAL, (hold_speed(leaf.member.name),), 0.0, after, after)
+        changes = (held, *changes)
+    return Performance(changes, "open")
+
+
+@action("remain_stationary")
+def _remain_stationary(leaf: Leaf) -> Performance:
+    if leaf.state.speed == known(0.0):
+        return Performance(modified(leaf), "open")
+    if leaf.member.walks:
+        return Performance((stand(leaf),), "open")
+    return Performance((change_speed(leaf, 0.0, "asap", None, None), *modified(leaf)), "open")
+
+
+def _has_goal(leaf: Leaf) -> bool:
+    if leaf.duration is not None:
+        return False
+    modifiers = leaf.node.modifiers
+    return any(call.at == "end" or call.name.startswith("along") for call in modifiers)

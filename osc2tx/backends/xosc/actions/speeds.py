@@ -1,0 +1,209 @@
+"""Changes of the speed, with the course that the embedded world gives them.
+
+A course that a `SpeedAction` draws exactly becomes one. Others become a `SpeedProfileAction` (1.2),
+which has the limits of acceleration and jerk, or any course through points. Before 1.2, and where
+the course is up to the tool anyway, a `SpeedAction` of the same length stands for it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx.backends.xosc.actions.leaf import Change, Course, Leaf
+from osc2tx.backends.xosc.facts.actors import (
+    COMFORT,
+    GENTLE,
+    Cosine,
+    Limits,
+    Linear,
+    Profile,
+    course_of_speed,
+)
+from osc2tx.backends.xosc.report import Remedy
+from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, known
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+POINTS = 12
+"""Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
+
+
+PROFILE_ACTION = "SpeedProfileAction"
+
+
+def change_speed(
+    leaf: Leaf, target: float, profile: str, peak: float | None, duration: float | None
+) -> Change:
+    """Return the change of the speed of an actor.
+
+    Args:
+        leaf: The invocation.
+        target: m/s.
+        profile: `none`, `constant`, `smooth` or `asap` (§8.8.2.18).
+        peak: Of the acceleration (m/s^2).
+        duration: Seconds that it takes.
+
+    Where the speed at the start is not known, the scenario leaves the length of the change open,
+    and so does the rate that stands here: it is the one of the embedded world.
+    """
+    state = leaf.state
+    after = replace(state, speed=known(target)).finished(LONGITUDINAL)
+    if state.speed == known(target) and not _is_changing(state):
+        return Change(LONGITUDINAL, (), 0.0, after, after)
+    passed = None if state.speed is None else state.speed.over(known(target))
+    during = replace(after, speed=passed, aim=target)
+    if state.speed is not None and state.speed.is_known:
+        start = state.speed.low
+        course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
+        leaf.course = course
+        action = _from_known(leaf, course, target, profile, peak)
+        return Change(LONGITUDINAL, (action,), course.duration, during, after)
+    action = _from_unknown(leaf, target, profile, peak, duration)
+    return Change(LONGITUDINAL, (action,), duration, during, after)
+
+
+def jump_to(leaf: Leaf, target: float) -> Change:
+    """Return the change of the speed in no time."""
+    after = replace(leaf.state, speed=known(target)).finished(LONGITUDINAL)
+    return Change(LONGITUDINAL, (speed_action(target, "step", "time", 0.0),), 0.0, after, after)
+
+
+def _is_changing(state: ActorState) -> bool:
+    return any(domain == LONGITUDINAL for domain, _ in state.unfinished)
+
+
+def _from_known(
+    leaf: Leaf, course: Profile, target: float, profile: str, peak: float | None
+) -> Element:
+    if isinstance(course, Linear):
+        return speed_action(target, "linear", "time", course.duration)
+    if isinstance(course, Cosine):
+        return speed_action(target, _curve(leaf, profile), "time", course.duration)
+    if leaf.ctx.can(PROFILE_ACTION, "1.2"):
+        return within_limits(target, leaf.limits, profile, peak)
+    return speed_action(target, "linear", "time", course.duration)
+
+
+def _from_unknown(
+    leaf: Leaf, target: float, profile: str, peak: float | None, duration: float | None
+) -> Element:
+    limits = leaf.limits
+    if duration is not None and profile != "asap":
+        shape = "linear" if profile == "constant" else _curve(leaf, profile)
+        return speed_action(target, shape, "time", duration)
+    if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
+        return within_limits(target, limits, profile, peak)
+    limit = _limit_towards(leaf, target, profile)
+    share = {"asap": 1.0, "smooth": COMFORT * GENTLE}.get(profile, COMFORT)
+    rate = round(share * limit, 6) if peak is None else peak
+    shape = "sinusoidal" if profile == "smooth" else "linear"
+    return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
+
+
+def _curve(leaf: Leaf, profile: str) -> str:
+    """Return the shape of a smooth change; tools without shapes do as they like if they may."""
+    is_free = profile == "none" and not leaf.ctx.profile.has_shapes
+    return "linear" if is_free else "sinusoidal"
+
+
+def _limit_towards(leaf: Leaf, target: float, profile: str) -> float:
+    """Return the limit of the acceleration on the way to a target.
+
+    If only the run shows whether it has to go faster or slower, it is taken for granted that the
+    change before has come to its end; where there is none, the smaller limit holds.
+    """
+    limits, speed, aim = leaf.limits, leaf.state.speed, leaf.state.aim
+    if speed is not None and target >= speed.high:
+        return limits.acceleration
+    if target <= 0.0 or (speed is not None and target <= speed.low):
+        return limits.deceleration
+    taken = min(limits.acceleration, limits.deceleration)
+    if speed is not None and aim is not None and aim != target and speed.low <= aim <= speed.high:
+        taken = limits.acceleration if target > aim else limits.deceleration
+    if profile == "asap" and limits.acceleration != limits.deceleration:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "whether it has to go faster or slower is only known during the run",
+            f"it uses {taken:g} m/s^2 in both directions",
+            Remedy(version="1.2"),
+        )
+    return taken
+
+
+def speed_action(target: float, shape: str, dimension: str, value: float) -> Element:
+    """Return a `SpeedAction` to an absolute speed."""
+    return longitudinal(
+        element(
+            "SpeedAction",
+            element(
+                "SpeedActionDynamics",
+                dynamicsShape=shape,
+                dynamicsDimension=dimension,
+                value=value,
+            ),
+            element("SpeedActionTarget", element("AbsoluteTargetSpeed", value=target)),
+        )
+    )
+
+
+def hold_speed(entity: str) -> Element:
+    """Return the action that ends a change of the speed where it is."""
+    return longitudinal(
+        element(
+            "SpeedAction",
+            element(
+                "SpeedActionDynamics",
+                dynamicsShape="step",
+                dynamicsDimension="time",
+                value=0.0,
+            ),
+            element(
+                "SpeedActionTarget",
+                element(
+                    "RelativeTargetSpeed",
+                    entityRef=entity,
+                    value=0.0,
+                    speedTargetValueType="delta",
+                    continuous=False,
+                ),
+            ),
+        )
+    )
+
+
+def longitudinal(action: Element) -> Element:
+    """Return the private action around a longitudinal one."""
+    return element("PrivateAction", element("LongitudinalAction", action))
+
+
+def within_limits(target: float, limits: Limits, profile: str, peak: float | None) -> Element:
+    """Return the fastest change within limits of acceleration and jerk."""
+    share = 1.0 if profile == "asap" else COMFORT
+    return longitudinal(
+        element(
+            PROFILE_ACTION,
+            element(
+                "DynamicConstraints",
+                maxAcceleration=share * limits.acceleration if peak is None else peak,
+                maxAccelerationRate=limits.jerk,
+                maxDeceleration=share * limits.deceleration if peak is None else peak,
+                maxDecelerationRate=limits.jerk,
+            ),
+            element("SpeedProfileEntry", speed=target),
+            followingMode="follow",
+        )
+    )
+
+
+def through_points(course: Course, count: int = POINTS) -> Element:
+    """Return a course through points, with times since the point before."""
+    step = course.duration / count
+    entries = [
+        element(
+            "SpeedProfileEntry",
+            time=round(step, 9),
+            speed=round(course.value(index * step), 9),
+        )
+        for index in range(1, count + 1)
+    ]
+    return longitudinal(element(PROFILE_ACTION, *entries, followingMode="position"))

@@ -1,0 +1,1 @@
+"""Conditions: expressions, and what can be measured, as triggers."""

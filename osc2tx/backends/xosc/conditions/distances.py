@@ -1,0 +1,185 @@
+"""Distances between actors, as conditions."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+from osc2tx.backends.xosc.conditions.measured import MIRRORED, Comparison, Groups, of_entity
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.standing import standing_heading
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+
+def object_distance(ctx: Context, c: Comparison) -> Groups:
+    """Compare a distance in the axes of the actor (§8.7.3)."""
+    direction = c.member("direction", "euclidean")
+    freespace = c.member("mode", "reference_points") == "bounding_boxes"
+    if direction != "euclidean":
+        ctx.require(f"a {direction} distance in the axes of an object", "1.1", c.source.span)
+        if direction == "vertical":
+            raise Inexpressible("there is no condition on a vertical distance", c.source.span)
+        return _signed(ctx, c, direction, freespace, "entity", ahead_is_positive=True)
+    kind = "euclidianDistance" if ctx.version >= "1.1" else "cartesianDistance"
+    condition = element(
+        "RelativeDistanceCondition",
+        entityRef=c.reference(),
+        relativeDistanceType=kind,
+        value=c.value,
+        freespace=freespace,
+        rule=c.rule,
+    )
+    return ((of_entity(c.actor, condition),),)
+
+
+def road_distance(ctx: Context, c: Comparison) -> Groups:
+    """Compare a distance along or across the road, positive if the reference is ahead or left."""
+    freespace = c.member("mode", "reference_points") == "bounding_boxes"
+    direction = c.member("direction", "longitudinal")
+    return _signed(ctx, c, direction, freespace, "road", ahead_is_positive=True)
+
+
+def space_gap(ctx: Context, c: Comparison) -> Groups:
+    """Compare the space between facing ends or sides, positive if the actor is ahead or left."""
+    direction = c.member("direction", "longitudinal")
+    return _signed(ctx, c, direction, True, "road", ahead_is_positive=False)
+
+
+def ahead_of(ctx: Context, c: Comparison) -> Groups:
+    """Compare by how much the actor is ahead along the road."""
+    return _signed(ctx, c, "longitudinal", False, "road", ahead_is_positive=False)
+
+
+def behind(ctx: Context, c: Comparison) -> Groups:
+    """Compare by how much the actor is behind along the road."""
+    return _signed(ctx, c, "longitudinal", False, "road", ahead_is_positive=True)
+
+
+FAR = 10000.0
+"""Metres that no pair of actors is apart."""
+
+MANY_LANES = 100
+"""Lanes that no road has; without a range esmini finds no lane at all."""
+
+
+def _signed(
+    ctx: Context,
+    c: Comparison,
+    direction: str,
+    freespace: bool,
+    system: str,
+    *,
+    ahead_is_positive: bool,
+) -> Groups:
+    """Return the conditions for a distance with a sign, which the XML measures without.
+
+    Args:
+        ctx: The context.
+        c: The comparison.
+        direction: `longitudinal` or `lateral`.
+        freespace: Between bounding boxes.
+        system: Coordinate system of the XML.
+        ahead_is_positive: The distance is positive if the reference is ahead of the actor.
+    """
+    shifted = None if freespace else _shifted(ctx, c, direction, system)
+    if shifted is not None:
+        return shifted
+    me, other = c.actor, c.reference()
+    behind, ahead = (me, other) if ahead_is_positive else (other, me)
+    rule, value = c.rule, c.value
+    if value < 0.0:
+        behind, ahead, rule, value = ahead, behind, MIRRORED[rule], -value
+    has_order = direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2")
+    if value == 0.0 and not freespace:  # only the order counts
+        if not has_order:
+            remedy = Remedy(version="1.2") if direction == "longitudinal" else Remedy()
+            reason = (
+                "conditions on distances have no sign, so they cannot ask for that of a distance"
+            )
+            raise Inexpressible(reason, c.source.span, remedy)
+        first, second = (ahead, behind) if rule.startswith("less") else (behind, ahead)
+        return ((_is_ahead(first, second),),)
+    distance = of_entity(
+        me,
+        element(
+            "RelativeDistanceCondition",
+            entityRef=other,
+            relativeDistanceType=direction,
+            coordinateSystem=system if ctx.version >= "1.1" else None,
+            value=value,
+            freespace=freespace,
+            rule=rule,
+        ),
+    )
+    if has_order:
+        if rule.startswith("less") and not c.is_edge:
+            return ((distance,), (_is_ahead(ahead, behind),))
+        return ((distance, _is_ahead(behind, ahead)),)
+    span = c.source.span
+    ctx.report.approximate(
+        f"sign of {c.name}",
+        span,
+        "conditions on distances have no sign",
+        f"differs only while {behind} is on the other side of {ahead} by more than {value:g} m",
+        Remedy(version="1.2") if direction == "longitudinal" else Remedy(),
+    )
+    return ((distance,),)
+
+
+def _shifted(ctx: Context, c: Comparison, direction: str, system: str) -> Groups | None:
+    """Return the condition on the distance to a place far beyond the reference.
+
+    That distance is the one asked for, with its sign, and so much more. The place lies in the
+    direction of an axis of the actor, so its heading has to be known: it stands.
+    """
+    if system != "entity" or not ctx.can("RelativeWorldPosition", "1.1"):
+        return None
+    heading = standing_heading(ctx, c.actor)
+    if heading is None:
+        return None
+    angle = heading if direction == "longitudinal" else heading + 0.5 * pi
+    place = element(
+        "RelativeWorldPosition",
+        entityRef=c.reference(),
+        dx=round(FAR * cos(angle), 6),
+        dy=round(FAR * sin(angle), 6),
+        dz=0.0,
+    )
+    condition = element(
+        "DistanceCondition",
+        element("Position", place),
+        value=FAR + c.value,
+        rule=c.rule,
+        freespace=False,
+        coordinateSystem=system,
+        relativeDistanceType=direction,
+    )
+    return ((of_entity(c.actor, condition),),)
+
+
+def _is_ahead(behind: str, ahead: str) -> Element:
+    """Return the condition that one actor is not behind another one, on whatever lane."""
+    return of_entity(
+        behind,
+        element(
+            "RelativeClearanceCondition",
+            element("RelativeLaneRange", from_=-MANY_LANES, to=MANY_LANES),
+            element("EntityRef", entityRef=ahead),
+            distanceForward=0.0,
+            distanceBackward=FAR,
+            freeSpace=False,
+            oppositeLanes=True,
+        ),
+    )
+
+
+def space_headway(ctx: Context, c: Comparison) -> Groups:
+    """From front to front; the XML counts between reference points."""
+    shifted = c._replace(value=c.value + overhang(ctx, c.actor, c.reference()))
+    return _signed(ctx, shifted, "longitudinal", False, "road", ahead_is_positive=True)
+
+
+def overhang(ctx: Context, behind: str, ahead: str) -> float:
+    """Return by how much (m) reference points are farther apart than fronts."""
+    shapes = {member.name: member.shape for member in ctx.cast.values()}
+    return round(shapes[behind].front - shapes[ahead].front, 9)

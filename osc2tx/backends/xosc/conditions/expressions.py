@@ -1,0 +1,226 @@
+"""Expressions of conditions as triggers: an OR of ANDs of comparisons with constants."""
+
+from __future__ import annotations
+
+from typing import TypeGuard
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.signals import shows
+from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
+from osc2tx.backends.xosc.conditions.measured import Comparison, Groups
+from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES, relative_speed
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.flattening.payloads import carries
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.values.constants import Constant, Named
+
+RULES = {
+    ">": "greaterThan",
+    "<": "lessThan",
+    ">=": "greaterOrEqual",
+    "<=": "lessOrEqual",
+    "==": "equalTo",
+    "!=": "notEqualTo",
+}
+OPPOSITE = {">": "<=", "<": ">=", ">=": "<", "<=": ">", "==": "!=", "!=": "=="}
+SWAPPED = {">": "<", "<": ">", ">=": "<=", "<=": ">=", "==": "==", "!=": "!="}
+MOST_GROUPS = 16
+
+ALWAYS = Flow(((),))
+
+
+def condition_flow(ctx: Context, condition: ir.Condition) -> Flow:
+    """Return the tests of a level or an edge.
+
+    Raises:
+        Inexpressible: The XML has no such condition.
+    """
+    match condition:
+        case ir.Level(expression=expression):
+            return level_flow(ctx, expression)
+        case ir.Edge(expression=expression, rising=rising):
+            return _edge_flow(ctx, expression, rising=rising)
+    raise Inexpressible(f"`{condition.span.text}` has no counterpart here", condition.span)
+
+
+def level_flow(ctx: Context, expression: ir.Expression) -> Flow:
+    """Return the tests of a truth value."""
+    found = _flow(ctx, expression, negated=False, edge="none")
+    if len(found.groups) > MOST_GROUPS:
+        reason = f"the condition has {len(found.groups)} alternatives; {MOST_GROUPS} are the most"
+        raise Inexpressible(reason, expression.span)
+    return found
+
+
+def _edge_flow(ctx: Context, expression: ir.Expression, *, rising: bool) -> Flow:
+    if not ctx.profile.has_edges:
+        raise Inexpressible(
+            f"{ctx.profile.name} does not look at edges", expression.span, Remedy(profile="generic")
+        )
+    while isinstance(expression, ir.Unary) and expression.operator == "not":
+        expression, rising = expression.operand, not rising
+    if _is_light(expression):
+        return _light_edge(ctx, expression, rising=rising)
+    if not (isinstance(expression, ir.Binary) and expression.operator in RULES):
+        raise Inexpressible(
+            "`rise` and `fall` of more than one comparison have no counterpart", expression.span
+        )
+    return _comparison(ctx, expression, expression.operator, "rising" if rising else "falling")
+
+
+def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge) -> Flow:
+    match expression:
+        case ir.Unary(operator="not", operand=operand):
+            return _flow(ctx, operand, negated=not negated, edge=edge)
+        case ir.Binary(operator="=>", left=left, right=right):
+            first = _flow(ctx, left, negated=not negated, edge=edge)
+            second = _flow(ctx, right, negated=negated, edge=edge)
+            return first & second if negated else first | second
+        case ir.Binary(operator="and" | "or" as operator, left=left, right=right):
+            first = _flow(ctx, left, negated=negated, edge=edge)
+            second = _flow(ctx, right, negated=negated, edge=edge)
+            return first & second if (operator == "and") is not negated else first | second
+        case ir.Binary(operator=operator) if operator in RULES and ir.is_live(expression):
+            return _comparison(ctx, expression, OPPOSITE[operator] if negated else operator, edge)
+    if isinstance(expression, ir.EventArgument):  # a truth value
+        return Flow(((Test(carries(ctx, expression, "equalTo", not negated), edge),),))
+    if _is_light(expression) and not negated:
+        return Flow((tuple(Test(each, edge) for each in shows(ctx, expression)),))
+    if not ir.is_live(expression):
+        return ALWAYS if bool(ctx.values.of(expression)) is not negated else NEVER
+    raise Inexpressible(
+        f"`{expression.span.text}` is no comparison with a constant", expression.span
+    )
+
+
+def _is_light(expression: ir.Expression) -> TypeGuard[ir.MethodCall]:
+    """Whether an expression is a condition on what traffic lights show."""
+    return isinstance(expression, ir.MethodCall) and expression.method == "state_equal"
+
+
+def _light_edge(ctx: Context, call: ir.MethodCall, *, rising: bool) -> Flow:
+    """Return the tests for the moment at which all lights show something, or no longer do."""
+    conditions = shows(ctx, call)
+    if not rising and len(conditions) > 1:
+        raise Inexpressible("the moment at which a group shows something else", call.span)
+    edge: Edge = "rising" if rising else "falling"
+    groups = []
+    for last in conditions:  # whichever is the last one to show it
+        others = tuple(Test(each) for each in conditions if each is not last)
+        groups.append((*others, Test(last, edge)))
+    return Flow(tuple(groups))
+
+
+def _comparison(ctx: Context, expression: ir.Binary, operator: str, edge: Edge) -> Flow:
+    left, right = expression.left, expression.right
+    if not ir.is_live(left):
+        left, right, operator = right, left, SWAPPED[operator]
+    if edge == "falling" and isinstance(left, ir.MethodCall) and left.method in FINITE:
+        operator, edge = OPPOSITE[operator], "rising"
+    rule = _rule(ctx, operator, expression)
+    speeds = _speeds(ctx, left, right)
+    if isinstance(left, ir.EventArgument) and not ir.is_live(right):
+        groups: Groups = ((carries(ctx, left, rule, ctx.values.of(right)),),)
+    elif speeds is not None:
+        actor, other, difference = speeds
+        groups = relative_speed(ctx, actor, other, rule, difference)
+    elif ir.is_live(right):
+        raise Inexpressible(
+            "a condition compares one measure with a constant, not two measures", expression.span
+        )
+    else:
+        groups = _measured(ctx, left, rule, ctx.values.number(right), edge)
+    tests = []
+    for first, *others in groups:
+        tests.append((Test(first, edge), *(Test(other) for other in others)))
+    return Flow(tuple(tests))
+
+
+def _speeds(
+    ctx: Context, left: ir.Expression, right: ir.Expression
+) -> tuple[str, str, float] | None:
+    """Return two actors and by how much the speed of the first one has to exceed the other's."""
+    difference = 0.0
+    if isinstance(left, ir.Binary) and left.operator == "-" and not ir.is_live(right):
+        difference, right, left = ctx.values.number(right), left.right, left.left
+    if isinstance(right, ir.Binary) and right.operator in ("+", "-"):
+        constant = right.right
+        other = right.left
+        if right.operator == "+" and ir.is_live(constant):
+            constant, other = other, constant
+        if ir.is_live(constant):
+            return None
+        sign = 1.0 if right.operator == "+" else -1.0
+        difference, right = difference + sign * ctx.values.number(constant), other
+    mine, theirs = _speed_of(ctx, left), _speed_of(ctx, right)
+    return None if mine is None or theirs is None else (mine, theirs, difference)
+
+
+def _speed_of(ctx: Context, expression: ir.Expression) -> str | None:
+    """Return the entity whose speed an expression is."""
+    if not isinstance(expression, ir.Attribute) or expression.name != "speed":
+        return None
+    if not ir.is_live(expression) or not isinstance(expression.base, ir.FieldRef):
+        return None
+    actor = ctx.values.of(expression.base)
+    if not isinstance(actor, Named) or actor.name not in ctx.cast:
+        return None
+    return ctx.cast[actor.name].name
+
+
+def _rule(ctx: Context, operator: str, expression: ir.Binary) -> str:
+    """Return the literal; 1.0 has no rules that include the boundary."""
+    if ctx.version > "1.0" or operator in (">", "<", "=="):
+        return RULES[operator]
+    if operator == "!=":
+        ctx.require("the rule `notEqualTo`", "1.1", expression.span)
+    strict = operator[0]
+    ctx.report.approximate(
+        f"`{operator}`",
+        expression.span,
+        f"OpenSCENARIO XML 1.0 has no rule for `{operator}`; `{strict}` is written",
+        "differs only while both sides are equal",
+        Remedy(version="1.1"),
+    )
+    return RULES[strict]
+
+
+def _measured(ctx: Context, measure: ir.Expression, rule: str, value: float, edge: Edge) -> Groups:
+    match measure:
+        case ir.Attribute(base=base, name=name, owner=owner):
+            arguments: dict[str, Constant] = {}
+        case ir.MethodCall(base=base, method=name, owner=owner):
+            arguments = {a.parameter: _argument(ctx, a.value) for a in measure.arguments}
+        case _:
+            raise Inexpressible(
+                f"`{measure.span.text}` is computed, and OpenSCENARIO XML does not compute",
+                measure.span,
+            )
+    path = name
+    while isinstance(base, ir.Attribute):
+        path, base = f"{base.name}.{path}", base.base
+    actor = ctx.values.of(base)
+    if path in MEASURES or isinstance(measure, ir.Attribute):
+        name = path
+    found = MEASURES.get(name)
+    if found is None or not isinstance(actor, Named) or actor.name not in ctx.cast:
+        raise Inexpressible(f"there is no condition on `{owner}.{name}`", measure.span)
+    comparison = Comparison(
+        actor=ctx.cast[actor.name].name,
+        owner=owner,
+        name=name,
+        arguments=arguments,
+        rule=rule,
+        value=value,
+        is_edge=edge != "none",
+        source=measure,
+    )
+    return found(ctx, comparison)
+
+
+def _argument(ctx: Context, expression: ir.Expression) -> Constant:
+    """Return the value of an argument; actors by their names in the XML."""
+    value = ctx.values.of(expression)
+    if isinstance(value, Named) and value.name in ctx.cast:
+        return Named(ctx.cast[value.name].name)
+    return value

@@ -1,0 +1,128 @@
+"""When something may start: an OR of ANDs of tests, the only form that triggers have.
+
+A test that stays true once it is (the state `completeState` of an element, a point in time) is
+latched. Only a latched flow can be waited on for a time, or be joined with others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+from typing import Literal, TypeAlias
+
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.light_dataclass import dataclass
+
+ElementKind: TypeAlias = Literal["act", "action", "event", "maneuver", "maneuverGroup", "story"]
+Edge: TypeAlias = Literal["none", "rising", "falling"]
+
+
+@dataclass(frozen=True, slots=True)
+class Test:
+    """One condition of a trigger.
+
+    Attributes:
+        condition: `ByValueCondition` or `ByEntityCondition`.
+        edge: Whether only a change counts.
+        delay: Seconds for which its value is held back.
+        latched: It stays true.
+        reached: The time at which it comes true (s), if it is a point in time.
+        is_constant: It is the same during the whole run.
+    """
+
+    condition: Element
+    edge: Edge = "none"
+    delay: float = 0.0
+    latched: bool = False
+    reached: float | None = None
+    is_constant: bool = False
+
+    def later(self, seconds: float) -> Test:
+        """Return the test that comes true so much later."""
+        if self.is_constant:
+            return self
+        if self.reached is not None:
+            return at_time(self.reached + seconds)
+        return replace(self, delay=self.delay + seconds)
+
+
+Group: TypeAlias = tuple[Test, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Flow:
+    """An OR of groups; within a group all tests must hold. Without groups it never comes true."""
+
+    groups: tuple[Group, ...]
+
+    @property
+    def is_latched(self) -> bool:
+        """Whether it stays true once it is."""
+        return all(test.latched for group in self.groups for test in group)
+
+    @property
+    def is_never(self) -> bool:
+        """Whether it cannot come true."""
+        return not self.groups
+
+    def later(self, seconds: float) -> Flow:
+        """Return the flow that comes true so much later; only latched ones can be asked."""
+        if seconds == 0.0:
+            return self
+        return Flow(tuple(tuple(test.later(seconds) for test in group) for group in self.groups))
+
+    def __and__(self, other: Flow) -> Flow:
+        pairs = product(self.groups, other.groups)
+        return Flow(tuple(_joined(left, right) for left, right in pairs))
+
+    def __or__(self, other: Flow) -> Flow:
+        return Flow(tuple(dict.fromkeys((*self.groups, *other.groups))))
+
+
+NEVER = Flow(())
+
+
+def _joined(left: Group, right: Group) -> Group:
+    """Return the tests of both; of several points in time the last one counts."""
+    tests = tuple(dict.fromkeys((*left, *right)))
+    last = max((test.reached for test in tests if test.reached is not None), default=None)
+    return tuple(test for test in tests if test.reached in (None, last))
+
+
+def single(test: Test) -> Flow:
+    """Return the flow of one test."""
+    return Flow(((test,),))
+
+
+def chosen(parameter: str, value: str) -> Flow:
+    """Return the flow of a parameter of the document that has a value."""
+    condition = element("ParameterCondition", parameterRef=parameter, rule="equalTo", value=value)
+    return single(Test(element("ByValueCondition", condition), latched=True, is_constant=True))
+
+
+def run_start() -> Test:
+    """Return the test for the start of the run.
+
+    It holds from the second step on, when tools know the velocities.
+    """
+    condition = element("SimulationTimeCondition", value=0.0, rule="greaterThan")
+    return Test(element("ByValueCondition", condition), latched=True, reached=0.0)
+
+
+def at_time(seconds: float) -> Test:
+    """Return the test for a time since the start of the run; 1.0 has no `greaterOrEqual`."""
+    if seconds <= 0.0:
+        return run_start()
+    condition = element("SimulationTimeCondition", value=seconds, rule="greaterOrEqual")
+    return Test(element("ByValueCondition", condition), latched=True, reached=seconds)
+
+
+def state_of(kind: ElementKind, name: str, state: str = "completeState") -> Test:
+    """Return the test for the state of an element; running acts count as latched inside of them."""
+    condition = element(
+        "StoryboardElementStateCondition",
+        storyboardElementType=kind,
+        storyboardElementRef=name,
+        state=state,
+    )
+    return Test(element("ByValueCondition", condition), latched=True)

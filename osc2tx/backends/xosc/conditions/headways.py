@@ -1,0 +1,69 @@
+"""Times between actors, as conditions."""
+
+from __future__ import annotations
+
+from osc2tx.backends.xosc.conditions.distances import overhang
+from osc2tx.backends.xosc.conditions.measured import MIRRORED, Comparison, Groups, of_entity
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+
+def time_headway(ctx: Context, c: Comparison) -> Groups:
+    """Compare the time until the actor is where the front of the reference is now."""
+    behind, ahead, rule, value = c.actor, c.reference(), c.rule, c.value
+    if value < 0.0:
+        behind, ahead, rule, value = ahead, behind, MIRRORED[rule], -value
+    difference = overhang(ctx, behind, ahead)
+    if difference:
+        ctx.report.approximate(
+            "time_headway",
+            c.source.span,
+            "a time in the XML counts between reference points, not between fronts",
+            f"off by the time for {abs(difference):.2g} m",
+        )
+    return ((_headway(ctx, behind, ahead, rule, value, freespace=False),),)
+
+
+def time_gap(ctx: Context, c: Comparison) -> Groups:
+    """Compare the time until the follower is where the rear of the other one is now."""
+    if c.member("direction", "longitudinal") != "longitudinal":
+        raise Inexpressible("there is no time across the road in OpenSCENARIO XML", c.source.span)
+    # Positive if the caller is ahead: the other one follows.
+    behind, ahead, rule, value = c.reference(), c.actor, c.rule, c.value
+    if value < 0.0:
+        behind, ahead, rule, value = ahead, behind, MIRRORED[rule], -value
+    return ((_headway(ctx, behind, ahead, rule, value, freespace=True),),)
+
+
+def _headway(
+    ctx: Context, behind: str, ahead: str, rule: str, value: float, *, freespace: bool
+) -> Element:
+    newer = ctx.version >= "1.1"
+    condition = element(
+        "TimeHeadwayCondition",
+        entityRef=ahead,
+        value=value,
+        rule=rule,
+        freespace=freespace,
+        alongRoute=None if newer else True,
+        coordinateSystem="road" if newer else None,
+        relativeDistanceType="longitudinal" if newer else None,
+    )
+    return of_entity(behind, condition)
+
+
+def time_to_collision(ctx: Context, c: Comparison) -> Groups:
+    """Compare the time until both collide if their speeds stay as they are."""
+    newer = ctx.version >= "1.1"
+    condition = element(
+        "TimeToCollisionCondition",
+        element("TimeToCollisionConditionTarget", element("EntityRef", entityRef=c.reference())),
+        value=c.value,
+        rule=c.rule,
+        freespace=True,
+        alongRoute=None if newer else True,
+        coordinateSystem="lane" if newer else None,
+        relativeDistanceType="longitudinal" if newer else None,
+    )
+    return ((of_entity(c.actor, condition),),)

@@ -1,0 +1,78 @@
+"""A measure of an actor that is compared with a constant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, TypeAlias
+
+from osc2tx import ir
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Constant, Member, Named
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+
+class Comparison(NamedTuple):
+    """A measure compared with a constant.
+
+    Attributes:
+        actor: Whose measure.
+        owner: Type that declares the field or method.
+        name: The field or method.
+        arguments: By parameter.
+        rule: Literal of `Rule`.
+        value: The constant, in SI units.
+        is_edge: Only the moment at which it changes counts.
+        source: The expression.
+    """
+
+    actor: str
+    owner: str
+    name: str
+    arguments: Mapping[str, Constant]
+    rule: str
+    value: float
+    is_edge: bool
+    source: ir.Expression
+
+    def reference(self, parameter: str = "reference") -> str:
+        """Return the name of the other actor."""
+        value = self.arguments.get(parameter)
+        if not isinstance(value, Named):
+            raise Inexpressible(f"{self.name} needs `{parameter}`", self.source.span)
+        return value.name
+
+    def member(self, parameter: str, default: str) -> str:
+        """Return the member of an enum."""
+        value = self.arguments.get(parameter)
+        return value.name if isinstance(value, Member) else default
+
+
+Groups: TypeAlias = tuple[tuple[Element, ...], ...]
+"""Conditions: an OR of ANDs; an edge belongs to the first one of a group."""
+
+Measure: TypeAlias = Callable[[Context, Comparison], Groups]
+
+
+def of_entity(actor: str, condition: Element) -> Element:
+    """Return the condition on one entity."""
+    return element(
+        "ByEntityCondition",
+        element(
+            "TriggeringEntities",
+            element("EntityRef", entityRef=actor),
+            triggeringEntitiesRule="any",
+        ),
+        element("EntityCondition", condition),
+    )
+
+
+MIRRORED = {
+    "greaterThan": "lessThan",
+    "greaterOrEqual": "lessOrEqual",
+    "lessThan": "greaterThan",
+    "lessOrEqual": "greaterOrEqual",
+    "equalTo": "equalTo",
+    "notEqualTo": "notEqualTo",
+}
+"""Rule for `-a ? -b` instead of `a ? b`."""

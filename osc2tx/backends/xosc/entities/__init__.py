@@ -1,0 +1,1 @@
+"""The cast, and how it starts: `Entities` and `Init`."""

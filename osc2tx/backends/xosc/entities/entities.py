@@ -1,0 +1,233 @@
+"""Entities: vehicles, pedestrians and other objects with the attributes that the XML asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from osc2tx.backends.xosc.actions.models import check_model
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.axles import axles
+from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember, Choice
+from osc2tx.backends.xosc.entities.towing import couplings, towing
+from osc2tx.backends.xosc.facts.actors import TOP_SPEED
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Member
+from osc2tx.backends.xosc.xml.schema import has_attribute
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+# `vehicle_category` (§8.7.16) -> literal; all ten literals exist in every version.
+VEHICLE_CATEGORIES: Mapping[str, Choice] = {
+    "car": Choice("car"),
+    "van": Choice("van"),
+    "bus": Choice("bus"),
+    "truck": Choice("truck"),
+    "heavy_truck": Choice("truck"),
+    "semi_tractor": Choice("truck", "there is no literal for a semi-tractor"),
+    "trailer": Choice("trailer"),
+    "semi_trailer": Choice("semitrailer"),
+    "motorcycle": Choice("motorbike"),
+    "bicycle": Choice("bicycle"),
+    "stand_up_scooter": Choice("bicycle", "there is no literal for a scooter"),
+    "micro_mobility_device": Choice("bicycle", "there is no literal for such a device"),
+    "vru_vehicle": Choice("bicycle", "there is no literal for such a vehicle"),
+    "wheelchair": Choice("bicycle", "there is no literal for a wheelchair among vehicles"),
+    "train": Choice("train"),
+    "tram": Choice("tram"),
+    "work_machine": Choice("car", "there is no literal for a work machine"),
+    "land_vehicle": Choice("car", "there is no literal for a land vehicle of any kind"),
+    "other": Choice("car", "there is no literal for another kind of vehicle"),
+}
+
+# `trailer_category` (§8.7.17) -> literal.
+TRAILER_CATEGORIES: Mapping[str, str] = {
+    "semi_trailer": "semitrailer",
+    "full_trailer": "trailer",
+    "central_axle_trailer": "trailer",
+}
+
+# `traffic_participant_role` (§8.7.20) -> literal, from 1.2 on; a property says it before, and where
+# there is no literal.
+ROLES: Mapping[str, str] = {
+    "civil": "civil",
+    "ambulance": "ambulance",
+    "fire": "fire",
+    "fire_brigade": "fire",
+    "military": "military",
+    "police": "police",
+    "public_transport": "publicTransport",
+    "road_assistance": "roadAssistance",
+    "roadside_assistance": "roadAssistance",
+}
+
+# `color` (§8.7) -> red, green, blue; the XML has no colours, tools read them from a property.
+COLORS: Mapping[str, str] = {
+    "white": "255,255,255",
+    "silver": "192,192,192",
+    "gray": "128,128,128",
+    "black": "0,0,0",
+    "red": "255,0,0",
+    "maroon": "128,0,0",
+    "yellow": "255,255,0",
+    "olive": "128,128,0",
+    "lime": "0,255,0",
+    "green": "0,128,0",
+    "aqua": "0,255,255",
+    "teal": "0,128,128",
+    "blue": "0,0,255",
+    "navy": "0,0,128",
+    "fuchsia": "255,0,255",
+    "purple": "128,0,128",
+    "violet": "238,130,238",
+    "orange": "255,165,0",
+    "brown": "165,42,42",
+}
+
+MASS = {VEHICLE: 1500.0, PEDESTRIAN: 80.0, MISC: 100.0}
+"""Kilograms; the DSL knows no mass."""
+
+
+def scenario_objects(ctx: Context) -> list[Element]:
+    """Return the entities in source order, those that are towed first."""
+    objects = []
+    for scope in ctx.scope.all():
+        with ctx.within(scope):
+            for member in scope.own:
+                with ctx.report_as(f"actor {member.actor.type}", member.actor.span):
+                    objects.append(_scenario_object(ctx, member))
+    towed = towing(ctx)  # tools want to know a trailer before the vehicle that tows it
+    return sorted(objects, key=lambda each: each.get("name") not in towed)
+
+
+def _scenario_object(ctx: Context, member: CastMember) -> Element:
+    check_model(ctx, member)
+    return element(
+        "ScenarioObject",
+        _BODIES[member.kind](ctx, member),
+        name=member.name,
+        comment=ctx.comment(member.actor.span, f"{member.name}: {member.actor.type}"),
+    )
+
+
+def _vehicle(ctx: Context, member: CastMember) -> Element:
+    limits = member.limits
+    jerk = limits.jerk if ctx.version >= "1.2" else None
+    return element(
+        "Vehicle",
+        _bounding_box(ctx, member),
+        element(
+            "Performance",
+            maxSpeed=TOP_SPEED,
+            maxAcceleration=limits.acceleration,
+            maxDeceleration=limits.deceleration,
+            maxAccelerationRate=jerk,
+            maxDecelerationRate=jerk,
+        ),
+        element("Axles", *axles(ctx, member)),
+        _properties(ctx, member),
+        *couplings(ctx, member),
+        name=member.model or member.category,
+        vehicleCategory=_category(ctx, member),
+        mass=MASS[VEHICLE] if ctx.version >= "1.1" else None,
+        model3d=_looks(ctx, member, VEHICLE),
+        role=_role(ctx, member, VEHICLE),
+    )
+
+
+def _category(ctx: Context, member: CastMember) -> str:
+    trailer = ctx.values.field(member.actor.name, ("trailer_category",))
+    if isinstance(trailer, Member):
+        return TRAILER_CATEGORIES[trailer.name]
+    choice = VEHICLE_CATEGORIES.get(member.category)
+    if choice is None:
+        raise Inexpressible(f"there is no category for `{member.category}`", member.actor.span)
+    if choice.loss:
+        bound = f"it is called a {choice.literal}; size and limits are kept"
+        ctx.report.approximate("vehicle_category", member.actor.span, choice.loss, bound)
+    return choice.literal
+
+
+def _pedestrian(ctx: Context, member: CastMember) -> Element:
+    is_animal = "animal" in member.actor.lineage
+    return element(
+        "Pedestrian",
+        _bounding_box(ctx, member),
+        _properties(ctx, member),
+        name=member.model or member.name,
+        mass=MASS[PEDESTRIAN],
+        model=member.model or member.name if ctx.version == "1.0" else None,
+        model3d=_looks(ctx, member, PEDESTRIAN),
+        role=_role(ctx, member, PEDESTRIAN),
+        pedestrianCategory="animal" if is_animal else "pedestrian",
+    )
+
+
+def _misc(ctx: Context, member: CastMember) -> Element:
+    return element(
+        "MiscObject",
+        _bounding_box(ctx, member),
+        _properties(ctx, member),
+        name=member.model or member.name,
+        mass=MASS[MISC],
+        miscObjectCategory="obstacle",
+        model3d=_looks(ctx, member, MISC),
+    )
+
+
+# --- looks and size -----------------------------------------------------------------------------
+
+
+def _looks(ctx: Context, member: CastMember, kind: str) -> str | None:
+    """Return the model of its looks, where the version has an attribute for it."""
+    model = ctx.values.field(member.actor.name, ("geometry_reference",))
+    is_said = isinstance(model, str) and has_attribute(kind, "model3d", ctx.version)
+    return model if is_said and isinstance(model, str) else None
+
+
+def _role(ctx: Context, member: CastMember, kind: str) -> str | None:
+    role = ctx.values.field(member.actor.name, ("role",))
+    if not isinstance(role, Member) or not has_attribute(kind, "role", ctx.version):
+        return None
+    return ROLES.get(role.name, "none")
+
+
+def _bounding_box(ctx: Context, member: CastMember) -> Element:
+    shape = member.shape
+    center = {"x": round(shape.centre, 6), "y": 0.0, "z": shape.height / 2}
+    for axis in center:
+        given = ctx.values.field(member.actor.name, ("bounding_box", "center", axis))
+        if isinstance(given, (int, float)):
+            center[axis] = float(given)
+    return element(
+        "BoundingBox",
+        element("Center", x=center["x"], y=center["y"], z=center["z"]),
+        element("Dimensions", width=shape.width, length=shape.length, height=shape.height),
+    )
+
+
+def _properties(ctx: Context, member: CastMember) -> Element:
+    name = member.actor.name
+    found: dict[str, str] = {}
+    color, role = ctx.values.field(name, ("color",)), ctx.values.field(name, ("role",))
+    model = ctx.values.field(name, ("geometry_reference",))
+    if isinstance(color, str):
+        found["color"] = color
+    elif isinstance(color, Member) and color.name in COLORS:
+        found["color"] = COLORS[color.name]
+    if isinstance(role, Member) and _role(ctx, member, member.kind) in (None, "none"):
+        found["role"] = role.name
+    if isinstance(model, str) and _looks(ctx, member, member.kind) is None:
+        found["model3d"] = model
+    if ctx.profile.ego_property and member is _ego(ctx):
+        found["type"] = ctx.profile.ego_property
+    properties = (element("Property", name=key, value=value) for key, value in found.items())
+    return element("Properties", *properties)
+
+
+def _ego(ctx: Context) -> CastMember | None:
+    """Return the vehicle that tools care for: the one called so, else the first one."""
+    vehicles = [member for member in ctx.entities if member.kind == VEHICLE]
+    called = (member for member in vehicles if member.name in ("ego", "hero"))
+    return next(called, next(iter(vehicles), None))
+
+
+_BODIES = {VEHICLE: _vehicle, PEDESTRIAN: _pedestrian, MISC: _misc}

@@ -1,0 +1,92 @@
+"""Trailers: who tows which from the start, and where they are coupled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.actors import DRAWBAR
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Named
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+
+def towing(ctx: Context) -> dict[str, str]:
+    """Return the entity that tows each trailer at the start, by trailer.
+
+    Raises:
+        Inexpressible: A trailer is no entity of the XML.
+    """
+    found = {}
+    for placement in ctx.scenario.placements:
+        for call in placement.modifiers:
+            if call.name != "tow_trailer":
+                continue
+            for argument in call.arguments:
+                trailer = ctx.values.of(argument.value)
+                if not isinstance(trailer, Named) or trailer.name not in ctx.cast:
+                    raise Inexpressible("the trailer is no entity of the XML", call.span)
+                found[ctx.cast[trailer.name].name] = ctx.cast[placement.actor].name
+    return found
+
+
+def _hitch(ctx: Context, vehicle: CastMember) -> Element:
+    """Return where a vehicle tows: at its rear end, if the scenario says nothing else."""
+    return _half(ctx, "TrailerHitch", vehicle, "trailer_receiver", -vehicle.shape.rear)
+
+
+def _coupler(ctx: Context, trailer: CastMember) -> Element:
+    """Return where a trailer is towed: before its box, likewise."""
+    return _half(ctx, "TrailerCoupler", trailer, "coupler", trailer.shape.front + DRAWBAR)
+
+
+def _half(ctx: Context, tag: str, member: CastMember, field: str, usual: float) -> Element:
+    x, z = (ctx.values.field(member.actor.name, (field, f"position_{axis}")) for axis in "xz")
+    return element(
+        tag,
+        dx=round(float(x) if isinstance(x, (int, float)) else usual, 6),
+        dz=float(z) if isinstance(z, (int, float)) else None,
+    )
+
+
+def couplings(ctx: Context, member: CastMember) -> tuple[Element, ...]:
+    """Return what a vehicle has for being coupled, and the trailer that it tows at the start."""
+    if ctx.version < "1.3" or not any("trailer" in m.actor.lineage for m in ctx.cast.values()):
+        return ()
+    if "trailer" in member.actor.lineage:
+        return (_coupler(ctx, member),)
+    parts = [_hitch(ctx, member)] if _tows(ctx, member) else []
+    for trailer, tow in towing(ctx).items():
+        if tow == member.name:
+            parts.append(element("Trailer", element("TrailerRef", entityRef=trailer)))
+    return tuple(parts)
+
+
+def _tows(ctx: Context, member: CastMember) -> bool:
+    """Whether a vehicle tows a trailer at some time."""
+    return member.name in towing(ctx).values() or any(_couplings_made_by(ctx, member))
+
+
+def _couplings_made_by(ctx: Context, vehicle: CastMember) -> Iterator[ir.Invoke]:
+    for node in ir.walk_behaviors(ctx.scenario.body):
+        if (
+            isinstance(node, ir.Invoke)
+            and node.action == "connect_trailer"
+            and isinstance(node.actor, ir.FieldRef)
+            and node.actor.name == vehicle.actor.name
+        ):
+            yield node
+
+
+def only_trailer(ctx: Context, vehicle: CastMember) -> CastMember | None:
+    """Return the trailer that a vehicle tows whenever it tows one; `None` if there are several."""
+    found = {trailer for trailer, tow in towing(ctx).items() if tow == vehicle.name}
+    for node in _couplings_made_by(ctx, vehicle):
+        trailer = Arguments(ctx, node.arguments, node).entity("trailer")
+        if trailer is not None:
+            found.add(trailer.name)
+    members = [member for member in ctx.cast.values() if member.name in found]
+    return members[0] if len(members) == 1 else None

@@ -1,0 +1,208 @@
+"""Maps, as the embedded world reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal, cast
+
+from osc2tx.backends.xosc.facts.ways import Waypoint
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.errors import InputError, ScenarioError
+from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
+from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
+from osc2tx_runtime.placing.poses import road_entry
+from osc2tx_runtime.roads.map_search import DEFAULT_MAP, SUFFIXES, find_map
+from osc2tx_runtime.ways.along import way_through
+from osc2tx_runtime.world.lamps import Lamp, Meaning, lamps_that_mean
+from osc2tx_runtime.world.lanes import lane_with_number
+from osc2tx_runtime.world.signals import Signals
+
+__all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places", "roads_of"]
+
+
+MOST_MAPS = 32
+"""Maps that are kept once read."""
+
+MOST_LANES = 8
+"""Lanes beside each other among which one is looked for."""
+
+
+class Roads:
+    """A map that can be asked."""
+
+    def __init__(self, road_map: RoadMap, file: Path) -> None:
+        """Take the map and where it comes from."""
+        self.map = road_map
+        self.file = file
+        self._signals = Signals(road_map)
+
+    def numbered(self, number: int, edge: str, distance: float | None) -> LanePosition | None:
+        """Return the first place on a lane with a number, so far (m) along its road.
+
+        Without a distance it is where the road begins.
+        """
+        side: Literal["left", "right"] = "right" if edge == "right" else "left"
+        seen: set[tuple[str, int]] = set()
+        for point in self.map.spawn_points():
+            direction = self.map.travel_direction(point.road, point.lane)
+            if (point.road, direction) in seen:
+                continue
+            seen.add((point.road, direction))
+            start = point if distance is None else road_entry(self.map, point)
+            step = self.map.advance(start, distance or 0.0)
+            if abs(step.travelled - (distance or 0.0)) > 1e-6:
+                continue
+            place = lane_with_number(self.map, step.position, number, side)
+            if place is not None:
+                return place
+        return None
+
+    def beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
+        """Return the lane so many to the left of a place; negative: to the right."""
+        if lanes == 0:
+            return place
+        return self.map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
+
+    def with_number(self, place: LanePosition, number: int, edge: str) -> LanePosition | None:
+        """Return the lane with a number at a place; `None` if there is none."""
+        side: Literal["left", "right"] = "right" if edge == "right" else "left"
+        return lane_with_number(self.map, place, number, side)
+
+    def lanes_between(self, place: LanePosition, other: LanePosition) -> int | None:
+        """Return how many lanes to the left another lane of the same road is; `None`: it is not."""
+        for lanes in range(-MOST_LANES, MOST_LANES + 1):
+            beside = self.beside(place, lanes)
+            if beside is not None and (beside.road, beside.lane) == (other.road, other.lane):
+                return lanes
+        return None
+
+    def ahead(self, place: LanePosition, distance: float) -> LanePosition | None:
+        """Return the place so far (m) along the lane."""
+        step = self.map.advance(place, distance)
+        return step.position if abs(step.travelled - distance) < 1e-6 else None
+
+    def from_entry(self, place: LanePosition, distance: float) -> LanePosition | None:
+        """Return the place so far (m) from where the lane of a place begins on its road."""
+        return self.ahead(road_entry(self.map, place), distance)
+
+    def pose(self, place: LanePosition) -> Pose:
+        """Return where a place is."""
+        return self.map.pose(place)
+
+    def direction_at(self, x: float, y: float, z: float) -> float:
+        """Return the heading (rad) of the nearest road."""
+        place = self.map.locate(x, y, z)
+        return 0.0 if place is None else self.map.pose(place).h
+
+    def on_earth(self, latitude: float, longitude: float, altitude: float) -> Pose | None:
+        """Return where a place on the globe (rad, m) is; `None` if the map does not say."""
+        try:
+            x, y = self.map.geo_reference.project(latitude, longitude)
+        except GeoReferenceError:
+            return None
+        road = self.map.locate(x, y)
+        if road is None:
+            return Pose(x, y, altitude, 0.0)
+        near = self.map.pose(road)
+        return Pose(x, y, near.z + altitude, near.h)
+
+    def lamps(self, signal: str) -> tuple[Lamp, ...]:
+        """Return the lamps of a traffic light.
+
+        Raises:
+            Inexpressible: There is no such light, or its lamps are not known.
+        """
+        try:
+            return self._signals.lamps(signal)
+        except ScenarioError as error:
+            raise Inexpressible(error.message) from None
+
+    def group(self, group: str) -> tuple[str, ...]:
+        """Return the traffic lights of a group.
+
+        Raises:
+            Inexpressible: There is no such group.
+        """
+        try:
+            return self._signals.members(group)
+        except ScenarioError as error:
+            raise Inexpressible(error.message) from None
+
+    def group_of(self, signal: str) -> tuple[str, ...]:
+        """Return the lights of the group that a traffic light belongs to."""
+        group = self._signals.group_of(signal)
+        return (signal,) if group is None else self.group(group)
+
+    def meaning(self, signal: str, meaning: str) -> tuple[str, ...] | None:
+        """Return the states of lamps that mean something; `None` if a light cannot say it."""
+        return lamps_that_mean(self.lamps(signal), cast("Meaning", meaning))
+
+    def locate(self, x: float, y: float, z: float) -> LanePosition | None:
+        """Return the driving lane that contains a point; `None` if there is none."""
+        return self.map.locate(x, y, z, max_distance=1e-3)
+
+    def along(self, places: Sequence[LanePosition]) -> tuple[Waypoint, ...]:
+        """Return the way along lanes through places.
+
+        Raises:
+            Inexpressible: There is no such way.
+        """
+        try:
+            found = way_through(self.map, places)
+        except ScenarioError as error:
+            raise Inexpressible(error.message) from None
+        return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
+
+    def only_road(self) -> str | None:
+        """Return the road of a map that has just one."""
+        roads = list(self.map.roads)
+        return roads[0] if len(roads) == 1 else None
+
+    def is_right_hand(self, road: str) -> bool:
+        """Whether a road has right-hand traffic."""
+        return self.map.roads[road].right_hand_traffic
+
+
+def roads_of(map_file: str | None, folders: Sequence[Path]) -> Roads | None:
+    """Return a map, looked for as `osc2tx run` does; `None` if it is not found.
+
+    Raises:
+        Inexpressible: It is found and is no map.
+    """
+    wanted = Path(map_file or DEFAULT_MAP)
+    if wanted.is_absolute() or ".." in wanted.parts:
+        return None  # nothing outside of the folders is read
+    try:
+        return _read_now(find_map(map_file, [f for f in folders if f.exists()]))
+    except InputError:
+        return None
+
+
+def map_places(map_file: str | None, folders: Sequence[Path]) -> list[Path]:
+    """Return where a map is looked for, outside of the runtime library."""
+    wanted = Path(map_file or DEFAULT_MAP)
+    if wanted.is_absolute() or ".." in wanted.parts:
+        return []
+    return [
+        place
+        for entry in folders
+        for place in (
+            [entry] if entry.is_file() else [entry / f"{wanted}{suffix}" for suffix in SUFFIXES]
+        )
+    ]
+
+
+def _read_now(path: Path) -> Roads:
+    """Return a map as its file is now: between two builds of one process it may change."""
+    now = path.stat()
+    return _read(path, now.st_mtime_ns, now.st_size)
+
+
+@lru_cache(maxsize=MOST_MAPS)
+def _read(path: Path, modified: int, size: int) -> Roads:
+    try:
+        return Roads(read_map(path), path)
+    except MapError as error:
+        raise Inexpressible(f"map {path.name} cannot be read: {error.message}") from None

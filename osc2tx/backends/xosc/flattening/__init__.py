@@ -1,0 +1,1 @@
+"""The tree of a scenario as acts and events."""

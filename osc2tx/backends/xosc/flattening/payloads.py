@@ -1,0 +1,52 @@
+"""What events carry: a variable for each of their parameters, set when they are emitted."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.logical.parameters import value_text
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Constant
+from osc2tx.backends.xosc.xml.tree import Element
+
+ORDERLESS = frozenset({"equalTo", "notEqualTo"})
+"""Rules for what is no number."""
+
+
+def carried(ctx: Context, emission: ir.Emit) -> tuple[Element, ...]:
+    """Return the actions that set what an emission hands over.
+
+    Raises:
+        Inexpressible: It is only known during the run.
+    """
+    found = []
+    for argument in emission.arguments:
+        value = ctx.values.of(argument.value)
+        variable = _variable(ctx, emission.event.name, argument.parameter, value)
+        found.append(ctx.set_variable(variable, value_text(value)))
+    return tuple(found)
+
+
+def carries(ctx: Context, argument: ir.EventArgument, rule: str, value: Constant) -> Element:
+    """Return the condition on what an event has handed over.
+
+    Raises:
+        Inexpressible: Only numbers can be less or greater.
+    """
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not is_number and rule not in ORDERLESS:
+        raise Inexpressible("an order of what is no number", argument.span)
+    variable = _variable(ctx, argument.event, argument.parameter, value)
+    return ctx.variable_is(variable, rule, value_text(value))
+
+
+def _variable(ctx: Context, event: str, parameter: str, value: Constant) -> str:
+    """Return the variable for a parameter of an event, declared."""
+    variable = ctx.variable_name(f"{ctx.scope.prefix}{event}.{parameter}")
+    if isinstance(value, bool):
+        ctx.declare(variable, "boolean", "false")
+    elif isinstance(value, (int, float)):
+        ctx.declare(variable, "double", "0")
+    else:
+        ctx.declare(variable, "string", "")
+    return variable

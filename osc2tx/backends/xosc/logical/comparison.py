@@ -1,0 +1,139 @@
+"""Whether two documents say the same once parameters have their values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from math import isclose
+from typing import NamedTuple, TypeAlias
+
+from osc2tx.backends.xosc.xml.tree import Element
+
+Shown: TypeAlias = Mapping[str, float]
+"""Values of the parameters of a document, by their names there."""
+
+SAID_BESIDE = frozenset({"FileHeader", "ParameterDeclarations"})
+"""Parts of a document that do not say what happens."""
+
+
+def story_of(document: Element) -> Element:
+    """Return a document with the parts that say what happens."""
+    parts = tuple(part for part in document.children if part.name not in SAID_BESIDE)
+    return replace(document, children=parts)
+
+
+class Place(NamedTuple):
+    """An attribute of a document.
+
+    Attributes:
+        path: Indices of children, from the root down, as `story_of` has them.
+        attribute: Its name.
+    """
+
+    path: tuple[int, ...]
+    attribute: str
+
+
+class _OtherShape(Exception):
+    """Two documents have other elements, or differ in what no parameter can stand for."""
+
+
+def differences(document: Element, other: Element, shown: Shown) -> frozenset[Place] | None:
+    """Return the attributes in which a document differs from another one; `None`: in its elements.
+
+    Args:
+        document: A document with parameters.
+        other: One without.
+        shown: Values of the parameters.
+    """
+    try:
+        return frozenset(_unlike(story_of(document), story_of(other), shown, ()))
+    except _OtherShape:
+        return None
+
+
+def _unlike(a: Element, b: Element, shown: Shown, path: tuple[int, ...]) -> Iterator[Place]:
+    if a.name != b.name or len(a.children) != len(b.children) or a.text != b.text:
+        raise _OtherShape
+    left, right = dict(a.attributes), dict(b.attributes)
+    if left.keys() != right.keys():
+        raise _OtherShape
+    for key in left:
+        if not _is_same(left[key], right[key], shown):
+            if is_name(key):
+                raise _OtherShape
+            yield Place(path, key)
+    for index, (x, y) in enumerate(zip(a.children, b.children, strict=True)):
+        yield from _unlike(x, y, shown, (*path, index))
+
+
+def is_name(attribute: str) -> bool:
+    """Whether an attribute names an element, so that tools need it when they load a document."""
+    return attribute == "name" or attribute.endswith("Ref")
+
+
+def _is_same(a: str, b: str, shown: Shown) -> bool:
+    if a == b:
+        return True
+    value, expected = evaluated(a, shown), evaluated(b, shown)
+    if value is None or expected is None:
+        return False
+    return isclose(value, expected, rel_tol=1e-6, abs_tol=2e-6)
+
+
+def evaluated(text: str, shown: Shown) -> float | None:
+    """Return the number that an attribute says for values of parameters; `None` if it is none."""
+    if text.startswith("${"):
+        try:
+            return _Evaluation(_TOKEN.findall(text[2:-1]), shown).sum()
+        except ZeroDivisionError:
+            return None
+    if text.startswith("$"):
+        return shown.get(text[1:])
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+_TOKEN = re.compile(r"\s*(\$[A-Za-z_]\w*|\d+\.?\d*|[-+*/()])")
+
+
+class _Evaluation:
+    """Computes an expression as `Symbol` writes it."""
+
+    def __init__(self, tokens: Sequence[str], shown: Shown) -> None:
+        self._tokens: Iterator[str] = iter([*tokens, ""])
+        self._shown = shown
+        self._next = next(self._tokens)
+
+    def sum(self) -> float:
+        value = self._product()
+        while self._next in ("+", "-"):
+            sign = self._take()
+            other = self._product()
+            value = value + other if sign == "+" else value - other
+        return value
+
+    def _product(self) -> float:
+        value = self._atom()
+        while self._next in ("*", "/"):
+            sign = self._take()
+            other = self._atom()
+            value = value * other if sign == "*" else value / other
+        return value
+
+    def _atom(self) -> float:
+        token = self._take()
+        if token == "-":
+            return -self._atom()
+        if token == "(":
+            value = self.sum()
+            self._take()
+            return value
+        return self._shown[token[1:]] if token.startswith("$") else float(token)
+
+    def _take(self) -> str:
+        token, self._next = self._next, next(self._tokens, "")
+        return token

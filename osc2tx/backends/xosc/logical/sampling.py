@@ -1,0 +1,202 @@
+"""Values that open parameters may have together: rows of a table, one for each run.
+
+All combinations would be 5^n rows. Instead there are ten for each parameter, and one: a Latin
+hypercube. In it each parameter goes from end to end at equal steps and has each value once, while
+the orders are those of Halton sequences, so that all corners of the domain are visited. It is
+deterministic. Rows that break a constraint are left out, and denser tables tried instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import count, islice, product
+from math import prod
+from typing import NamedTuple
+
+from osc2tx import ir
+from osc2tx.backends.xosc.logical.parameters import OpenParameter, Point
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.scopes import Scope, open_scopes
+from osc2tx.backends.xosc.values.folding import Values
+
+RUNS_EACH = 10
+"""Steps of a table for each parameter."""
+
+NUDGE = 0.0137
+"""Distance of a place next to another one."""
+
+GOLDEN = 0.618034
+"""Its multiples, without whole parts, are all different."""
+
+DENSEST = 64
+"""So many times more rows are tried where constraints leave out most."""
+
+
+class Row(NamedTuple):
+    """Places of the parameters between their first (0) and last value (1), and the values."""
+
+    shares: tuple[float, ...]
+    point: Point
+
+
+class Domain:
+    """What the open parameters of a scenario may be together."""
+
+    def __init__(
+        self,
+        scenario: ir.Scenario,
+        module: ir.Module,
+        parameters: Sequence[OpenParameter],
+        folded: Point | None = None,
+    ) -> None:
+        """Take the parameters, those first that others are computed from.
+
+        Args:
+            scenario: The scenario.
+            module: Where it stands.
+            parameters: Those that may have several values.
+            folded: Values of its other open parameters.
+        """
+        self.parameters = tuple(parameters)
+        self._scenario = scenario
+        self._module = module
+        self._folded = dict(folded or {})
+        scopes = open_scopes(scenario, module, self._folded).all()
+        self._plain = {scope.path: scope.values for scope in scopes}
+        self._is_constrained = any(scope.scenario.constraints for scope in scopes)
+
+    def narrowed(self, parameters: Sequence[OpenParameter], folded: Point) -> Domain:
+        """Return the domain of some of the parameters, for values of the others."""
+        return Domain(self._scenario, self._module, parameters, folded)
+
+    @property
+    def is_joint(self) -> bool:
+        """Whether values depend on each other."""
+        return self._is_constrained or any(p.is_dependent for p in self.parameters)
+
+    @property
+    def most_rows(self) -> int:
+        """Rows of a table."""
+        return RUNS_EACH * len(self.parameters) + 1
+
+    def values(self, parameter: OpenParameter, point: Point | None = None) -> Values:
+        """Return the constants of the scope of a parameter, for values of others."""
+        if point is None or not parameter.is_dependent:
+            return self._plain[parameter.path]
+        scopes = open_scopes(self._scenario, self._module, point).all()
+        return next(scope.values for scope in scopes if scope.path == parameter.path)
+
+    def at(self, shares: Sequence[float]) -> Point:
+        """Return the values at places between the first and the last one of each parameter."""
+        point = dict(self._folded)
+        for parameter, share in zip(self.parameters, shares, strict=True):
+            point[parameter.key] = parameter.at(share, self.values(parameter, point))
+        return point
+
+    def allows(self, point: Point) -> bool:
+        """Whether values are within their bounds and agree with the constraints between them."""
+        return all(self._is_within(p, point) for p in self.parameters if p.is_dependent) and all(
+            _is_kept(scope) for scope in open_scopes(self._scenario, self._module, point).all()
+        )
+
+    def _is_within(self, parameter: OpenParameter, point: Point) -> bool:
+        low, high = parameter.limits(self.values(parameter, point))
+        value = point[parameter.key]
+        return isinstance(value, (int, float)) and low <= value <= high
+
+    def nominal(self, *, is_beside: bool = False) -> Point | None:
+        """Return values for declarations: of ranges the middle or next to it, of sets the first.
+
+        If constraints do not allow that, it is the middle one of all rows; `None` without any.
+        """
+        middle = self.row([0.0 if p.choices else 0.5 for p in self.parameters])
+        point = self.beside(middle).point if is_beside else middle.point
+        if not self._is_constrained or self.allows(point):
+            return point
+        rows = self.rows()
+        return rows[len(rows) // 2].point if rows else None
+
+    # --- rows ---
+
+    def rows(self) -> list[Row]:
+        """Return values for runs: all combinations of sets if they are few, else a sample."""
+        listed = [p.choices for p in self.parameters]
+        if all(listed) and prod(map(len, listed)) <= self.most_rows:
+            shares = product(*([i / len(each) for i in range(len(each))] for each in listed))
+            return [row for row in map(self.row, shares) if self.allows(row.point)]
+        wanted, density = self.most_rows, 1
+        while True:
+            candidates = map(self.row, _hypercube(len(self.parameters), (wanted - 1) * density + 1))
+            found = [row for row in candidates if not self.is_joint or self.allows(row.point)]
+            if len(found) >= wanted or density >= DENSEST:
+                return sorted(_thinned(found, wanted), key=self._order)
+            density *= 2
+
+    def row(self, shares: Sequence[float]) -> Row:
+        """Return the row for places between the first and the last value of each parameter."""
+        return Row(tuple(shares), self.at(shares))
+
+    def _order(self, row: Row) -> tuple[float, ...]:
+        """Return a key that sorts rows by the values of the parameters, the first one first."""
+        places = zip(self.parameters, row.shares, strict=True)
+        return tuple(
+            p.choices.index(row.point[p.key]) if p.choices else share for p, share in places
+        )
+
+    def beside(self, row: Row) -> Row:
+        """Return a row next to another one, in case that has something special about it."""
+        places = enumerate(zip(self.parameters, row.shares, strict=True))
+        return self.row([s if p.choices else inward(s, index) for index, (p, s) in places])
+
+
+def inward(share: float, index: int = 0) -> float:
+    """Return a place next to another one, farther from the ends; of each parameter another one."""
+    nudge = NUDGE * (1.0 + (index * GOLDEN) % 1.0)
+    return share + (nudge if share < 0.5 else -nudge)
+
+
+def _is_kept(scope: Scope) -> bool:
+    """Whether the constraints of a scenario hold for the values in a scope."""
+    for constraint in scope.scenario.constraints:
+        try:
+            if not scope.values.of(constraint.expression):
+                return False
+        except Inexpressible:  # it is about something else, which is only known during the run
+            continue
+    return True
+
+
+def _hypercube(dimensions: int, number: int) -> list[tuple[float, ...]]:
+    """Return points of a Latin hypercube, from 0 to 1 in each dimension."""
+    columns = []
+    for base in islice(_primes(), dimensions):
+        keys = [(_radical_inverse(i, base), i) for i in range(number)]
+        order = {i: rank for rank, (_, i) in enumerate(sorted(keys))}
+        columns.append([order[i] / (number - 1) for i in range(number)])
+    return list(zip(*columns, strict=True))
+
+
+def _primes() -> Iterator[int]:
+    """Yield the prime numbers."""
+    found: list[int] = []
+    for number in count(2):
+        if all(number % prime for prime in found):
+            found.append(number)
+            yield number
+
+
+def _radical_inverse(number: int, base: int) -> float:
+    """Return the fraction whose digits are those of a number backwards."""
+    inverse, digit = 0.0, 1.0 / base
+    while number:
+        number, rest = divmod(number, base)
+        inverse += rest * digit
+        digit /= base
+    return inverse
+
+
+def _thinned(rows: list[Row], wanted: int) -> list[Row]:
+    """Return at most so many rows, evenly chosen."""
+    if len(rows) <= wanted:
+        return rows
+    return [rows[index * (len(rows) - 1) // (wanted - 1)] for index in range(wanted)]

@@ -1,0 +1,303 @@
+"""Values of expressions that do not change during a run.
+
+Constants and the values of parameters are folded. A parameter that may be anything in a range is
+what is given for it, a number or a `Symbol`, else the middle.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping
+
+from osc2tx import ir
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Made, Member, Named
+from osc2tx.backends.xosc.values.own_types import OwnTypes
+from osc2tx.backends.xosc.values.symbols import Symbol
+
+MAKERS = frozenset(
+    {
+        "create_odr_point",
+        "create_path",
+        "create_route",
+        "create_path_odr_points",
+        "create_path_route_points",
+        "create_route_point",
+        "create_trajectory",
+        "create_trajectory_odr_points",
+        "create_trajectory_route_points",
+        "create_xyz_point",
+        "local_to_unix_time",
+        "odr_to_route_point",
+        "resolve_relative_path",
+        "resolve_relative_trajectory",
+        "semantic_state_to_state",
+    }
+)
+"""Methods whose result is the same at any time."""
+
+MOST_CALLS = 50
+"""Methods that call each other, at most; a method may call itself for ever."""
+
+_ARITHMETIC: Mapping[str, Callable[[float, float], float]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "%": operator.mod,
+}
+_COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+
+
+class Values:
+    """Folds expressions of one scenario.
+
+    Args:
+        scenario: The scenario.
+        given: Values of fields that an invocation hands in.
+        types: The types of the module.
+        arguments: Values of parameters, inside a method.
+    """
+
+    def __init__(
+        self,
+        scenario: ir.Scenario,
+        given: Mapping[str, Constant] | None = None,
+        types: OwnTypes | None = None,
+        arguments: Mapping[str, Constant] | None = None,
+    ) -> None:
+        self._scenario = scenario
+        self._declared = {d.name: d for d in scenario.declarations}
+        self._methods = {m.name: m for m in scenario.methods}
+        self._given = dict(given or {})
+        self._types = types or OwnTypes()
+        self._arguments = dict(arguments or {})
+        self._depth = 0
+        self._hidden: dict[str, Inexpressible] = {}
+        self._sizes: dict[str, Mapping[tuple[str, ...], float]] = {}
+
+    def know(self, actor: str, sizes: Mapping[tuple[str, ...], float]) -> None:
+        """Note what an actor is like where the scenario does not say it."""
+        self._sizes[actor] = sizes
+
+    def hide(self, name: str, why: Inexpressible) -> None:
+        """Note that a field has a value from outside that is only known during the run."""
+        self._hidden[name] = why
+
+    def is_given(self, name: str) -> bool:
+        """Whether a field has a value from outside."""
+        return name in self._given or name in self._hidden
+
+    def number(self, expression: ir.Expression) -> float:
+        """Return a number, in SI units.
+
+        Raises:
+            Inexpressible: It is none, or is only known during the run.
+        """
+        value = self.of(expression)
+        if isinstance(value, Bounds):
+            return 0.5 * (value.lower + value.upper)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise Inexpressible(f"`{expression.span.text}` is no number", expression.span)
+        return value if isinstance(value, Symbol) else float(value)
+
+    def actor(self, expression: ir.Expression) -> str:
+        """Return the name of an actor.
+
+        Raises:
+            Inexpressible: It is only known during the run.
+        """
+        value = self.of(expression)
+        if not isinstance(value, Named):
+            raise Inexpressible(f"`{expression.span.text}` is no actor", expression.span)
+        return value.name
+
+    def field(self, name: str, path: tuple[str, ...]) -> Constant | None:
+        """Return what a constraint fixes about an actor or struct; `None` if nothing does."""
+        declaration = self._declared.get(name)
+        if declaration is None and "." in name:
+            owner, *inner = name.split(".")
+            return self.field(owner, (*inner, *path))
+        if isinstance(declaration, (ir.Actor, ir.Struct)):
+            for value in declaration.values:
+                if value.path == path:
+                    return self.of(value.value)
+                is_part = value.path == path[: len(value.path)] and len(value.path) < len(path)
+                whole = self.of(value.value) if is_part else None
+                if isinstance(whole, Named):  # a struct of the scenario says it
+                    return self.field(whole.name, path[len(value.path) :])
+            is_inner = any(value.path[: len(path)] == path for value in declaration.values)
+            if is_inner and isinstance(declaration, ir.Struct):
+                return Named(".".join((name, *path)))  # whose own members are fixed
+            default = self._types.default(declaration.type, path)
+            return None if default is None else self.of(default)
+        return None
+
+    def type_of(self, name: str) -> str:
+        """Return the type of an actor or struct."""
+        declaration = self._declared.get(name)
+        return declaration.type if isinstance(declaration, (ir.Actor, ir.Struct)) else ""
+
+    def is_library_shape(self, name: str) -> bool:
+        """Whether a struct is a course that the library describes (§8.9.22)."""
+        declaration = self._declared.get(name)
+        return isinstance(declaration, ir.Struct) and declaration.type.startswith("common_")
+
+    def of(self, expression: ir.Expression) -> Constant:
+        """Return the value of an expression.
+
+        Raises:
+            Inexpressible: It is only known during the run.
+        """
+        match expression:
+            case ir.Literal(value=value):
+                return value
+            case ir.Quantity():
+                return expression.si
+            case ir.EnumValue(member=member):
+                return Member(expression.type.name, member)
+            case ir.FieldRef():
+                return self._field(expression)
+            case ir.ParameterRef(name=name) if name in self._arguments:
+                return self._arguments[name]
+            case ir.Attribute(base=base, name=name):
+                return self._attribute(expression, base, name)
+            case ir.Unary(operator=sign, operand=operand):
+                return self._unary(sign, operand)
+            case ir.Binary():
+                return self._binary(expression)
+            case ir.Conditional(condition=condition, when_true=yes, when_false=no):
+                return self.of(yes if self.of(condition) else no)
+            case ir.ListValue(elements=elements):
+                return tuple(self.of(each) for each in elements)
+            case ir.Index(base=base, index=index):
+                return self._element(expression, base, index)
+            case ir.ListOperation(base=base, operator=ir.ListOperator.SIZE):
+                return len(self._list(base))
+            case ir.RangeValue(lower=lower, upper=upper):
+                return Bounds(self.number(lower), self.number(upper))
+            case ir.Conversion(operand=operand):
+                return self._converted(expression, operand)
+            case ir.MethodCall(base=ir.FieldRef(name=owner), method=method) if method in MAKERS:
+                given = ((each.parameter, self.of(each.value)) for each in expression.arguments)
+                return Made(method, owner, tuple(given))
+            case ir.MethodCall(base=ir.ScenarioSelf(), method=method) if method in self._methods:
+                return self._result(expression, self._methods[method])
+        raise Inexpressible(
+            f"`{expression.span.text}` is only known during the run, and OpenSCENARIO XML"
+            " does not compute",
+            expression.span,
+        )
+
+    def _field(self, reference: ir.FieldRef) -> Constant:
+        if reference.name in self._hidden:
+            raise Inexpressible(self._hidden[reference.name].reason, reference.span)
+        if reference.name in self._given:
+            return self._given[reference.name]
+        declaration = self._declared.get(reference.name)
+        match declaration:
+            case ir.Struct(value=made) if made is not None:
+                return self.of(made)
+            case ir.Actor(name=name) | ir.Struct(name=name):
+                return Named(name)
+            case ir.Parameter(value=value, domain=domain):
+                if value is not None:
+                    return self.of(value)
+                if isinstance(domain, ir.RangeValue):
+                    low, high = self.number(domain.lower), self.number(domain.upper)
+                    return 0.5 * (low + high)
+                if isinstance(domain, ir.Choices):
+                    return self.of(domain.elements[0])
+            case ir.Variable(value=value, sample=None) if value is not None:
+                return self.of(value)
+        raise Inexpressible(
+            f"the value of `{reference.name}` is only known during the run", reference.span
+        )
+
+    def _attribute(self, expression: ir.Expression, base: ir.Expression, name: str) -> Constant:
+        path = [name]
+        while isinstance(base, ir.Attribute):
+            path.insert(0, base.name)
+            base = base.base
+        if isinstance(base, (ir.FieldRef, ir.ParameterRef)):
+            owner = self.of(base)
+            if isinstance(owner, Named):
+                value = self.field(owner.name, tuple(path))
+                if value is None:
+                    value = self._sizes.get(owner.name, {}).get(tuple(path))
+                if value is not None:
+                    return value
+        raise Inexpressible(
+            f"`{expression.span.text}` is only known during the run", expression.span
+        )
+
+    def _list(self, expression: ir.Expression) -> tuple[Constant, ...]:
+        value = self.of(expression)
+        if not isinstance(value, tuple):
+            raise Inexpressible(f"`{expression.span.text}` is no list", expression.span)
+        return value
+
+    def _element(
+        self, expression: ir.Expression, base: ir.Expression, index: ir.Expression
+    ) -> Constant:
+        elements, number = self._list(base), int(self.number(index))
+        if not 0 <= number < len(elements):
+            raise Inexpressible(f"`{expression.span.text}`: the list is shorter", expression.span)
+        return elements[number]
+
+    def _result(self, call: ir.MethodCall, method: ir.Method) -> Constant:
+        pairs = zip(method.parameters, call.arguments, strict=False)
+        return self.result_of(method, {a.parameter or p.name: self.of(a.value) for p, a in pairs})
+
+    def result_of(self, method: ir.Method, given: Mapping[str, Constant]) -> Constant:
+        """Return what a method of the scenario returns for arguments by parameter.
+
+        Raises:
+            Inexpressible: It is only known during the run.
+        """
+        if method.expression is None or self._depth == MOST_CALLS:
+            text = f"what `{method.name}` returns is only known during the run"
+            raise Inexpressible(text, method.span)
+        arguments = {p.name: self.of(p.default) for p in method.parameters if p.default is not None}
+        arguments.update(given)
+        inner = Values(self._scenario, self._given, self._types, arguments)
+        inner._sizes = self._sizes
+        inner._depth = self._depth + 1
+        return inner.of(method.expression)
+
+    def _unary(self, sign: str, operand: ir.Expression) -> Constant:
+        return not self.of(operand) if sign == "not" else -self.number(operand)
+
+    def _binary(self, expression: ir.Binary) -> Constant:
+        name = expression.operator
+        if name in ("and", "or", "=>"):
+            left = bool(self.of(expression.left))
+            if name == "=>":
+                return not left or bool(self.of(expression.right))
+            decided = left if name == "or" else not left
+            return left if decided else bool(self.of(expression.right))
+        if name in ("==", "!="):
+            same = _plain(self.of(expression.left)) == _plain(self.of(expression.right))
+            return same is (name == "==")
+        left_number, right_number = self.number(expression.left), self.number(expression.right)
+        if name in _COMPARISONS:
+            return _COMPARISONS[name](left_number, right_number)
+        if name not in _ARITHMETIC:
+            raise Inexpressible(f"operator `{name}` has no counterpart", expression.span)
+        if name in "/%" and right_number == 0.0:
+            raise Inexpressible(f"`{expression.span.text}` divides by zero", expression.span)
+        return _ARITHMETIC[name](left_number, right_number)
+
+    def _converted(self, expression: ir.Expression, operand: ir.Expression) -> Constant:
+        value = self.number(operand)
+        return int(value) if expression.type.kind is ir.Kind.INTEGER else value
+
+
+def _plain(value: Constant) -> Constant:
+    """Return the nominal value of a symbol: as numbers of documents, only equal texts are equal."""
+    return float(value) if isinstance(value, Symbol) else value

@@ -1,0 +1,126 @@
+"""What a tool does otherwise than the standard, applied to a storyboard that is made already.
+
+Some tools count delays from when they begin to look, and take a condition that was true once for
+true from then on. For those a delay, and a condition that has to wait for its turn, go to an act
+of their own: it starts when it is time to look, and sets a mark that others wait for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from osc2tx.backends.xosc.conditions.flow import Flow, Group, Test, at_time, single
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.flattening.storyboard import Act, Event
+from osc2tx.backends.xosc.report import Remedy
+from osc2tx.backends.xosc.xml.tree import Element
+
+GENERIC = Remedy(profile="generic")
+CURVED = ("sinusoidal", "cubic")
+
+
+def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[Act, ...]:
+    """Return the acts as the tool understands them; what it cannot do is reported.
+
+    Args:
+        ctx: The context.
+        acts: The acts, the outermost one last.
+        end: When the scenario ends.
+    """
+    if not ctx.profile.has_stop:  # the run ends with the last event, so one waits for the end
+        name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span
+        comment = ctx.comment(span, "end")
+        acts[-1].add(None, Event(name, (ctx.mark(name),), end, comment, place=span))
+    for act in acts:
+        for event in _events(act):
+            for part in (*event.actions, *_conditions(event)):
+                for node in _walk(part):
+                    _check(ctx, event, node)
+    return tuple(acts) if ctx.profile.has_delays else _Watch(ctx).through(acts)
+
+
+def _events(act: Act) -> Iterator[Event]:
+    for events in act.events.values():
+        yield from events
+
+
+def _conditions(event: Event) -> Iterator[Element]:
+    for group in event.start.groups:
+        yield from (test.condition for test in group)
+
+
+def _features(node: Element) -> Iterator[str]:
+    """Yield what an element asks of a tool, as in `ToolProfile.unsupported`."""
+    yield f"{node.name}/{node.get('dynamicsDimension')}"
+    yield f"state/{node.get('state')}"
+    if node.get("freespace") == "true":
+        yield f"{node.name}/freespace"
+
+
+def _walk(node: Element) -> Iterator[Element]:
+    yield node
+    for child in node.children:
+        yield from _walk(child)
+
+
+def _check(ctx: Context, event: Event, node: Element) -> None:
+    """Report what a tool does not carry out, and dynamics that it takes for something else."""
+    profile, span = ctx.profile, event.place or ctx.scenario.span
+    construct = ctx.report.construct_at(span, "action ")
+    feature = next((each for each in _features(node) if each in profile.unsupported), None)
+    if feature is not None:
+        reason = f"{profile.name} does not carry out {feature}: {profile.unsupported[feature]}"
+        ctx.report.cannot(construct, span, reason, GENERIC)
+    elif node.get("dynamicsShape") in CURVED and not profile.has_shapes:
+        reason = f"{profile.name} does not look at the shape of a change"
+        bound = "start, end and length of the change are exact; between them it is even"
+        ctx.report.approximate(construct, span, reason, bound, GENERIC)
+
+
+class _Watch:
+    """Lets acts of their own watch what events cannot watch themselves."""
+
+    def __init__(self, ctx: Context) -> None:
+        self._ctx = ctx
+        self._made: list[Act] = []
+        self._marks: dict[Group, Test] = {}
+
+    def through(self, acts: Sequence[Act]) -> tuple[Act, ...]:
+        for act in acts:
+            for event in _events(act):
+                groups = (self._group(group, event) for group in event.start.groups)
+                event.start = Flow(tuple(groups))
+        return (*self._made, *acts)
+
+    def _group(self, group: Group, event: Event) -> Group:
+        """Return a group in which all conditions stay true, and none is delayed."""
+        lasting = tuple(self._undelayed(test, event) for test in group if test.latched)
+        passing = tuple(test for test in group if not test.latched)
+        if not passing or (all(test.reached == 0.0 for test in lasting) and len(passing) == 1):
+            return lasting + passing
+        if len(passing) > 1:
+            span = event.place or self._ctx.scenario.span
+            reason = f"{self._ctx.profile.name} takes what was true once for true from then on"
+            self._ctx.report.cannot("condition", span, reason, GENERIC)
+            return group
+        return (self._mark((*lasting, *passing), Flow((lasting,)), Flow((passing,)), event),)
+
+    def _undelayed(self, test: Test, event: Event) -> Test:
+        if test.delay == 0.0:
+            return test
+        begin = replace(test, delay=0.0)
+        return self._mark((test,), single(begin), single(at_time(test.delay)), event)
+
+    def _mark(self, what: Group, look: Flow, occurs: Flow, event: Event) -> Test:
+        """Add an act that looks for something from a flow on; return the test for it."""
+        known = self._marks.get(what)
+        if known is not None:
+            return known
+        ctx = self._ctx
+        name = ctx.names.new(f"until_{event.name}")
+        act = Act(ctx.names.new(f"act_{name}"), look, event.comment)
+        act.add(None, Event(name, (ctx.mark(name),), occurs, event.comment, place=event.place))
+        self._made.append(act)
+        made = Test(ctx.variable_is(name, "equalTo", "true"), latched=True)
+        return self._marks.setdefault(what, made)

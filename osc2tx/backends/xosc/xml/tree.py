@@ -1,0 +1,165 @@
+"""Elements of a document, and the document as text.
+
+Elements are immutable. Order and versions are those of `schema`: a document that a version does
+not allow is a mistake of osc2tx, never one of the scenario.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TypeAlias
+
+from lxml import etree
+
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.symbols import Symbol
+from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, ElementType, element_type, literals
+from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.light_dataclass import dataclass
+from osc2tx.options import XmlVersion
+
+Value: TypeAlias = str | int | float | bool
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """An element.
+
+    Attributes:
+        name: Its tag.
+        attributes: Their texts, in any order.
+        children: In any order where the schema gives one; elements of one name keep theirs.
+        comment: What stands above it.
+        text: What stands in it.
+    """
+
+    name: str
+    attributes: tuple[tuple[str, str], ...] = ()
+    children: tuple[Element, ...] = ()
+    comment: str | None = None
+    text: str | None = None
+
+    def get(self, attribute: str) -> str | None:
+        """Return the text of an attribute."""
+        return dict(self.attributes).get(attribute)
+
+
+def element(
+    tag: str, /, *children: Element | None, comment: str | None = None, **attributes: Value | None
+) -> Element:
+    """Return an element; what is `None` is left out.
+
+    An underscore at the end of a name is dropped: `from_` is the attribute `from`.
+    """
+    given = ((key.removesuffix("_"), value) for key, value in attributes.items())
+    texts = tuple((key, text_of(value)) for key, value in given if value is not None)
+    return Element(tag, texts, tuple(c for c in children if c is not None), comment)
+
+
+def commented(node: Element, comment: str) -> Element:
+    """Return an element with a comment above it."""
+    return replace(node, comment=comment)
+
+
+def text_of(value: Value) -> str:
+    """Return the text of a value; numbers are as short as possible, without exponent.
+
+    Raises:
+        Inexpressible: It is a text that XML cannot hold, or that readers take for a parameter.
+    """
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Symbol):
+        return value.attribute
+    if isinstance(value, float):
+        return number_text(value)
+    if isinstance(value, str):
+        _require_plain_text(value)
+    return str(value)
+
+
+_NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def _require_plain_text(text: str) -> None:
+    if text.startswith("$"):
+        raise Inexpressible(f"{text!r} begins with `$`, so it would be taken for a parameter")
+    if _NOT_XML.search(text):
+        raise Inexpressible(f"{text!r} has characters that XML cannot hold")
+
+
+def number_text(value: float) -> str:
+    """Return the shortest plain decimal that reads back as nearly this number.
+
+    Twelve digits hide the noise of conversions of units: 70 km/h is 19.4444444444.
+    """
+    short = f"{value:.12g}"
+    if "e" in short:
+        short = f"{float(short):.15f}".rstrip("0")
+        short = short + "0" if short.endswith(".") else short
+    whole = short.removesuffix(".0")
+    return "0" if whole == "-0" else whole
+
+
+def serialize(root: Element, version: XmlVersion) -> str:
+    """Return a document as text.
+
+    Raises:
+        InternalCompilerError: If the version has no such document.
+    """
+    tree = _build(root, ROOT_TYPE, version)
+    body = etree.tostring(tree, pretty_print=True, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}'
+
+
+def _build(node: Element, parent_type: str, version: XmlVersion) -> etree._Element:
+    part = element_type(parent_type).children.get(node.name)
+    if part is None or not part.is_in(version):
+        raise _impossible(f"<{node.name}> below {parent_type or 'the document'}", version)
+    type_ = element_type(part.type)
+    made = etree.Element(node.name)
+    made.text = node.text
+    for name, text in _ordered_attributes(node, type_, version):
+        made.set(name, text)
+    order = {name: index for index, name in enumerate(type_.children)}
+    present = {child.name for child in node.children}
+    for name, child_part in type_.children.items():
+        if version in child_part.required and name not in present:
+            raise _impossible(f"<{node.name}> without <{name}>", version)
+    for child in sorted(node.children, key=lambda c: order.get(c.name, 0)):
+        if child.comment is not None:
+            made.append(etree.Comment(f" {comment_text(child.comment)} "))
+        made.append(_build(child, part.type, version))
+    return made
+
+
+def _ordered_attributes(
+    node: Element, type_: ElementType, version: XmlVersion
+) -> list[tuple[str, str]]:
+    given = dict(node.attributes)
+    for name, text in given.items():
+        part = type_.attributes.get(name)
+        if part is None or not part.is_in(version):
+            raise _impossible(f"{name} of <{node.name}>", version)
+        known = literals(part.type, version)
+        if known is not None and text not in known and not text.startswith("$"):
+            raise _impossible(f"{name}={text!r} of <{node.name}>", version)
+    for name, part in type_.attributes.items():
+        if version in part.required and name not in given:
+            raise _impossible(f"<{node.name}> without {name}", version)
+    # `name` goes first, for people; the rest in the order of the schema.
+    names = sorted(type_.attributes, key=lambda name: name != "name")
+    return [(name, given[name]) for name in names if name in given]
+
+
+def comment_text(text: str) -> str:
+    """Return a text as a comment may hold it."""
+    printable = "".join(char if char.isprintable() else " " for char in text)
+    while "--" in printable:
+        printable = printable.replace("--", "- -")
+    return printable + " " if printable.endswith("-") else printable
+
+
+def _impossible(what: str, version: str) -> InternalCompilerError:
+    return InternalCompilerError(f"OpenSCENARIO XML {version} has no {what}")

@@ -1,0 +1,1 @@
+"""What is read of actors and weather in expressions."""

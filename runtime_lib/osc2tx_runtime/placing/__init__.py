@@ -1,0 +1,1 @@
+"""Where actors are put: by modifiers, by settings, before step 0."""

@@ -1,0 +1,1 @@
+"""One run of a scenario: settings, the loop of instants, the trace, the verdict."""

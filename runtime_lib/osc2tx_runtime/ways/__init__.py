@@ -1,0 +1,1 @@
+"""Paths and trajectories: points of a scenario, curves in the world."""
