@@ -14,11 +14,14 @@ demo: $(STAMP)
 	$(BIN)/osc2tx run scenarios/cut_in_and_evade.osc --trace out/cut_in_and_evade.jsonl --report out/cut_in_and_evade.html
 	@echo "Open out/cut_in_and_evade.html in a browser."
 
+# The files of the tests are shared out among the processors.
+PYTEST := $(BIN)/pytest -q -n auto --dist loadfile
+
 test: lint
-	$(BIN)/pytest -q -m "not slow"
+	$(PYTEST) -m "not slow"
 
 test-slow: $(STAMP)
-	$(BIN)/pytest -q -m slow
+	$(PYTEST) -m slow
 
 lint: $(STAMP)
 	$(BIN)/ruff check .
