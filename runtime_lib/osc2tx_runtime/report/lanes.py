@@ -1,4 +1,4 @@
-"""The lanes near the actors' paths, clipped and thinned for drawing."""
+"""The lanes and crosswalks near the actors' paths, clipped and thinned for drawing."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Protocol
 
-from .values import Json
+from .values import Json, short
 
-__all__ = ["Bounds", "LaneShape", "OutlineSource", "nearby_lanes"]
+__all__ = ["Bounds", "LaneShape", "OutlineSource", "nearby_crosswalks", "nearby_lanes"]
 
 MARGIN = 100.0
 """How far from a path lanes are drawn (m)."""
@@ -51,8 +51,35 @@ class LaneShape(Protocol):
         """Junction id, None on ordinary roads."""
 
 
+class CrosswalkShape(Protocol):
+    """What is read of a crosswalk (`osc2tx_runtime.opendrive.Crosswalk`)."""
+
+    @property
+    def x(self) -> float:
+        """Middle of the way over the road (m)."""
+
+    @property
+    def y(self) -> float:
+        """Likewise."""
+
+    @property
+    def heading(self) -> float:
+        """Direction of the way (rad)."""
+
+    @property
+    def length(self) -> float:
+        """Length of the way (m)."""
+
+    @property
+    def width(self) -> float:
+        """Extent across it (m)."""
+
+
 class OutlineSource(Protocol):
     """The part of `osc2tx_runtime.opendrive.RoadMap` that the report needs."""
+
+    def crosswalks(self) -> Sequence[CrosswalkShape]:
+        """All crosswalks of the map."""
 
     def lane_outlines(self, bounds: Bounds | None = None, step: float = 4.0) -> Iterable[LaneShape]:
         """Outlines of the lanes that touch the bounds."""
@@ -85,6 +112,18 @@ def nearby_lanes(road_map: OutlineSource, paths: Sequence[Sequence[Point]]) -> l
             piece |= {"junction": shape.junction is not None, "inner": inner, "outer": outer}
             result.append({**piece, "left": _pack(left), "right": _pack(right)})
     return result
+
+
+def nearby_crosswalks(
+    road_map: OutlineSource, paths: Sequence[Sequence[Point]]
+) -> list[list[float | int]]:
+    """Crosswalks within about `MARGIN` of the paths: x, y, heading, length and width of each."""
+    near = _near_test([point for path in paths for point in path])
+    return [
+        [short(value, 3) for value in (walk.x, walk.y, walk.heading, walk.length, walk.width)]
+        for walk in road_map.crosswalks()
+        if walk.width > 0.0 and near((walk.x, walk.y))
+    ]
 
 
 def _bounds(points: Sequence[Point]) -> Bounds:

@@ -11,7 +11,7 @@ from pathlib import Path
 from string import Template
 from typing import Protocol
 
-from .lanes import OutlineSource, nearby_lanes
+from .lanes import OutlineSource, nearby_crosswalks, nearby_lanes
 from .run import read_run
 from .surroundings import SignalSource
 from .values import Json
@@ -54,6 +54,7 @@ def render_report(trace_lines: Sequence[str], road_map: MapSource | None = None)
     paths = [track.points() for track in run.tracks.values()]
     data["surroundings"] = run.surroundings.as_json(road_map)
     data["lanes"] = [] if road_map is None else nearby_lanes(road_map, paths)
+    data["crosswalks"] = [] if road_map is None else nearby_crosswalks(road_map, paths)
     script = "\n".join(_resource(name) for name in _SCRIPTS)
     style = _resource("report.css")
     return Template(_resource("report.html")).substitute(

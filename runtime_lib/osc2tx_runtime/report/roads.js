@@ -7,6 +7,7 @@ const LANE_COLORS = {
 const DRIVING = new Set(["driving", "HOV", "bidirectional", "bus", "connectingRamp", "entry", "exit",
   "mwyEntry", "mwyExit", "offRamp", "onRamp", "slipLane", "taxi"]);
 const ARROW_EVERY = 40; // m
+const STRIPE_EVERY = 1; // m, of which half is white
 
 /** Points (m, relative to ORIGIN) from packed centimetres. */
 function unpack(packed) {
@@ -52,8 +53,22 @@ function addEdges(paths, lane, left, right) {
   if (!DRIVING.has(lane.outer)) addLine(paths.solid, outer);
 }
 
-function buildRoads(lanes) {
-  const roads = { fills: new Map(), dashed: new Path2D(), solid: new Path2D(), arrows: new Path2D() };
+/** Stripes across the way of a crosswalk, as long as it is wide. */
+function addStripes(path, [x, y, heading, length, width]) {
+  const ux = Math.cos(heading), uy = Math.sin(heading);
+  const number = Math.max(1, Math.floor(length / STRIPE_EVERY));
+  const corner = (along, across) =>
+    [x - ORIGIN[0] + ux * along - uy * across, y - ORIGIN[1] + uy * along + ux * across];
+  for (let i = 0; i < number; i += 1) {
+    const from = (i - number / 2 + 0.25) * STRIPE_EVERY, to = from + STRIPE_EVERY / 2;
+    addLine(path, [corner(from, -width / 2), corner(to, -width / 2), corner(to, width / 2), corner(from, width / 2)]);
+    path.closePath();
+  }
+}
+
+function buildRoads(lanes, crosswalks) {
+  const roads = { fills: new Map(), dashed: new Path2D(), solid: new Path2D(), arrows: new Path2D(), stripes: new Path2D() };
+  crosswalks.forEach((crosswalk) => addStripes(roads.stripes, crosswalk));
   for (const lane of lanes) {
     const left = unpack(lane.left), right = unpack(lane.right);
     const driving = DRIVING.has(lane.type);
@@ -89,4 +104,6 @@ function drawRoads(context, roads, pixel) {
   context.strokeStyle = theme.arrow;
   context.lineWidth = Math.max(0.18, pixel);
   context.stroke(roads.arrows);
+  context.fillStyle = theme.mark;
+  context.fill(roads.stripes);
 }

@@ -2,7 +2,7 @@
 
 // ---- drawing -----------------------------------------------------------------------------------
 
-const ROADS = buildRoads(DATA.lanes);
+const ROADS = buildRoads(DATA.lanes, DATA.crosswalks);
 for (const { track } of TRACKED) {
   track.path = new Path2D();
   addLine(track.path, track.px.map((x, i) => [x, track.py[i]]));

@@ -43,6 +43,17 @@ class Place:
     y: float
 
 
+@dataclass(frozen=True)
+class Zebra:
+    """Stands for opendrive.Crosswalk."""
+
+    x: float
+    y: float
+    heading: float = 0.0
+    length: float = 7.0
+    width: float = 3.0
+
+
 @dataclass
 class FakeMap:
     """One road along a centre line: lanes by id with type and width, ordered from the middle."""
@@ -51,6 +62,10 @@ class FakeMap:
     length: float
     lanes: dict[int, tuple[str, float]]
     posts: tuple[Post, ...] = ()
+    zebras: tuple[Zebra, ...] = ()
+
+    def crosswalks(self) -> tuple[Zebra, ...]:
+        return self.zebras
 
     def travel_direction(self, road: str, lane: int) -> int:
         return -1 if lane > 0 else 1

@@ -1,10 +1,12 @@
 """Which lanes the report draws, and how they are packed."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
-from osc2tx_runtime.report.lanes import nearby_lanes
+from osc2tx_runtime.report.lanes import nearby_crosswalks, nearby_lanes
+from tests.runtime.report.conftest import Zebra
 
 
 def unpack(packed: list[int]) -> list[tuple[float, float]]:
@@ -60,3 +62,11 @@ def test_no_paths_no_lanes(highway_map) -> None:
 def test_invisible_lanes_are_left_out(highway_map) -> None:
     highway_map.lanes = {-1: ("driving", 3.5), -2: ("none", 2.0)}
     assert [lane["lane"] for lane in nearby_lanes(highway_map, [[(0.0, 0.0)]])] == [-1]
+
+
+def test_crosswalks_near_the_paths(highway_map) -> None:
+    near, far = Zebra(60.0, -5.0, 1.5708, 7.0, 3.0), Zebra(900.0, 0.0)
+    line = Zebra(50.0, 0.0, width=0.0)
+    road_map = replace(highway_map, zebras=(near, far, line))
+    assert nearby_crosswalks(road_map, [[(0.0, 0.0), (40.0, 0.0)]]) == [[60, -5, 1.571, 7, 3]]
+    assert nearby_crosswalks(road_map, []) == []
