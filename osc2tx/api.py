@@ -131,10 +131,11 @@ def compile_text(
 ) -> CompileResult:
     """Compile a text as if it were the file `name` of a folder; that file need not exist.
 
-    >>> from osc2tx import compile_text
-    >>> (found,) = compile_text("actor car inherits vehicel").diagnostics
-    >>> found.code, found.primary.line, found.primary.column
-    ('OSC202', 1, 20)
+    Examples:
+        >>> from osc2tx import compile_text
+        >>> (found,) = compile_text("actor car inherits vehicel").diagnostics
+        >>> found.code, found.primary.line, found.primary.column
+        ('OSC202', 1, 20)
 
     Args:
         text: The text.

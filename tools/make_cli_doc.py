@@ -14,12 +14,12 @@ from osc2tx.reporting import Exit
 PAGE = Path(__file__).parent.parent / "docs" / "reference" / "cli.md"
 MEANINGS = {
     Exit.OK: "all is well; there may be warnings",
-    Exit.STALE: "outputs are not as the sources make them (`--check`, `--diff`), a file is not "
-    "formatted, or there are warnings under `--strict`",
+    Exit.STALE: "outputs are not as the sources make them (`--check`), a file is not "
+    "formatted (`fmt --check`, `fmt --diff`), or there are warnings under `--strict`",
     Exit.USAGE: "wrong usage, or a wrong settings file",
     Exit.ERRORS: "errors in a source",
     Exit.UNREADABLE: "an input cannot be read, or an output not be written",
-    Exit.FAILED: "the scenario ran and failed",
+    Exit.FAILED: "the scenario failed, or cannot run as it is: the reason is printed",
     Exit.BUG: "a bug of osc2tx; please report it",
     Exit.INTERRUPTED: "interrupted",
 }

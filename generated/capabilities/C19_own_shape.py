@@ -85,21 +85,19 @@ class OwnShapeScenario(Scenario):
     def swell_duration(self, swell: Swell) -> float:  # capabilities/C19_own_shape.osc:12
         return swell.length
 
-    def swell_compute(
-        self, swell: Swell, time: float
-    ) -> float:  # capabilities/C19_own_shape.osc:14
-        return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
+    def swell_bow(self, swell: Swell, share: float) -> float:  # capabilities/C19_own_shape.osc:13
+        return 4.0 * share * (1.0 - share)
 
-    def fading_compute(
-        self, fading: Fading, time: float
-    ) -> float:  # capabilities/C19_own_shape.osc:21
-        return fading.first * (1.0 - time / fading.length)
+    def swell_compute(self, swell: Swell, time: float) -> float:
+        # capabilities/C19_own_shape.osc:14
+        return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
 
     def fading_duration(self, fading: Fading) -> float:  # capabilities/C19_own_shape.osc:20
         return fading.length
 
-    def swell_bow(self, swell: Swell, share: float) -> float:  # capabilities/C19_own_shape.osc:13
-        return 4.0 * share * (1.0 - share)
+    def fading_compute(self, fading: Fading, time: float) -> float:
+        # capabilities/C19_own_shape.osc:21
+        return fading.first * (1.0 - time / fading.length)
 
     def behavior(self) -> Behaviour:  # capabilities/C19_own_shape.osc:42
         return Parallel(

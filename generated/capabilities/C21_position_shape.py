@@ -64,17 +64,15 @@ class PositionShape(Scenario):
             self.own, lane(3), speed(10 * mps), position(self.gaining_compute(self.faster, 0 * s))
         )
 
-    def gaining_compute(
-        self, gaining: Gaining, time: float
-    ) -> float:  # capabilities/C21_position_shape.osc:13
+    def gaining_square(self, gaining: Gaining, share: float) -> float:
+        # capabilities/C21_position_shape.osc:12
+        return share * share
+
+    def gaining_compute(self, gaining: Gaining, time: float) -> float:
+        # capabilities/C21_position_shape.osc:13
         return gaining.pace * time + gaining.more * self.gaining_square(
             gaining, time / gaining.period
         )
-
-    def gaining_square(
-        self, gaining: Gaining, share: float
-    ) -> float:  # capabilities/C21_position_shape.osc:12
-        return share * share
 
     def behavior(self) -> Behaviour:  # capabilities/C21_position_shape.osc:27
         return Parallel(

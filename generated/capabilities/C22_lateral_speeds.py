@@ -70,18 +70,16 @@ class LateralSpeeds(Scenario):
             speed(0.5 * mps, direction="lateral"),
         )
 
-    def bulge_compute(
-        self, bulge: Bulge, time: float
-    ) -> float:  # capabilities/C22_lateral_speeds.osc:13
-        return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
-
     def bulge_duration(self, bulge: Bulge) -> float:  # capabilities/C22_lateral_speeds.osc:11
         return bulge.length
 
-    def bulge_bow(
-        self, bulge: Bulge, share: float
-    ) -> float:  # capabilities/C22_lateral_speeds.osc:12
+    def bulge_bow(self, bulge: Bulge, share: float) -> float:
+        # capabilities/C22_lateral_speeds.osc:12
         return 4.0 * share * (1.0 - share)
+
+    def bulge_compute(self, bulge: Bulge, time: float) -> float:
+        # capabilities/C22_lateral_speeds.osc:13
+        return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
 
     def behavior(self) -> Behaviour:  # capabilities/C22_lateral_speeds.osc:24
         return Parallel(

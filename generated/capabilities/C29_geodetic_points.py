@@ -32,8 +32,8 @@ class GeodeticPoints(Scenario):
         """Cast, events and values."""
         self.road = Map(map_file="highway.xodr")
         self.ego = Vehicle()
-        self.begin = GeodeticPoint(latitude=-4.75e-05 * deg, longitude=0.001 * deg)
-        self.goal = GeodeticPoint(latitude=-4.75e-05 * deg, longitude=0.003 * deg)
+        self.begin = GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.001 * deg)
+        self.goal = GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.003 * deg)
         self.way = self.road.create_route([self.begin, self.goal])
 
     def placement(self) -> None:

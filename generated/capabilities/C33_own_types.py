@@ -38,7 +38,7 @@ class OwnTypes(Scenario):
         """Cast, events and values."""
         self.road = Map(map_file="highway.xodr")
         self.ego = Vehicle()
-        self.quiet = Plan(cruise=20 * knot, mood="calm", peak=1.0 * mpss)
+        self.quiet = Plan(cruise=20 * knot, mood="calm", peak=1 * mpss)
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

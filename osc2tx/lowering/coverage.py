@@ -9,7 +9,7 @@ from osc2tx.lowering.composed import Composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.triggers import declares_event
-from osc2tx.lowering.value_types import lower_type, lower_unit
+from osc2tx.lowering.value_types import lower_type, lower_unit, number_in
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import to_si
 from osc2tx.semantics.coverage_items import Item, all_items_of, text_of
@@ -157,7 +157,7 @@ class _Numbers:
                 si = to_si(float(value), self._ctx.model.units[node])
                 if self._unit is None:
                     return si
-                return float(f"{(si - self._unit.offset) / self._unit.factor:.10g}")
+                return number_in(self._unit, si)
             case _:
                 self._ctx.unsupported(
                     "OSC501", node.span, "slices of an item take plain numbers only"

@@ -60,14 +60,18 @@ class DeclarationLowering:
         return present(lowered)
 
     def lower_type_methods(self) -> tuple[ir.Method, ...]:
-        """Return the methods of types that were called so far, and those that they call."""
+        """Return the methods of types that were called so far, and those that they call.
+
+        They come in the order of the source, whichever was called first.
+        """
         lowered: dict[str, ir.Method | None] = {}
         while missing := [name for name in self._ctx.methods if name not in lowered]:
             for name in missing:
                 symbol = self._ctx.methods[name]
                 comments = () if symbol.node is None else statement_comments(symbol.node)
                 lowered[name] = lower_method(self._ctx, symbol, comments)
-        return present(list(lowered.values()))
+        methods = present(list(lowered.values()))
+        return tuple(sorted(methods, key=lambda m: (m.span.source.name, m.span.line)))
 
     def lower_globals(self) -> tuple[ir.Parameter, ...]:
         """Return the global parameters that were used so far, as parameters of the scenario."""

@@ -15,7 +15,8 @@ from osc2tx.diagnostics import Span
 from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.value_types import lower_type, lower_unit
+from osc2tx.lowering.value_types import lower_type, lower_unit, number_in
+from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
 
@@ -141,11 +142,25 @@ class DomainWriter:
             member = next(m for m in members if m.value == value)
             return ir.EnumValue(span=span, type=type_, member=member.name, value=member.value)
         if isinstance(self.type, types.PhysicalType) and isinstance(value, int | float):
-            unit = unit_of(self.ctx.model, tuple(self.constraints))
-            if unit is not None and unit.type == self.type:
-                number = float(f"{(value - unit.offset) / unit.factor:.10g}")
+            unit = self._unit()
+            if unit is not None:
+                number = number_in(unit, value)
                 return ir.Quantity(span=span, type=type_, value=number, unit=lower_unit(unit))
         return ir.Literal(span=span, type=type_, value=value)
+
+    def _unit(self) -> sym.UnitSymbol | None:
+        """Return the unit of the constraints; where they name none, the library's for SI."""
+        written = unit_of(self.ctx.model, tuple(self.constraints))
+        if written is not None and written.type == self.type:
+            return written
+        plain = (
+            unit
+            for unit in self.ctx.model.known_units
+            if unit.type == self.type
+            and unit.origin == "library"
+            and (unit.factor, unit.offset) == (1.0, 0.0)
+        )
+        return min(plain, key=lambda unit: (len(unit.name), unit.name), default=None)
 
     def _equalities(self, but: Sequence[Constraint] = ()) -> Iterator[ir.Expression]:
         """Yield what hard constraints say that the parameter equals, in parts of them."""

@@ -37,3 +37,9 @@ def lower_type(type_: types.Type) -> ir.ValueType:
 def lower_unit(unit: sym.UnitSymbol) -> ir.Unit:
     """Return the IR's view of a unit."""
     return ir.Unit(unit.name, unit.factor, unit.offset, is_standard=unit.origin == "library")
+
+
+def number_in(unit: sym.UnitSymbol, si: float) -> int | float:
+    """Return how many of a unit a value in SI is, to ten digits; a whole number as such."""
+    number = float(f"{(si - unit.offset) / unit.factor:.10g}")
+    return int(number) if number.is_integer() else number

@@ -137,4 +137,5 @@ def _model(
         bindings=ChainMap(r.bindings, below.bindings),
         units=ChainMap(r.units, below.units),
         symbols=tuple(r.scope.declared),
+        known_units=tuple(r.scope.all_units()),
     )

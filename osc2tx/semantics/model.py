@@ -50,6 +50,7 @@ class SemanticModel:
             `EmitDirective` means.
         units: The unit of a `PhysicalLiteral`.
         symbols: What the user's files declare, in source order, imported files first.
+        known_units: Every unit, also those of the library.
     """
 
     root: ast.File
@@ -61,6 +62,7 @@ class SemanticModel:
     bindings: Mapping[ast.Node, Binding] = field(default_factory=dict)
     units: Mapping[ast.PhysicalLiteral, UnitSymbol] = field(default_factory=dict)
     symbols: tuple[Symbol, ...] = ()
+    known_units: tuple[UnitSymbol, ...] = ()
 
     def type_of(self, expression: ast.Expression) -> Type:
         """Return the type of an expression; the error type if it has none."""

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, TypeVar
 
 from osc2tx_runtime.argument_rules import Rule
 from osc2tx_runtime.behaviour.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.behaviour.limits import Duration, Limits
-from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.errors import (
+    USER_CODE_ERRORS,
+    ScenarioError,
+    UnsupportedError,
+    blame,
+    is_own,
+)
 from osc2tx_runtime.registry import Method
 
 if TYPE_CHECKING:
@@ -17,6 +23,8 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.commands import Command
 
 __all__ = ["Action", "ActionOptions"]
+
+T = TypeVar("T")
 
 
 class ActionOptions(TypedDict, total=False):
@@ -155,20 +163,20 @@ class Action(Leaf):
         self.context.trace.action("start", self)
         for slot in self.slots:
             self.context.claim(self.actor.id, slot, self)
-        self.on_start()
+        with_blame(self, self.on_start)
 
     def update(self) -> Status:
         """Update, within the duration."""
         limits = self._limits
         if limits is None:
-            return self.on_update()
-        status = SUCCESS if limits.content_ended else self.on_update()
+            return with_blame(self, self.on_update)
+        status = SUCCESS if limits.content_ended else with_blame(self, self.on_update)
         return limits.judge(status, self.registered.ends == "open")
 
     def terminate(self, new_status: Status) -> None:
         """Clean up, release the slots and write the trace."""
         try:
-            self.on_stop()
+            with_blame(self, self.on_stop)
         finally:
             for slot in self.slots:
                 self.context.release(self.actor.id, slot, self)
@@ -177,3 +185,18 @@ class Action(Leaf):
             else:
                 reason = "stopped" if new_status is INVALID else None
                 self.context.trace.action("end", self, reason)
+
+
+def with_blame(action: Action, function: Callable[[], T]) -> T:
+    """Call a function of an action; what an action of the user's own raises is a mistake of its.
+
+    Raises:
+        ScenarioError: If the class of the action does not come from this library.
+    """
+    try:
+        return function()
+    except USER_CODE_ERRORS as error:
+        if not is_own(type(action)):
+            raise
+        text = f"{action.action_name}: {blame(type(action), error)}"
+        raise ScenarioError(text, action.source or None) from error

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 __all__ = [
+    "USER_CODE_ERRORS",
     "CapabilityError",
     "InputError",
     "PlacementError",
@@ -10,7 +11,15 @@ __all__ = [
     "SettingsError",
     "SlotConflict",
     "UnsupportedError",
+    "blame",
+    "is_own",
 ]
+
+USER_CODE_ERRORS = (
+    *(ArithmeticError, AssertionError, AttributeError, LookupError, NameError),
+    *(OSError, RuntimeError, TypeError, ValueError),
+)
+"""What code of the user raises when it is wrong; reported with the place in the scenario."""
 
 
 class ScenarioError(Exception):
@@ -63,3 +72,14 @@ class InputError(ScenarioError):
     """A file cannot be found, read or written."""
 
     exit_code = 4
+
+
+def is_own(factory: type) -> bool:
+    """Whether a class is code of the user's own."""
+    return not f"{factory.__module__}.".startswith("osc2tx_runtime.")
+
+
+def blame(factory: type, error: Exception) -> str:
+    """Return what a class of the user's own raised, in words."""
+    name = f"{factory.__module__}.{factory.__qualname__}"
+    return f"{name} raised {type(error).__name__}: {error}"

@@ -9,7 +9,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from osc2tx_runtime.argument_rules import check_arguments
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.errors import (
+    USER_CODE_ERRORS,
+    ScenarioError,
+    UnsupportedError,
+    blame,
+    is_own,
+)
 
 if TYPE_CHECKING:
     from osc2tx_runtime.action import Action
@@ -163,7 +169,7 @@ class MethodRegistry:
                 if found is None:
                     raise self._missing(kinds, name)
                 _check_arguments(found, actor, args, kwargs)
-                node = found.factory(actor, *args, **kwargs)
+                node = make(found, actor, args, kwargs)
             except ScenarioError as error:
                 return RefusedAction(actor, name, error, kwargs.get("label"))
             node.become(found)
@@ -186,6 +192,20 @@ class MethodRegistry:
     def all(self) -> tuple[Method, ...]:
         """Return every method, sorted by kind and name."""
         return tuple(self._methods[key] for key in sorted(self._methods))
+
+
+def make(method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> Action:
+    """Make an action.
+
+    Raises:
+        ScenarioError: If a class of the user's own raises something.
+    """
+    try:
+        return method.factory(actor, *args, **kwargs)
+    except USER_CODE_ERRORS as error:
+        if not is_own(method.factory):
+            raise
+        raise ScenarioError(f"{actor.id} {method.name}: {blame(method.factory, error)}") from error
 
 
 def _check_arguments(

@@ -14,7 +14,6 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.calls import CallWriter, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
-    PyComment,
     PyExpr,
     PyName,
     literal,
@@ -23,13 +22,20 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.source_map import ScenarioMap
-from osc2tx.backends.py_trees.view import ArgumentView, CallView, MethodView, StatementView
+from osc2tx.backends.py_trees.view import (
+    ArgumentView,
+    CallView,
+    HeadView,
+    MethodView,
+    StatementView,
+)
 from osc2tx.ir.text import condensed, shorten
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
 MAX_INLINE_DEPTH = 6
 
+BEHAVIOUR = name_expression(PyName("Behaviour"))
 CLASSES = {ir.Serial: "Serial", ir.Parallel: "Parallel", ir.OneOf: "OneOf"}
 
 
@@ -69,8 +75,7 @@ class BehaviorTreeBuilder:
         index = len(self._written)
         value = self._node(node, depth=0)
         method = MethodView(
-            name=name,
-            location=PyComment.of(str(node.span)),
+            head=HeadView.of(name, (), BEHAVIOUR, node.span),
             value=replace(value, comments=()),
             comments=value.comments,
         )

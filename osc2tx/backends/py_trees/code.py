@@ -9,8 +9,11 @@ from __future__ import annotations
 import keyword
 import math
 import unicodedata
+from decimal import Decimal
 
 from osc2tx.light_dataclass import dataclass
+
+LONGEST_DIGITS = 10  # a number that takes more characters is written with an exponent
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +76,17 @@ def literal(value: bool | int | float | str) -> PyExpr:
     """Return a literal; strings are quoted by `repr`, infinities and NaN spelled out."""
     if isinstance(value, float) and not math.isfinite(value):
         return PyExpr(f'float("{value!r}")', Level.ATOM)
-    text = repr(value)
+    text = _float(value) if isinstance(value, float) else repr(value)
     return PyExpr(text, Level.UNARY if text.startswith("-") else Level.ATOM)
+
+
+def _float(value: float) -> str:
+    """Spell a finite number as a person would: `0.0000475`, and `4.75e-9` where that is long."""
+    mantissa, _, exponent = repr(value).partition("e")
+    if not exponent:
+        return mantissa
+    digits = format(Decimal(repr(value)), "f")
+    return digits if len(digits) <= LONGEST_DIGITS else f"{mantissa}e{int(exponent)}"
 
 
 def name_expression(name: PyName) -> PyExpr:

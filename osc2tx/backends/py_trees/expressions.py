@@ -222,15 +222,29 @@ class ExpressionWriter:
             case ir.ListOperator.FILTER:
                 text = f"[{name} for {name} in {values} if {test}]"
             case ir.ListOperator.MAP:
-                text = f"[{inner} for {name} in {values}]"
+                text = f"[{inner} {self._elements(node)}]"
             case ir.ListOperator.HAS:
-                text = f"any({inner} for {name} in {values})"
+                text = f"any({inner} {self._elements(node)})"
             case ir.ListOperator.COUNT:
-                text = f"sum({inner} for {name} in {values})"
+                text = f"sum({inner} {self._elements(node)})"
             case _:  # the first index
                 found = f"index for index, {name} in enumerate({values}) if {test}"
                 text = f"next(({found}), -1)"
         return PyExpr(text, Level.ATOM)
+
+    def _elements(self, node: ir.ListOperation) -> str:
+        """Write `for it in values`; a filter below needs no list of its own."""
+        base = node.base
+        name = element_name(node.depth)
+        if (
+            isinstance(base, ir.ListOperation)
+            and base.operator is ir.ListOperator.FILTER
+            and base.argument is not None
+            and base.depth == node.depth
+        ):
+            test = self.write(base.argument).within(Level.OR)
+            return f"for {name} in {self.write(base.base).within(Level.OR)} if {test}"
+        return f"for {name} in {self.write(base).within(Level.OR)}"
 
     def _argument(self, argument: ir.Argument, own: bool) -> str:
         value = self.write(argument.value).within(Level.CONDITIONAL)

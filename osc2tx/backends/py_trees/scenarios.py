@@ -9,7 +9,6 @@ from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
 from osc2tx.backends.py_trees.calls import CallWriter, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
-    PyComment,
     PyDocLine,
     PyExpr,
     PyName,
@@ -27,8 +26,8 @@ from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
     CallView,
-    FunctionParameterView,
     FunctionView,
+    HeadView,
     ScenarioView,
     StatementView,
 )
@@ -272,22 +271,22 @@ class ScenarioWriter:
         return parameter.is_fixed or not (is_single or self._scenario.is_invoked)
 
     def _function(self, method: ir.Method, body: ir.Expression) -> FunctionView:
-        write = self._calls.expressions.write
         return FunctionView(
-            name=self._names[method.name],
-            parameters=tuple(
-                FunctionParameterView(
-                    self._calls.expressions.parameter(parameter.name),
-                    self._types.annotation(parameter.type),
-                    None if parameter.default is None else write(parameter.default),
-                )
-                for parameter in method.parameters
+            head=HeadView.of(
+                self._names[method.name],
+                map(self._function_parameter, method.parameters),
+                self._types.annotation(method.result),
+                method.span,
             ),
-            result=self._types.annotation(method.result),
-            value=write(body),
-            location=PyComment.of(str(method.span)),
+            value=self._calls.expressions.write(body),
             comments=comments(method.comments),
         )
+
+    def _function_parameter(self, parameter: ir.MethodParameter) -> str:
+        writer = self._calls.expressions
+        name = writer.parameter(parameter.name)
+        text = f"{name}: {self._types.annotation(parameter.type)}"
+        return text if parameter.default is None else f"{text} = {writer.write(parameter.default)}"
 
     def _placement(self, placement: ir.Placement) -> StatementView:
         self.source_map.placements.append(placement.span.line)

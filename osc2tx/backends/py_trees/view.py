@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from osc2tx.backends.py_trees.code import PyComment, PyDocLine, PyExpr, PyName
+from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName
+from osc2tx.backends.py_trees.formatting import LINE_LENGTH
+from osc2tx.diagnostics import Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,23 +41,30 @@ class StatementView:
 
 
 @dataclass(frozen=True, slots=True)
-class FunctionParameterView:
-    """A parameter of a function: name, type and default."""
+class HeadView:
+    """First line of a method: its signature, and where it comes from."""
 
-    name: PyName
-    annotation: PyExpr
-    default: PyExpr | None = None
+    signature: PyExpr
+    location: PyComment
+
+    @classmethod
+    def of(cls, name: PyName, parameters: Iterable[str], result: PyExpr, span: Span) -> HeadView:
+        """Make the head of a method with written parameters."""
+        signature = f"{name}({', '.join(('self', *parameters))}) -> {result}"
+        return cls(PyExpr(signature, Level.ATOM), PyComment.of(str(span)))
+
+    @property
+    def is_long(self) -> bool:
+        """Whether the location would make the line too long, so that it goes below."""
+        return len(f"    def {self.signature}:  {self.location}") > LINE_LENGTH
 
 
 @dataclass(frozen=True, slots=True)
 class FunctionView:
     """A method of the scenario that computes a value."""
 
-    name: PyName
-    parameters: tuple[FunctionParameterView, ...]
-    result: PyExpr
+    head: HeadView
     value: PyExpr
-    location: PyComment
     comments: tuple[PyComment, ...] = ()
 
 
@@ -62,8 +72,7 @@ class FunctionView:
 class MethodView:
     """A method that returns one piece of the behavior tree."""
 
-    name: PyName
-    location: PyComment
+    head: HeadView
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
     statements: tuple[StatementView, ...] = ()

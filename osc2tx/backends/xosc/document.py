@@ -134,5 +134,13 @@ def _variables(ctx: Context) -> Element | None:
 
 
 def entry_scenarios(module: ir.Module) -> tuple[ir.Scenario, ...]:
-    """Return the scenarios that are written down: those of the file itself."""
-    return tuple(scenario for scenario in module.scenarios if not scenario.is_imported)
+    """Return the scenarios that are written down: those of the file that can begin a run.
+
+    One that others invoke, and to which they have to give values, is a part of theirs.
+    """
+    own = (scenario for scenario in module.scenarios if not scenario.is_imported)
+    return tuple(each for each in own if not (each.is_invoked and _is_incomplete(each)))
+
+
+def _is_incomplete(scenario: ir.Scenario) -> bool:
+    return any(isinstance(d, ir.Parameter) and d.is_required for d in scenario.declarations)

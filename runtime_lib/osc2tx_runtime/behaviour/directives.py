@@ -10,15 +10,9 @@ from py_trees.decorators import Decorator
 from osc2tx_runtime.behaviour.base import RUNNING, SUCCESS, Behaviour, Leaf, Node, Status, pulse_of
 from osc2tx_runtime.behaviour.conditions import EVALUATION_ERRORS, Condition, Edge, Watch
 from osc2tx_runtime.behaviour.events import Event, Guard, Trigger, describe, watch
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import USER_CODE_ERRORS, ScenarioError
 
 __all__ = ["Call", "Emit", "Until", "Wait"]
-
-CALL_ERRORS = (
-    *(ArithmeticError, AssertionError, AttributeError, LookupError, NameError),
-    *(OSError, RuntimeError, TypeError, ValueError),
-)
-"""What code of the user raises when it is wrong; reported with the place of the call."""
 
 
 class Wait(Leaf):
@@ -130,7 +124,7 @@ class Call(Leaf):
         """
         try:
             self.function()
-        except CALL_ERRORS as error:
+        except USER_CODE_ERRORS as error:
             raise ScenarioError(f"{self.name}: {type(error).__name__}: {error}") from error
 
     def update(self) -> Status:

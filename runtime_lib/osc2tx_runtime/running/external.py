@@ -6,8 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from osc2tx_runtime.behaviour.directives import CALL_ERRORS
-from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.errors import USER_CODE_ERRORS, ScenarioError, SettingsError
 
 __all__ = ["external_function"]
 
@@ -43,7 +42,7 @@ def external_function(
     def call(*arguments: Any) -> Any:
         try:
             result = function(*arguments)
-        except CALL_ERRORS as error:
+        except USER_CODE_ERRORS as error:
             raise ScenarioError(f"{path}: {type(error).__name__}: {error}", source) from error
         return result if kind is None else as_kind(result, kind, path, source)
 

@@ -212,12 +212,12 @@ def test_exception_in_a_leaf_leaves_nothing_running() -> None:
 
     drive, broken = Drive(NPC), Broken(HERO, 1)
     made = Run(Parallel("p", drive, broken), ids=IDS)
-    with pytest.raises(RuntimeError, match="bug"):
+    with pytest.raises(ScenarioError, match=r"hero task: .*Broken raised RuntimeError: bug \(at 0"):
         made.go()
     assert all(node.status is not Status.RUNNING for node in made.root.iterate())
     assert not made.context.slots.live()
     assert broken.log == ["start", "stop"]
-    assert '"status":"error","reason":"RuntimeError(' in made.lines[-1]
+    assert '"status":"error","reason":"hero task: ' in made.lines[-1]
 
 
 def test_exception_in_on_stop_leaves_nothing_running() -> None:
@@ -226,7 +226,7 @@ def test_exception_in_on_stop_leaves_nothing_running() -> None:
             raise RuntimeError("no connection")
 
     made = Run(Parallel("p", Broken(HERO), Drive(NPC)), ids=IDS, max_time=0.1)
-    with pytest.raises(RuntimeError, match="no connection"):
+    with pytest.raises(ScenarioError, match="Broken raised RuntimeError: no connection"):
         made.go()
     assert all(node.status is not Status.RUNNING for node in made.root.iterate())
     assert not made.context.slots.live()

@@ -109,3 +109,27 @@ def test_packages_are_only_read_for_unknown_actions(tmp_path: Path) -> None:
     actions = "raise ImportError('loaded')\n"
     done = run(tmp_path, 'Serial("s", self.ego.drive(duration=0.1))', actions=actions)
     assert done.returncode == 0, done.stderr
+
+
+BROKEN = """
+from osc2tx_runtime import Action, action
+
+
+@action("vehicle", "creep", slots=("longitudinal",), ends="open")
+class Creep(Action):
+    def __init__(self, actor, *modifiers, **options):
+        super().__init__(actor, *modifiers, **options)
+        WHERE
+
+    def on_start(self):
+        THEN
+"""
+
+
+@pytest.mark.parametrize(("where", "then"), [("self.sped", "pass"), ("pass", "self.sped")])
+def test_mistakes_of_own_actions_are_theirs(tmp_path: Path, where: str, then: str) -> None:
+    text = BROKEN.replace("WHERE", where).replace("THEN", then)
+    ended = run(tmp_path, "self.ego.creep()", actions=text)
+    assert ended.returncode == 5
+    assert "ego creep: my_actions.Creep raised AttributeError:" in ended.stderr
+    assert "Traceback" not in ended.stderr

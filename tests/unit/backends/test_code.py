@@ -20,6 +20,20 @@ def test_a_number_literal_is_the_number(value: float) -> None:
     assert eval(literal(value).text) == value
 
 
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.5, "0.5"),
+        (-0.0000475, "-0.0000475"),
+        (4.75e-13, "4.75e-13"),
+        (1.5e-9, "1.5e-9"),
+        (1e16, "1e16"),
+    ],
+)
+def test_a_number_is_spelled_as_a_person_would(value: float, text: str) -> None:
+    assert literal(value).text == text
+
+
 @given(st.text())
 def test_a_comment_stays_a_comment(text: str) -> None:
     tree = ast.parse(f"x = 1  {PyComment.of(text)}\ny = 2\n")

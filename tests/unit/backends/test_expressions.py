@@ -127,3 +127,38 @@ def test_a_range_test_reads_its_value_once() -> None:
     bounds = ir.RangeValue(span=SPAN, type=INTEGER, lower=literal(1), upper=literal(3))
     inside = binary("in", ir.FieldRef(span=SPAN, type=INTEGER, name="v"), bounds)
     assert writer().write(inside).text == "1 <= self.v <= 3"
+
+
+@pytest.mark.parametrize(
+    ("operator", "expected"),
+    [
+        (ir.ListOperator.MAP, [False, True]),
+        (ir.ListOperator.HAS, True),
+        (ir.ListOperator.COUNT, 1),
+    ],
+)
+def test_a_filter_below_another_operator_needs_no_list(
+    operator: ir.ListOperator, expected: object
+) -> None:
+    numbers = ir.ValueType(ir.Kind.LIST, "list of int", INTEGER)
+    it = ir.Element(span=SPAN, type=INTEGER, depth=0)
+    listed = ir.ListValue(span=SPAN, type=numbers, elements=tuple(map(literal, (5, 3, 1))))
+    small = ir.ListOperation(
+        span=SPAN,
+        type=numbers,
+        base=listed,
+        operator=ir.ListOperator.FILTER,
+        argument=binary("<", it, literal(5)),
+        depth=0,
+    )
+    outer = ir.ListOperation(
+        span=SPAN,
+        type=INTEGER,
+        base=small,
+        operator=operator,
+        argument=binary("<", it, literal(3)),
+        depth=0,
+    )
+    text = writer().write(outer).text
+    assert eval(text) == expected
+    assert text.count(" for ") == 1

@@ -54,3 +54,31 @@ def test_documents_are_sound(name: str, version: XmlVersion, tmp_path: Path) -> 
     assert schema_errors(xml, version) == []
     assert story_problems(xml) == []
     assert checker_issues(xml, tmp_path) == []
+
+
+PARTS = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario vehicle.hurry:
+    v: speed
+    do actor.change_speed(target: v)
+
+scenario vehicle.cruise:
+    v: speed = 20mps
+    do actor.drive(duration: 2s) with:
+        speed(v)
+
+scenario main:
+    ego: vehicle
+    do serial:
+        ego.cruise()
+        ego.hurry(v: 25mps)
+"""
+
+
+def test_a_scenario_that_needs_values_from_its_caller_has_no_document(tmp_path: Path) -> None:
+    (tmp_path / "parts.osc").write_text(PARTS, encoding="utf-8")
+    module = Compilation(tmp_path / "parts.osc", "parts.osc", CompileOptions()).ir
+    assert module is not None
+    assert [each.name for each in emit(module, XmlOptions(), None)] == ["vehicle.cruise", "main"]

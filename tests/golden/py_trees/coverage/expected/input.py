@@ -43,7 +43,7 @@ class Coverage(Scenario):
             "gap",
             lambda: self.npc.object_distance(reference=self.ego, direction="euclidean"),
             unit=Unit("m", m),
-            within=(0.0, 500.0),
+            within=(0, 500),
             every=50,
             ignore=lambda it: it < 1 * m,
             target=1,

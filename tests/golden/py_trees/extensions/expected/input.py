@@ -78,7 +78,7 @@ class Extensions(Scenario):
         self.economical = Habits(pace=8 * mps, spends=self.economical_spends)
         self.fast_pace = self.parameter("fast.pace", within(14 * mps, 15 * mps))
         self.fast = Habits(pace=self.fast_pace)
-        self.commute_top = self.parameter("commute.top", within(8.0, 15.0))
+        self.commute_top = self.parameter("commute.top", within(8 * mps, 15 * mps))
 
         self.keep(self.fast.pace > 14 * mps)
         self.keep(self.fast.pace < 15 * mps)

@@ -31,7 +31,7 @@ class Lists(Scenario):
         self.cruise = self.parameter("cruise", self.speeds[1])
 
         # operators of lists within operators of lists
-        self.slow = [it / 2.0 for it in [it for it in self.speeds if it < 25 * kph]]
+        self.slow = [it / 2.0 for it in self.speeds if it < 25 * kph]
 
         self.keep(len(self.speeds) == 3 and any(it == 20 * kph for it in self.speeds))
 

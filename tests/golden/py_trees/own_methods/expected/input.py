@@ -74,9 +74,8 @@ class OwnMethods(Scenario):
             else guests >= coach.seats
         )
 
-    def double_decker_is_full(
-        self, double_decker: DoubleDecker, guests: int
-    ) -> bool:  # input.osc:17
+    def double_decker_is_full(self, double_decker: DoubleDecker, guests: int) -> bool:
+        # input.osc:17
         return guests >= 2 * double_decker.seats
 
     def behavior(self) -> Behaviour:  # input.osc:32

@@ -97,20 +97,20 @@ class Shapes(Scenario):
     def ramp_duration(self, ramp: Ramp) -> float:  # input.osc:10
         return ramp.length
 
+    def ramp_share(self, ramp: Ramp, time: float) -> float:  # input.osc:11
+        return time / ramp.length
+
     def ramp_compute(self, ramp: Ramp, time: float) -> float:  # input.osc:12
         return ramp.first + (ramp.last - ramp.first) * self.ramp_share(ramp, time)
 
     def sway_compute(self, sway: Sway, time: float) -> float:  # input.osc:16
         return sway.rate * time
 
-    def turn_compute(self, turn: Turn, time: float) -> float:  # input.osc:21
-        return turn.rate * time
-
     def turn_duration(self, turn: Turn) -> float:  # input.osc:20
         return 2 * s
 
-    def ramp_share(self, ramp: Ramp, time: float) -> float:  # input.osc:11
-        return time / ramp.length
+    def turn_compute(self, turn: Turn, time: float) -> float:  # input.osc:21
+        return turn.rate * time
 
     def behavior(self) -> Behaviour:  # input.osc:49
         return Parallel(
