@@ -1,8 +1,8 @@
 """`dataclass` as of the standard library, but cheap to declare and quicker to construct.
 
 The decorator of the standard library writes and compiles six methods for each class when its module
-is imported: a third of a millisecond each, and osc2tx has three hundred classes, of which a run needs
-a few. Here a constructor is compiled when it is first called, and the other methods are shared by
+is imported: a third of a millisecond each, and osc2tx has three hundred classes, of which a run
+needs a few. Here a constructor is compiled when it is first called, and the others are shared by
 all classes. Constructors of frozen classes fill the slots directly, in half the time.
 
 Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance, pickling,
