@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
+from copy import copy
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Inexpressible
@@ -61,7 +62,6 @@ class Values:
         scenario: The scenario.
         given: Values of fields that an invocation hands in.
         types: The types of the module.
-        arguments: Values of parameters, inside a method.
     """
 
     def __init__(
@@ -69,14 +69,12 @@ class Values:
         scenario: ir.Scenario,
         given: Mapping[str, Constant] | None = None,
         types: OwnTypes | None = None,
-        arguments: Mapping[str, Constant] | None = None,
     ) -> None:
-        self._scenario = scenario
         self._declared = {d.name: d for d in scenario.declarations}
         self._methods = {m.name: m for m in scenario.methods}
         self._given = dict(given or {})
         self._types = types or OwnTypes()
-        self._arguments = dict(arguments or {})
+        self._arguments: dict[str, Constant] = {}  # of the method that is looked into
         self._depth = 0
         self._hidden: dict[str, Inexpressible] = {}
         self._sizes: dict[str, Mapping[tuple[str, ...], float]] = {}
@@ -265,9 +263,8 @@ class Values:
             raise Inexpressible(text, method.span)
         arguments = {p.name: self.of(p.default) for p in method.parameters if p.default is not None}
         arguments.update(given)
-        inner = Values(self._scenario, self._given, self._types, arguments)
-        inner._sizes = self._sizes
-        inner._depth = self._depth + 1
+        inner = copy(self)
+        inner._arguments, inner._depth = arguments, self._depth + 1
         return inner.of(method.expression)
 
     def _unary(self, sign: str, operand: ir.Expression) -> Constant:

@@ -82,3 +82,27 @@ def test_a_scenario_that_needs_values_from_its_caller_has_no_document(tmp_path: 
     module = Compilation(tmp_path / "parts.osc", "parts.osc", CompileOptions()).ir
     assert module is not None
     assert [each.name for each in emit(module, XmlOptions(), None)] == ["vehicle.cruise", "main"]
+
+
+INSIDE_A_METHOD = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario vehicle.hurry:
+    v: speed = 10mps
+    def doubled() -> speed is expression 2 * v
+    do actor.change_speed(target: doubled())
+
+scenario main:
+    a, b: vehicle
+    do a.hurry(v: b.speed)
+"""
+
+
+def test_a_method_does_not_take_the_default_of_what_only_the_run_knows(tmp_path: Path) -> None:
+    (tmp_path / "inside.osc").write_text(INSIDE_A_METHOD, encoding="utf-8")
+    module = Compilation(tmp_path / "inside.osc", "inside.osc", CompileOptions()).ir
+    assert module is not None
+    main = emit(module, XmlOptions(), None)[-1]
+    assert main.xml is None
+    assert "`b.speed` is only known during the run" in {e.reason for e in main.report.obstacles}
