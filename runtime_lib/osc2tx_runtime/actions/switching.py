@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -17,10 +18,10 @@ if TYPE_CHECKING:
     from osc2tx_runtime.actors import TrafficLightController
     from osc2tx_runtime.signals.traffic_cycles import TrafficLightCycle
     from osc2tx_runtime.signals.traffic_lights import Bulbs
-    from osc2tx_runtime.world.lamps import BulbColor, BulbState, Meaning
+    from osc2tx_runtime.world.lamps import BulbColor, BulbState, Lamp, Meaning
     from osc2tx_runtime.world.signals import Signals
 
-__all__ = ["SignalAction", "SwitchAll", "SwitchLamp", "SwitchMeaning"]
+__all__ = ["AllLamps", "OneLamp", "Saying", "SignalAction", "Switch"]
 
 
 class SignalAction(Action):
@@ -65,6 +66,48 @@ class SignalAction(Action):
         self.context.trace.signal(signal, meaning, states, ignored)
 
 
+@dataclass(frozen=True, slots=True)
+class OneLamp:
+    """One lamp of a box, chosen by its color and symbol."""
+
+    color: BulbColor
+    icon: str
+    state: BulbState
+
+    def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState]:
+        """That of the lamp."""
+        found = [i for i, lamp in enumerate(lamps) if lamp == (self.color, self.icon)]
+        if not found:
+            has = ", ".join(f"{lamp.color} {lamp.icon}" for lamp in lamps)
+            raise ScenarioError(
+                f"traffic light {signal} has no lamp {self.color} {self.icon}; it has {has}"
+            )
+        return dict.fromkeys(found, self.state)
+
+
+@dataclass(frozen=True, slots=True)
+class AllLamps:
+    """All lamps of a box, in their order."""
+
+    state: Bulbs
+
+    def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState]:
+        """Those given."""
+        return dict(enumerate(states_of(self.state, lamps, f"traffic light {signal}")))
+
+
+@dataclass(frozen=True, slots=True)
+class Saying:
+    """What boxes tell drivers; those that cannot say it stay as they are (DSL 8.15.9.3)."""
+
+    state: Meaning
+
+    def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState] | None:
+        """Those that mean it."""
+        states = lamps_that_mean(lamps, self.state)
+        return None if states is None else dict(enumerate(states))
+
+
 class Switch(SignalAction):
     """Switches the lamps of boxes at once.
 
@@ -73,6 +116,7 @@ class Switch(SignalAction):
         modifiers: None are taken.
         lights: The boxes.
         sync: Also switch the lights that keep in step with them.
+        shown: What the boxes are to show.
         options: Duration and label.
     """
 
@@ -82,11 +126,13 @@ class Switch(SignalAction):
         modifiers: tuple[Modifier, ...],
         lights: Callable[[Signals], tuple[str, ...]],
         sync: bool,
+        shown: OneLamp | AllLamps | Saying,
         options: ActionOptions,
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         self.lights = lights
         self.sync = sync
+        self.shown = shown
 
     def find(self) -> None:
         """Find the boxes, and see whether they can show what they are to."""
@@ -97,7 +143,7 @@ class Switch(SignalAction):
 
     def new_states(self, signal: str) -> Mapping[int, BulbState] | None:
         """New states of lamps by their numbers; None where the box cannot show what it is to."""
-        raise NotImplementedError
+        return self.shown.states(signal, self.signals.lamps(signal))
 
     def on_start(self) -> None:
         """Switches the lamps, also those of lights in step."""
@@ -116,12 +162,8 @@ class Switch(SignalAction):
         """Ends at once."""
         return Status.SUCCESS
 
-    def ignored(self) -> str:
-        """What a box cannot show."""
-        return ""
-
     def _ignore(self, signal: str) -> None:
-        self.note(signal, self.signals.latest(signal), self.ignored())
+        self.note(signal, self.signals.latest(signal), str(self.shown.state))
 
     def _cycles(self) -> tuple[TrafficLightCycle, ...]:
         from osc2tx_runtime.actors import Map
@@ -153,76 +195,3 @@ class Switch(SignalAction):
                 if other not in switched:
                     new = states_of(phase.bulbs_state, signals.lamps(other), phase.group.name)
                     self.switch("traffic light", other, dict(enumerate(new)))
-
-
-class SwitchLamp(Switch):
-    """One lamp, chosen by its color and symbol."""
-
-    def __init__(
-        self,
-        actor: TrafficLightController,
-        modifiers: tuple[Modifier, ...],
-        lights: Callable[[Signals], tuple[str, ...]],
-        sync: bool,
-        lamp: tuple[BulbColor, str, BulbState],
-        options: ActionOptions,
-    ) -> None:
-        super().__init__(actor, modifiers, lights, sync, options)
-        self.color, self.icon, self.state = lamp
-
-    def new_states(self, signal: str) -> Mapping[int, BulbState]:
-        """That of the lamp."""
-        lamps = self.signals.lamps(signal)
-        found = [i for i, lamp in enumerate(lamps) if lamp == (self.color, self.icon)]
-        if not found:
-            has = ", ".join(f"{lamp.color} {lamp.icon}" for lamp in lamps)
-            raise ScenarioError(
-                f"traffic light {signal} has no lamp {self.color} {self.icon}; it has {has}"
-            )
-        return dict.fromkeys(found, self.state)
-
-
-class SwitchAll(Switch):
-    """All lamps, in their order."""
-
-    def __init__(
-        self,
-        actor: TrafficLightController,
-        modifiers: tuple[Modifier, ...],
-        lights: Callable[[Signals], tuple[str, ...]],
-        sync: bool,
-        state: Bulbs,
-        options: ActionOptions,
-    ) -> None:
-        super().__init__(actor, modifiers, lights, sync, options)
-        self.state = state
-
-    def new_states(self, signal: str) -> Mapping[int, BulbState]:
-        """Those given."""
-        lamps = self.signals.lamps(signal)
-        return dict(enumerate(states_of(self.state, lamps, f"traffic light {signal}")))
-
-
-class SwitchMeaning(Switch):
-    """What boxes tell drivers; those that cannot say it stay as they are (DSL 8.15.9.3)."""
-
-    def __init__(
-        self,
-        actor: TrafficLightController,
-        modifiers: tuple[Modifier, ...],
-        lights: Callable[[Signals], tuple[str, ...]],
-        sync: bool,
-        state: Meaning,
-        options: ActionOptions,
-    ) -> None:
-        super().__init__(actor, modifiers, lights, sync, options)
-        self.state = state
-
-    def new_states(self, signal: str) -> Mapping[int, BulbState] | None:
-        """Those that mean it."""
-        states = lamps_that_mean(self.signals.lamps(signal), self.state)
-        return None if states is None else dict(enumerate(states))
-
-    def ignored(self) -> str:
-        """The meaning."""
-        return self.state

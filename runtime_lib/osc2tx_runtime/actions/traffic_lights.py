@@ -13,7 +13,7 @@ from osc2tx_runtime.action import ActionOptions
 from osc2tx_runtime.modifiers import Modifier
 from osc2tx_runtime.registry import action
 
-from .switching import SwitchAll, SwitchLamp, SwitchMeaning
+from .switching import AllLamps, OneLamp, Saying, Switch
 
 if TYPE_CHECKING:
     from osc2tx_runtime.actors import TrafficLightController
@@ -36,7 +36,7 @@ def _alone(light: TrafficLight) -> Callable[[Signals], tuple[str, ...]]:
 
 
 @action("traffic_light_controller", "set_bulb_state", ends="instant")
-class SetBulbState(SwitchLamp):
+class SetBulbState(Switch):
     """Switch one lamp of a box, chosen by its color and symbol."""
 
     def __init__(
@@ -50,12 +50,12 @@ class SetBulbState(SwitchLamp):
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
-        lamp = (bulb_color, bulb_kind, bulb_state)
+        lamp = OneLamp(bulb_color, bulb_kind, bulb_state)
         super().__init__(actor, modifiers, _alone(traffic_light), sync, lamp, options)
 
 
 @action("traffic_light_controller", "set_state", ends="instant")
-class SetState(SwitchAll):
+class SetState(Switch):
     """Switch all lamps of a box, in their order."""
 
     def __init__(
@@ -67,11 +67,11 @@ class SetState(SwitchAll):
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, _alone(traffic_light), sync, state, options)
+        super().__init__(actor, modifiers, _alone(traffic_light), sync, AllLamps(state), options)
 
 
 @action("traffic_light_controller", "set_semantic_state", ends="instant")
-class SetSemanticState(SwitchMeaning):
+class SetSemanticState(Switch):
     """Let a box say something; ignored if it has no lamps for it."""
 
     def __init__(
@@ -83,11 +83,11 @@ class SetSemanticState(SwitchMeaning):
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, _alone(traffic_light), sync, state, options)
+        super().__init__(actor, modifiers, _alone(traffic_light), sync, Saying(state), options)
 
 
 @action("traffic_light_controller", "set_group_bulb_state", ends="instant")
-class SetGroupBulbState(SwitchLamp):
+class SetGroupBulbState(Switch):
     """Switch one lamp in every box of the group that a light belongs to."""
 
     def __init__(
@@ -101,12 +101,12 @@ class SetGroupBulbState(SwitchLamp):
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
-        lamp = (bulb_color, bulb_kind, bulb_state)
+        lamp = OneLamp(bulb_color, bulb_kind, bulb_state)
         super().__init__(actor, modifiers, traffic_light.lights, sync, lamp, options)
 
 
 @action("traffic_light_controller", "set_group_state", ends="instant")
-class SetGroupState(SwitchAll):
+class SetGroupState(Switch):
     """Switch all lamps of every box of a group."""
 
     def __init__(
@@ -118,11 +118,11 @@ class SetGroupState(SwitchAll):
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, group.lights, sync, state, options)
+        super().__init__(actor, modifiers, group.lights, sync, AllLamps(state), options)
 
 
 @action("traffic_light_controller", "set_group_semantic_state", ends="instant")
-class SetGroupSemanticState(SwitchMeaning):
+class SetGroupSemanticState(Switch):
     """Let every box of a group say something; boxes without lamps for it ignore it."""
 
     def __init__(
@@ -134,4 +134,4 @@ class SetGroupSemanticState(SwitchMeaning):
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, traffic_light_group.lights, sync, state, options)
+        super().__init__(actor, modifiers, traffic_light_group.lights, sync, Saying(state), options)
