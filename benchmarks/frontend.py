@@ -30,8 +30,8 @@ from pathlib import Path
 from osc2tx import stdlib
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.semantics import ASAM, ModelBuilder
-from osc2tx.stack import room_for_trees
 from osc2tx.stdlib import snapshot
+from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import parse
 from osc2tx.syntax.ast_transformer import ASTTransformer
 from osc2tx.syntax.parser import parse_tokens

@@ -9,7 +9,8 @@ import py_trees
 from costs import best, growth
 from py_trees.common import ParallelPolicy, Status
 
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Emit,
     Event,
@@ -21,7 +22,6 @@ from osc2tx_runtime.behaviour import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.context import ExecutionContext
 from osc2tx_runtime.running.loop import settle
 from osc2tx_runtime.running.runner import setup_tree
 

@@ -23,10 +23,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from osc2tx.building.jobs import find_jobs
+from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
-from osc2tx.driver import Compilation
-from osc2tx.inputs import InputError
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
 
 __all__ = ["CompileResult", "compile_file", "compile_text"]

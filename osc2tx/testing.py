@@ -66,9 +66,9 @@ def assert_build_fresh(
     """
     __tracebackhide__ = True
     from osc2tx.building.build import BuildOptions, build
+    from osc2tx.compilation.reports import settle_all
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics import Severity
-    from osc2tx.reported import settle_all
 
     paths = [sources] if isinstance(sources, str | Path) else list(sources)
     writes = update or _updates
@@ -166,8 +166,8 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
         ScenarioError: If the scenario cannot be run.
         InputError: If there is no such file.
     """
+    from osc2tx.cli.run import choose_scenario, merge_settings
     from osc2tx.config import ConfigFiles
-    from osc2tx.run_command import choose_scenario, merge_settings
     from osc2tx_runtime import run_scenario as run
 
     path = Path(path)
@@ -182,10 +182,10 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
 @contextmanager
 def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.building.jobs import compile_all
+    from osc2tx.cli.loading import scenarios_of_file, scenarios_of_module
+    from osc2tx.compilation.inputs import find_inputs
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all
-    from osc2tx.inputs import find_inputs
-    from osc2tx.loading import scenarios_of_file, scenarios_of_module
 
     find_inputs([path])  # refuses what is not there
     if path.suffix == ".py":

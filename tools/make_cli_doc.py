@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from osc2tx.cli import COMMANDS, cli
-from osc2tx.reporting import Exit
+from osc2tx.cli.reporting import Exit
 
 PAGE = Path(__file__).parent.parent / "docs" / "reference" / "cli.md"
 MEANINGS = {

@@ -8,7 +8,7 @@ import json
 import sys
 from pathlib import Path
 
-from osc2tx_runtime.capabilities import capabilities
+from osc2tx_runtime.domain.capabilities import capabilities
 
 TABLE = Path(__file__).parent.parent / "osc2tx/backends/py_trees/runtime_api.json"
 USED = (

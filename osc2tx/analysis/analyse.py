@@ -11,9 +11,9 @@ from osc2tx.analysis.recursion import report_recursion
 from osc2tx.analysis.report_constraints import report_constraints
 from osc2tx.analysis.usage import find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

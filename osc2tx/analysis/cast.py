@@ -17,10 +17,10 @@ from osc2tx.analysis.library_facts import (
 )
 from osc2tx.analysis.trees import do_directives, do_members
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 

@@ -16,12 +16,12 @@ from osc2tx.analysis.specialisation import Special
 from osc2tx.analysis.tape import Key, Tape, TapeWriter
 from osc2tx.analysis.trees import do_members
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 Op = ast.BinaryOperator

@@ -33,10 +33,10 @@ from osc2tx.analysis.specialisation import (
     types_below,
 )
 from osc2tx.analysis.tape import Key, domain_of_type
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 MOST_CONFLICTS = 10  # reported for one type

@@ -7,9 +7,9 @@ from functools import cache
 from osc2tx.analysis.applied import library_modifiers
 from osc2tx.analysis.library_facts import BOUNDING_MODIFIERS, is_instant, is_open_ended
 from osc2tx.analysis.trees import do_directives, do_members, nodes_below
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 MOST_ROUNDS = 50

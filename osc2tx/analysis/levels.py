@@ -20,10 +20,10 @@ from osc2tx.analysis.locate import is_of_scope, name_of
 from osc2tx.analysis.tape import Key
 from osc2tx.analysis.trees import do_directives, do_members
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 MOST_SHOWN = 5

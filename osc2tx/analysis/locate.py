@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import field
 
 from osc2tx.analysis.tape import Key
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 

@@ -22,7 +22,7 @@ from osc2tx.analysis.domains import (
 from osc2tx.analysis.forward import evaluate
 from osc2tx.analysis.order import disorder
 from osc2tx.analysis.tape import Key, Tape
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 PASSES = 40  # how often a constraint is visited on average, at most
 FREE_PASSES = 4  # from then on only steps that change something visibly are followed

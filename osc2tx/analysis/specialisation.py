@@ -10,10 +10,10 @@ from collections.abc import Iterator, Mapping
 
 from osc2tx.analysis.domains import Choice, Domain, Value
 from osc2tx.analysis.tape import Key
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 Special = sym.ActorSymbol | sym.StructSymbol

@@ -20,9 +20,9 @@ from osc2tx.analysis.domains import (
     Interval,
     point,
 )
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, to_si, types
 from osc2tx.semantics import symbols as sym
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 Op = ast.BinaryOperator

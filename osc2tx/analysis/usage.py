@@ -7,10 +7,10 @@ from dataclasses import field
 from osc2tx.analysis.library_facts import is_library_actor
 from osc2tx.analysis.trees import children_of, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 

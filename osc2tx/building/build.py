@@ -21,7 +21,7 @@ from osc2tx.building.results import FileResult
 from osc2tx.building.workers import compile_jobs
 from osc2tx.building.write import Update, update_folder
 from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 Progress = Callable[[int, int], None]
 

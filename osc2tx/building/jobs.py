@@ -7,13 +7,13 @@ from pathlib import Path
 from traceback import format_exception
 from typing import TYPE_CHECKING
 
+from osc2tx.compilation.inputs import find_inputs
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.inputs import find_inputs
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 if TYPE_CHECKING:
+    from osc2tx.compilation.driver import Compilation
     from osc2tx.config import ConfigFiles, GivenOptions
-    from osc2tx.driver import Compilation
     from osc2tx.options import CompileOptions
 
 
@@ -37,7 +37,7 @@ class Job:
 
     def compilation(self) -> Compilation:
         """Return its compilation; no stage has run yet."""
-        from osc2tx.driver import Compilation
+        from osc2tx.compilation.driver import Compilation
 
         return Compilation(
             self.path, self.name, self.options, roots=self.roots, is_trusted=self.is_asked

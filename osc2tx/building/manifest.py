@@ -25,7 +25,7 @@ from dataclasses import field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from osc2tx import __version__
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 MANIFEST_NAME = ".osc2tx-manifest.json"
 FORMAT = 1

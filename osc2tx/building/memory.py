@@ -19,9 +19,9 @@ from osc2tx.building.fingerprint import digest, tool_stamp
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import Dependency, FileResult, Made
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
+from osc2tx.compilation.reports import LossEntry
 from osc2tx.diagnostics import SourceFile
-from osc2tx.reported import LossEntry
-from osc2tx.user_cache import cache_folder, read_own, write_own
+from osc2tx.support.user_cache import cache_folder, read_own, write_own
 
 FORMAT = 2
 MOST_KEPT = 64  # folders that are remembered, of each kind

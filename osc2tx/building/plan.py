@@ -13,8 +13,8 @@ from pathlib import Path
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.manifest import Manifest
 from osc2tx.building.results import FileResult, Made
-from osc2tx.light_dataclass import dataclass
-from osc2tx.portable import is_portable
+from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.portable_names import is_portable
 
 
 class State(Enum):

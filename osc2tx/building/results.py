@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.jobs import Job, find_bug
+from osc2tx.compilation.reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx.light_dataclass import dataclass
-from osc2tx.reported import LossEntry
+from osc2tx.support.light_dataclass import dataclass
 
 if TYPE_CHECKING:
-    from osc2tx.driver import Compilation, Output
+    from osc2tx.compilation.driver import Compilation, Output
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 
-from osc2tx.inputs import InputError
+from osc2tx.compilation.inputs import InputError
 
 SETTINGS = ("osc2tx.toml", "pyproject.toml")
 LINK = "120000"

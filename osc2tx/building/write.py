@@ -13,7 +13,7 @@ from pathlib import Path
 
 from osc2tx.building.manifest import MANIFEST_NAME, Entry, Manifest
 from osc2tx.building.plan import Folder, Orphan, Planned
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 TEMPORARY = ".osc2tx-tmp"
 _WRITE_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)

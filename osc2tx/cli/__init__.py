@@ -21,18 +21,18 @@ from typing import NoReturn
 import click
 
 from osc2tx import __version__
+from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, complain, report_failure
+from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
-from osc2tx.inputs import InputError
-from osc2tx.reporting import BUG_REPORT, Exit, Session, complain, report_failure
 
 # Command -> where it is, and its line in the help page.
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "init": ("osc2tx.cli.init:init", "Start a project with a scenario, settings and a test."),
     "check": ("osc2tx.cli.check:check", "Report what is wrong with scenario files."),
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
-    "run": ("osc2tx.run_command:run", "Run a scenario in the embedded world."),
+    "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
-    "tree": ("osc2tx.tree_command:tree", "Draw the behavior tree of a scenario."),
+    "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
     "config": ("osc2tx.cli.config:config", "Show the settings in force, and where they are from."),
     "explain": ("osc2tx.cli.explain:explain", "Say what a diagnostic code means."),
 }

@@ -15,12 +15,12 @@ from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
 from osc2tx.cli.differences import print_diff, read_text
 from osc2tx.cli.options import compile_options, target_options
 from osc2tx.cli.progress import progress_bar
+from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, found, report_options
+from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
-from osc2tx.driver import Compilation
-from osc2tx.inputs import InputError
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import PRODUCT_NAMES, ProductName
-from osc2tx.reporting import Exit, Reporter, complain, count_of, found, report_options
+from osc2tx.support.light_dataclass import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.building.build import BuildOptions, BuildResult, Change

@@ -9,8 +9,8 @@ import click
 from osc2tx.building.checks import check_jobs
 from osc2tx.building.jobs import find_jobs
 from osc2tx.cli.options import compile_options, target_options
+from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.reporting import Exit, Reporter, count_of, found, report_options
 
 
 @click.command()

@@ -10,9 +10,9 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.write import replace_file
 from osc2tx.cli.differences import print_diff
 from osc2tx.cli.options import compile_options
+from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, report_options
+from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
-from osc2tx.driver import Compilation
-from osc2tx.reporting import Exit, Reporter, complain, count_of, report_options
 
 
 @click.command()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from osc2tx.reporting import Exit, complain
+from osc2tx.cli.reporting import Exit, complain
 from osc2tx.resources import resource_dir
 
 # Place in the new project -> what is written there, from templates/project.

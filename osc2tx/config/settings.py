@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import (
     DIALECTS,
     ONE_OF_POLICIES,
@@ -11,6 +10,7 @@ from osc2tx.options import (
     XML_PROFILES,
     XML_VERSIONS,
 )
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.source import SourceFile
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import Final
 
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 LINE_END = re.compile(r"\r\n|\r|\n")
 

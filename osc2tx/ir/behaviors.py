@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx.ir.expressions import Argument, Expression
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

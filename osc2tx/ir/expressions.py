@@ -18,7 +18,7 @@ from osc2tx.ir.operations import (
     TypeTest,
 )
 from osc2tx.ir.values import ExpressionBase, Unit
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

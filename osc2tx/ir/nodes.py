@@ -10,7 +10,7 @@ from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.expressions import Domain, Expression, RangeValue
 from osc2tx.ir.operations import Choices
 from osc2tx.ir.values import ValueType
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

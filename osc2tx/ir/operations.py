@@ -6,7 +6,7 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 from osc2tx.ir.values import ExpressionBase
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.ir.expressions import Expression

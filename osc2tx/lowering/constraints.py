@@ -17,7 +17,6 @@ from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.domains import TRUE, Choice, Domain, hull
 from osc2tx.analysis.solver import values_on
 from osc2tx.analysis.tape import Key, domain_of_type
-from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.composed import Composed, is_composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.domains import DomainWriter, all_values, as_type, written_domain
@@ -26,6 +25,7 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, asks_the_map
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 Instance: TypeAlias = ast.Invocation | ast.Composition

@@ -11,7 +11,6 @@ from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.analysis.locate import Place
 from osc2tx.analysis.tape import Key
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -23,6 +22,7 @@ from osc2tx.semantics.symbols import (
     Symbol,
     TypeSymbol,
 )
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 Part = TypeVar("Part")

@@ -12,12 +12,12 @@ from osc2tx.analysis.domains import Choice, Domain, Interval, Number, Value, clo
 from osc2tx.analysis.format import unit_of
 from osc2tx.analysis.tape import Key, domain_of_type
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.value_types import lower_type, lower_unit, number_in
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 Op = ast.BinaryOperator

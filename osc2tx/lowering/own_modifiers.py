@@ -12,7 +12,6 @@ from osc2tx import ir
 from osc2tx.analysis.locate import Place
 from osc2tx.analysis.tape import Key
 from osc2tx.analysis.trees import nodes_below
-from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.domains import all_values
@@ -22,6 +21,7 @@ from osc2tx.lowering.own_fields import is_plain
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 # Members by which a modifier changes something.

@@ -10,11 +10,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.modifiers import lower_modifier
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 TYPE = "Path"

@@ -13,10 +13,10 @@ from dataclasses import field, replace
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.paths import START
 from osc2tx.lowering.shapes import first_value, says_start
+from osc2tx.support.light_dataclass import dataclass
 
 # Modifiers that say something about a single instant and so can place an actor.
 PLACING = frozenset({"acceleration", "lane", "lateral", "orientation", "position", "speed", "yaw"})

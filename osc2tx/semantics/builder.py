@@ -6,7 +6,6 @@ from collections import ChainMap
 from dataclasses import field
 
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
 from osc2tx.semantics.dialects import Dialect, Relaxations
@@ -18,7 +17,8 @@ from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
-from osc2tx.stack import room_for_trees
+from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
 
 

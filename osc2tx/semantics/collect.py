@@ -10,7 +10,6 @@ from dataclasses import field
 from typing import assert_never
 
 from osc2tx.diagnostics import DiagnosticSink, Label
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.members import Basics, make_field, members_of
 from osc2tx.semantics.repeats import Repeats
@@ -32,6 +31,7 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import SI_BASES, Dimension, PhysicalType
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 LIBRARY_NAMESPACES = ("std", "stdtypes")

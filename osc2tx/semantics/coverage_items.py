@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import TypeSymbol
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 ARGUMENTS = (

@@ -7,8 +7,8 @@ from dataclasses import field
 from pathlib import PurePosixPath
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.dialects import LIBRARY_FILES, RUNNER_FILE, Relaxations
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 LoadFile = Callable[[ast.Import, SourceFile], ast.File | None]

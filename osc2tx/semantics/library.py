@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cache
 
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import Collector
 from osc2tx.semantics.dialects import DIALECTS, Dialect, Relaxations
@@ -15,6 +14,7 @@ from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.stdlib import DOMAIN, TYPES, library_file
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     FieldSymbol,
@@ -17,6 +16,7 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import ERROR, Type
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 

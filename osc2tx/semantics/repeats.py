@@ -13,12 +13,12 @@ from dataclasses import field
 from math import isclose
 
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActorSymbol, PhysicalTypeSymbol, Symbol, UnitSymbol
 from osc2tx.semantics.types import Dimension, PhysicalType
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 CODE = "OSC616"

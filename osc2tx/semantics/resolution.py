@@ -7,7 +7,6 @@ from dataclasses import field, replace
 from typing import Protocol
 
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import Context, Scope
@@ -24,6 +23,7 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import Type
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 

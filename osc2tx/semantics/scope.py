@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
 from typing import TypeAlias, TypeVar
 
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
@@ -24,6 +23,7 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import Dimension, PhysicalType
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 NULL = "null"

@@ -10,8 +10,8 @@ from dataclasses import field
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.semantics.types import DIMENSIONLESS, ERROR, Dimension, Type
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 

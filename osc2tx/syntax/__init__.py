@@ -22,7 +22,7 @@ object of antlr4 leaves it.
 from collections.abc import Collection
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
-from osc2tx.stack import room_for_trees
+from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
 from osc2tx.syntax.dump import dump_ast
 from osc2tx.syntax.source_reader import read_source

@@ -2,7 +2,7 @@
 
 A generated module needs the names below, `osc2tx_runtime.modifiers` and `osc2tx_runtime.units`.
 In order of control flow: `main` reads the options (`settings`), `runner` makes a `scenario`, its
-tree (`behaviour`, `action`, `registry`) and its world (`world`, `initializer`), and runs the loop
+tree (`tree`, `action`, `registry`) and its world (`world`, `initializer`), and runs the loop
 of instants (`context`, `slots`); what happens goes into the `trace` and the `report`.
 """
 
@@ -10,9 +10,8 @@ from __future__ import annotations
 
 from math import inf
 
-import osc2tx_runtime.actions  # noqa: F401 (registers the actions of the library)
-from osc2tx_runtime.action import Action
-from osc2tx_runtime.actors import (
+import osc2tx_runtime.domain.actions  # noqa: F401 (registers the actions of the library)
+from osc2tx_runtime.domain.actors import (
     Actor,
     Animal,
     Environment,
@@ -29,7 +28,80 @@ from osc2tx_runtime.actors import (
     Trailer,
     Vehicle,
 )
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.domain.actors.parts import (
+    Axle,
+    BehavioralModel,
+    BmEngine,
+    BoundingBox,
+    HitchCoupler,
+    HitchReceiver,
+)
+from osc2tx_runtime.domain.measuring.motions import (
+    Acceleration,
+    OrientationAcceleration,
+    OrientationRate,
+    TranslationalAcceleration,
+    TranslationalVelocity,
+    Velocity,
+)
+from osc2tx_runtime.domain.measuring.weather import (
+    Air,
+    CelestialLightSource,
+    CelestialPosition,
+    Clouds,
+    Fog,
+    GeodeticPosition,
+    Precipitation,
+    Weather,
+    Wind,
+)
+from osc2tx_runtime.domain.paths.path_values import (
+    Path,
+    RelativePathOdr,
+    RelativePathPose3d,
+    RelativePathSt,
+    RelativeTrajectoryOdr,
+    RelativeTrajectoryPose3d,
+    RelativeTrajectorySt,
+    Trajectory,
+)
+from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
+from osc2tx_runtime.domain.routes.road_parts import (
+    CompoundLane,
+    CompoundRoute,
+    Junction,
+    Lane,
+    LaneSection,
+    Road,
+    RoadPath,
+    Route,
+)
+from osc2tx_runtime.domain.shapes import (
+    AnyAccelerationShape,
+    AnyLateralShape,
+    AnyPositionShape,
+    AnyShape,
+    AnySpeedShape,
+    CommonAccelerationShape,
+    CommonLateralShape,
+    CommonPositionShape,
+    CommonSpeedShape,
+    OwnShape,
+)
+from osc2tx_runtime.domain.signals.stop_line_parts import TrafficLightStopLine
+from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.domain.signals.traffic_lights import (
+    TrafficLight,
+    TrafficLightBulb,
+    TrafficLightGroup,
+)
+from osc2tx_runtime.domain.values import GeodeticPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.casts import as_type
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods
+from osc2tx_runtime.language.scenario import Range, Scenario, any_of, at_least, at_most, within
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
     Emit,
@@ -48,82 +120,10 @@ from osc2tx_runtime.behaviour import (
     fall,
     rise,
 )
-from osc2tx_runtime.behaviour.coverage import Unit
-from osc2tx_runtime.casts import as_type
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.measuring.motions import (
-    Acceleration,
-    OrientationAcceleration,
-    OrientationRate,
-    TranslationalAcceleration,
-    TranslationalVelocity,
-    Velocity,
-)
-from osc2tx_runtime.measuring.weather import (
-    Air,
-    CelestialLightSource,
-    CelestialPosition,
-    Clouds,
-    Fog,
-    GeodeticPosition,
-    Precipitation,
-    Weather,
-    Wind,
-)
-from osc2tx_runtime.parts import (
-    Axle,
-    BehavioralModel,
-    BmEngine,
-    BoundingBox,
-    HitchCoupler,
-    HitchReceiver,
-)
-from osc2tx_runtime.registry import LATERAL, LONGITUDINAL, action, methods
-from osc2tx_runtime.roads.crossings import Crossing, CrossingType
-from osc2tx_runtime.roads.road_parts import (
-    CompoundLane,
-    CompoundRoute,
-    Junction,
-    Lane,
-    LaneSection,
-    Road,
-    RoadPath,
-    Route,
-)
+from osc2tx_runtime.language.tree.coverage import Unit
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.running.settings import RunSettings
-from osc2tx_runtime.scenario import Range, Scenario, any_of, at_least, at_most, within
-from osc2tx_runtime.shapes import (
-    AnyAccelerationShape,
-    AnyLateralShape,
-    AnyPositionShape,
-    AnyShape,
-    AnySpeedShape,
-    CommonAccelerationShape,
-    CommonLateralShape,
-    CommonPositionShape,
-    CommonSpeedShape,
-    OwnShape,
-)
-from osc2tx_runtime.signals.stop_line_parts import TrafficLightStopLine
-from osc2tx_runtime.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
-from osc2tx_runtime.signals.traffic_lights import (
-    TrafficLight,
-    TrafficLightBulb,
-    TrafficLightGroup,
-)
-from osc2tx_runtime.values import GeodeticPoint, RoutePoint, XyzPoint
-from osc2tx_runtime.ways.path_values import (
-    Path,
-    RelativePathOdr,
-    RelativePathPose3d,
-    RelativePathSt,
-    RelativeTrajectoryOdr,
-    RelativeTrajectoryPose3d,
-    RelativeTrajectorySt,
-    Trajectory,
-)
 
 API_LEVEL = 1
 """Of the names and signatures below; a generated module asks for the level it was made for."""

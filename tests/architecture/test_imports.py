@@ -12,45 +12,32 @@ COMPILER = REPOSITORY / "osc2tx"
 RUNTIME = REPOSITORY / "runtime_lib" / "osc2tx_runtime"
 
 # Leaves that every stage may use; they import nothing of ours but `diagnostics` itself.
-LEAVES = {"diagnostics", "light_dataclass", "options", "portable", "resources", "stack"}
-LEAVES |= {"user_cache"}
+LEAVES = {"diagnostics", "options", "resources", "support"}
 
 # Part of osc2tx -> what else of osc2tx it may import. `a.b` means that module and those below it.
 MAY_IMPORT = {
-    "diagnostics": {"diagnostics", "light_dataclass"},
-    "light_dataclass": set[str](),
-    "options": {"light_dataclass"},
+    "support": {"support"},
+    "diagnostics": {"diagnostics", "support"},
+    "options": {"support"},
     "resources": set[str](),
-    "portable": set[str](),
-    "stack": set[str](),
-    "user_cache": set[str](),
     "syntax": {"syntax", "stdlib"} | LEAVES,
     "stdlib": {"", "stdlib", "syntax"} | LEAVES,
     "semantics": {"semantics", "syntax.ast", "stdlib"} | LEAVES,
     "analysis": {"analysis", "semantics", "syntax.ast"} | LEAVES,
-    "ir": {"ir", "diagnostics", "light_dataclass"},
+    "ir": {"ir", "diagnostics", "support"},
     "lowering": {"lowering", "ir", "analysis", "semantics", "syntax.ast"} | LEAVES,
     "backends": {"backends", "ir"} | LEAVES,
     "formatter": {"formatter", "syntax"} | LEAVES,
     # the shell around the stages
-    "config": {"config", "options", "diagnostics.nearest", "light_dataclass"},
-    "inputs": {"light_dataclass"},
-    "imports": {"syntax"} | LEAVES,
-    "reported": {"syntax"} | LEAVES,
-    "driver": {"imports", "syntax", "semantics", "analysis", "lowering", "ir", "backends"}
-    | {"formatter", "products", "reported"}
+    "config": {"config", "options", "diagnostics.nearest", "support"},
+    "compilation": {"syntax", "semantics", "analysis", "lowering", "ir", "backends", "formatter"}
+    | {"compilation"}
     | LEAVES,
-    "products": {"driver", "syntax", "semantics", "ir", "backends"} | LEAVES,
-    "building": {"", "building", "config", "driver", "inputs", "reported"} | LEAVES,
-    "reporting": {"", "reported", "diagnostics", "light_dataclass"},
-    "cli": {"", "building", "cli", "config", "driver", "inputs", "reporting"} | LEAVES,
-    "loading": {"backends"},
-    "run_command": {"building", "cli", "config", "driver", "inputs", "loading", "reporting"},
-    "tree_command": {"building", "cli", "config", "loading", "reporting", "run_command"},
+    "building": {"", "building", "config", "compilation"} | LEAVES,
+    "cli": {"", "backends", "building", "cli", "compilation", "config"} | LEAVES,
     "__main__": {"cli"},
-    "api": {"building", "config", "driver", "inputs"} | LEAVES,
-    "testing": {"building", "config", "driver", "inputs", "loading", "reported", "run_command"}
-    | LEAVES,
+    "api": {"building", "config", "compilation"} | LEAVES,
+    "testing": {"building", "cli", "compilation", "config"} | LEAVES,
     "": {"api", "diagnostics"},
 }
 
@@ -60,12 +47,8 @@ OTHERS = {
     "semantics": {"pint"},
     "backends": {"jinja2", "black", "lxml"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
-    "cli": {"click", "rich"},
-    "reporting": {"click"},
-    "loading": {"osc2tx_runtime"},
-    "run_command": {"click", "rich", "osc2tx_runtime"},
+    "cli": {"click", "rich", "osc2tx_runtime"},
     "testing": {"pytest", "osc2tx_runtime"},
-    "tree_command": {"click", "osc2tx_runtime"},
 }
 RUNTIME_OTHERS = {"numpy", "py_trees"}
 

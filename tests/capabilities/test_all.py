@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings
 from tests.capabilities.conftest import SETTINGS, Load

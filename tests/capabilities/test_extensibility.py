@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime.errors import SlotConflict
 from tests.capabilities.kit import CAPABILITIES, DT, ROUNDED, Perform, next_step, quintic

@@ -32,8 +32,8 @@ from pathlib import Path
 from traceback import extract_tb
 from types import MappingProxyType
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Diagnostic, Severity
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 
 EXPECTED = Path(__file__).with_name("expected.json")

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx.syntax import ast
 

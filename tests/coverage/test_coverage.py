@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from tests.coverage.capabilities import rows
 from tests.coverage.library import Item, Kind, items

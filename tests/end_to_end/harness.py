@@ -7,8 +7,8 @@ from pathlib import Path
 from osc2tx import ir
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx.testing import Run
 from osc2tx_runtime import RunSettings, Scenario, run_scenario

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 
 from osc2tx import ir
 from osc2tx.backends.py_trees import emit
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
 from osc2tx_runtime.errors import ScenarioError

@@ -7,7 +7,7 @@ import pytest
 
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 from tests.golden.test_stages import options_for
 

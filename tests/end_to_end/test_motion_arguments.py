@@ -9,8 +9,8 @@ import pytest
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.py_trees.runtime_api import runtime_support
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
 from tests.end_to_end.motion_arguments import CAST, PREAMBLE, REFUSED, ROWS

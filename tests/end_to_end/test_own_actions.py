@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 
 ROOT = Path(__file__).parents[2]

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.py_trees import emit
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from tests.capabilities.conftest import Load
 from tests.capabilities.conftest import load as load  # the fixture

@@ -20,7 +20,7 @@ import pytest
 from osc2tx.backends.xosc import emit
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
-from osc2tx_runtime.roads.map_search import SHIPPED
+from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.unit.backends.xosc.played import (
     PLAIN,
     Played,

@@ -11,10 +11,10 @@ from pathlib import Path
 from traceback import extract_tb, format_exception
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.cli.loading import scenarios_of_module
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all
-from osc2tx.driver import Compilation
-from osc2tx.loading import scenarios_of_module
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
 from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx import ir
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 
 HERE = Path(__file__).parent

@@ -17,8 +17,8 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.xosc import XmlScenario
+from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
-from osc2tx.driver import Compilation
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems, untraced
 

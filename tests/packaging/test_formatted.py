@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.driver import Compilation
 
 REPOSITORY = Path(__file__).parent.parent.parent
 AS_GIVEN = {"hello_world.osc"}  # the text that the product began with stays as it is

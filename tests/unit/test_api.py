@@ -9,7 +9,7 @@ import pytest
 
 import osc2tx
 from osc2tx import Diagnostic, api, compile_file, compile_text
-from osc2tx.inputs import InputError
+from osc2tx.compilation.inputs import InputError
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 GENERATED = Path(__file__).parents[2] / "generated"

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.diagnostics import SourceFile
-from osc2tx.driver import Compilation
-from osc2tx.inputs import InputError, find_inputs
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
 from osc2tx.resources import resource_dir
 
@@ -195,8 +195,8 @@ def test_resources() -> None:
 
 
 def test_source_without_path_imports_nothing(tmp_path: Path) -> None:
+    from osc2tx.compilation.imports import ImportLoader
     from osc2tx.diagnostics import DiagnosticSink
-    from osc2tx.imports import ImportLoader
     from osc2tx.syntax import parse
 
     sink = DiagnosticSink()

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx.light_dataclass import dataclass as light
+from osc2tx.support.light_dataclass import dataclass as light
 
 Decorator = Callable[..., Any]
 

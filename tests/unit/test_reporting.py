@@ -81,7 +81,7 @@ def test_emit_does_not_mix_with_a_form(shell: Shell) -> None:
 
 
 def test_a_bug_of_ours_leaves_a_document(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    from osc2tx.driver import Compilation
+    from osc2tx.compilation.driver import Compilation
 
     def broken(self: Compilation) -> bool:
         raise AssertionError("planted")

@@ -11,7 +11,7 @@ import math
 import unicodedata
 from decimal import Decimal
 
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 
 LONGEST_DIGITS = 10  # a number that takes more characters is written with an exponent
 

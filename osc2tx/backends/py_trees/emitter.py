@@ -17,7 +17,7 @@ from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
-from osc2tx.portable import is_portable
+from osc2tx.support.portable_names import is_portable
 
 # Names a module may import; a scenario class must not hide them.
 RUNTIME_CLASSES = frozenset(

@@ -17,8 +17,8 @@ from osc2tx.backends.xosc.logical.reporting import report_parameters
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, serialize
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import XmlOptions
+from osc2tx.support.light_dataclass import dataclass
 
 HANDLERS = (
     "cycles",

@@ -11,8 +11,8 @@ from collections import Counter
 from enum import Enum
 
 from osc2tx.diagnostics import Span
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import XmlOptions
+from osc2tx.support.light_dataclass import dataclass
 
 
 class Grade(Enum):

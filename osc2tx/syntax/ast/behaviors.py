@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TypeAlias
 
-from osc2tx.light_dataclass import dataclass
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import Name, Statement
 from osc2tx.syntax.ast.expressions import Argument, Expression
 from osc2tx.syntax.ast.members import (

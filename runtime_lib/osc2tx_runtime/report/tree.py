@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
-from osc2tx_runtime.action import Action
-from osc2tx_runtime.behaviour import Behaviour, OneOf, Parallel, Serial
+from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial
 
 __all__ = ["tree_svg", "tree_text"]
 

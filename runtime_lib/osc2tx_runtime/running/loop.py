@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.behaviour.base import (
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.tree.base import (
     FAILURE,
     INVALID,
     RUNNING,
@@ -15,12 +16,11 @@ from osc2tx_runtime.behaviour.base import (
     Status,
     pulse_of,
 )
-from osc2tx_runtime.behaviour.events import Event
-from osc2tx_runtime.behaviour.reasons import failure_reason, timeout_reason
-from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.tree.events import Event
+from osc2tx_runtime.language.tree.reasons import failure_reason, timeout_reason
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.context import ExecutionContext
+    from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["OnProgress", "Outcome", "run_tree", "settle"]

@@ -12,7 +12,7 @@ from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.running.settings import OPTIONS, RunSettings
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.scenario import Scenario
+    from osc2tx_runtime.language.scenario import Scenario
 
 __all__ = ["choose_scenario", "main", "verdict"]
 

@@ -6,16 +6,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.domain.routes.map_search import find_map
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.roads.map_search import find_map
+from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.running.loop import OnProgress, run_tree
 from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.running.trace import TraceWriter
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.behaviour.base import Behaviour
-    from osc2tx_runtime.scenario import Scenario
+    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
 
 __all__ = ["RunResult", "run_scenario", "setup_tree"]
@@ -113,8 +113,8 @@ def make_context(scenario: Scenario, world: World, keep_trace: bool) -> Executio
 
 def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
     """Put the actors where the scenario wants them."""
-    from osc2tx_runtime.placing.initializer import ScenarioInitializer
-    from osc2tx_runtime.roads.globe import check_globe
+    from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
+    from osc2tx_runtime.domain.routes.globe import check_globe
 
     for actor in scenario.actors.values():
         actor.bind(context)

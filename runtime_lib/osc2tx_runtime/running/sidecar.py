@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from osc2tx_runtime.behaviour.base import Behaviour, Node
-from osc2tx_runtime.behaviour.compositions import Composition
-from osc2tx_runtime.behaviour.invocation import Invocation
+from osc2tx_runtime.language.tree.base import Behaviour, Node
+from osc2tx_runtime.language.tree.compositions import Composition
+from osc2tx_runtime.language.tree.invocation import Invocation
 
 __all__ = ["SourceMap", "apply_nodes", "own_nodes", "read_source_map"]
 

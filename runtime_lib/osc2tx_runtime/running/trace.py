@@ -8,10 +8,10 @@ from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.slots import place_key
+from osc2tx_runtime.language.slots import place_key
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.action import Action
+    from osc2tx_runtime.language.action import Action
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["TRACE_VERSION", "TraceWriter", "number"]

@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import NamedTuple
 
-from osc2tx_runtime.measuring.measured import Measured
-from osc2tx_runtime.measuring.motions import (
+from osc2tx_runtime.domain.measuring.measured import Measured
+from osc2tx_runtime.domain.measuring.motions import (
     Acceleration,
     OrientationAcceleration,
     OrientationRate,

@@ -30,7 +30,7 @@ __all__ = [
     "World",
 ]
 
-# The same words as in `osc2tx_runtime.registry`; a world does not know the registry.
+# The same words as in `osc2tx_runtime.language.registry`; a world does not know the registry.
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
 

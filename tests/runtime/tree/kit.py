@@ -6,10 +6,10 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from osc2tx_runtime.action import Action
-from osc2tx_runtime.behaviour import Behaviour, Event, Status
-from osc2tx_runtime.context import ExecutionContext
-from osc2tx_runtime.registry import Method
+from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.registry import Method
+from osc2tx_runtime.language.tree import Behaviour, Event, Status
 from osc2tx_runtime.running.loop import Outcome, run_tree
 from osc2tx_runtime.running.runner import setup_tree
 from osc2tx_runtime.running.settings import RunSettings

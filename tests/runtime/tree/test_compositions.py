@@ -9,7 +9,8 @@ from typing import Any
 import py_trees
 import pytest
 
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
     Emit,
@@ -22,7 +23,6 @@ from osc2tx_runtime.behaviour import (
     elapsed,
     every,
 )
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from tests.runtime.tree.kit import Drive, FakeActor, Run, Switch, Task, event
 
 HERO: Any = FakeActor("hero")

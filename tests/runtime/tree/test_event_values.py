@@ -8,7 +8,9 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.scenario import Scenario
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
     Emit,
@@ -21,8 +23,6 @@ from osc2tx_runtime.behaviour import (
     every,
     rise,
 )
-from osc2tx_runtime.errors import ScenarioError, SettingsError
-from osc2tx_runtime.scenario import Scenario
 from tests.runtime.tree.kit import Run, event
 
 NEAR = {"gap": None, "limit": lambda: 3.0, "kind": "car"}

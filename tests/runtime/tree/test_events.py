@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
     Emit,
@@ -25,8 +26,7 @@ from osc2tx_runtime.behaviour import (
     fall,
     rise,
 )
-from osc2tx_runtime.behaviour.base import Leaf
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.base import Leaf
 from tests.runtime.tree.kit import Run, event
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 from py_trees.behaviours import Failure
 
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
     Emit,
@@ -24,10 +25,9 @@ from osc2tx_runtime.behaviour import (
     fall,
     rise,
 )
-from osc2tx_runtime.behaviour.base import Leaf
-from osc2tx_runtime.behaviour.override import guard
-from osc2tx_runtime.behaviour.variables import Sampled, Sampling
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.base import Leaf
+from osc2tx_runtime.language.tree.override import guard
+from osc2tx_runtime.language.tree.variables import Sampled, Sampling
 from tests.runtime.tree.kit import Drive, FakeActor, Run, Task, event
 
 HERO: Any = FakeActor("hero")

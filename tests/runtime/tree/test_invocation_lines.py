@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 
 MODULE = """
-from osc2tx_runtime.behaviour import Behaviour, Serial, Wait, elapsed
-from osc2tx_runtime.scenario import Scenario
+from osc2tx_runtime.language.tree import Behaviour, Serial, Wait, elapsed
+from osc2tx_runtime.language.scenario import Scenario
 
 
 class Inner(Scenario):

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.behaviour import Emit, Parallel, Serial, Status, Until, Wait, elapsed
-from osc2tx_runtime.behaviour.base import Leaf
 from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.tree import Emit, Parallel, Serial, Status, Until, Wait, elapsed
+from osc2tx_runtime.language.tree.base import Leaf
 from tests.runtime.tree.kit import Drive, FakeActor, Run, event
 
 STEP = 0.05

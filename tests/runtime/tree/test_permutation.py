@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from osc2tx_runtime.behaviour import (
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.tree import (
     Behaviour,
     Emit,
     Event,
@@ -23,9 +24,8 @@ from osc2tx_runtime.behaviour import (
     fall,
     rise,
 )
-from osc2tx_runtime.behaviour.override import guard
-from osc2tx_runtime.behaviour.variables import Sampled, Sampling
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.tree.override import guard
+from osc2tx_runtime.language.tree.variables import Sampled, Sampling
 from tests.runtime.tree.kit import Drive, FakeActor, FakeWorld, Run, Switch, Task, event
 
 ACTORS = ("hero", "npc")

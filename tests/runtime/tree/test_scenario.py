@@ -11,19 +11,19 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.action import Action
-from osc2tx_runtime.actors import Environment, Map, Vehicle
-from osc2tx_runtime.behaviour import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
+from osc2tx_runtime.domain.actors import Environment, Map, Vehicle
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
-from osc2tx_runtime.registry import MethodRegistry
+from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.registry import MethodRegistry
+from osc2tx_runtime.language.scenario import Scenario, within
+from osc2tx_runtime.language.tree import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
 from osc2tx_runtime.running.settings import RunSettings
-from osc2tx_runtime.scenario import Scenario, within
 from tests.runtime.tree.kit import Run, Task
 
 MODULE = """
-from osc2tx_runtime.actors import Vehicle
-from osc2tx_runtime.behaviour import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
-from osc2tx_runtime.scenario import Scenario
+from osc2tx_runtime.domain.actors import Vehicle
+from osc2tx_runtime.language.tree import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
+from osc2tx_runtime.language.scenario import Scenario
 
 
 class Mapped(Scenario):

@@ -7,8 +7,9 @@ from itertools import product
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx_runtime.behaviour import Parallel
-from osc2tx_runtime.behaviour.schedule import (
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.tree import Parallel
+from osc2tx_runtime.language.tree.schedule import (
     FREE,
     SPANS,
     Overlap,
@@ -18,7 +19,6 @@ from osc2tx_runtime.behaviour.schedule import (
     make_schedule,
     spans_of,
 )
-from osc2tx_runtime.errors import UnsupportedError
 from tests.runtime.tree.kit import Run
 from tests.runtime.tree.test_overlap import STEP, timed
 

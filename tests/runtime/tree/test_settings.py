@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx_runtime.domain.routes.map_search import find_map
 from osc2tx_runtime.errors import InputError, SettingsError
-from osc2tx_runtime.roads.map_search import find_map
 from osc2tx_runtime.running.settings import OPTIONS, RunSettings
 
 

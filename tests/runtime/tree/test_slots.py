@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.behaviour import Behaviour, Parallel, Serial, Wait, elapsed
 from osc2tx_runtime.errors import ScenarioError, SlotConflict
+from osc2tx_runtime.language.tree import Behaviour, Parallel, Serial, Wait, elapsed
 from tests.runtime.tree.kit import Drive, FakeActor, Run, Switch, Task
 
 HERO: Any = FakeActor("hero")

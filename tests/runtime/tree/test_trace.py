@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.behaviour import Emit, Parallel
-from osc2tx_runtime.measuring.motions import OrientationRate, Velocity
-from osc2tx_runtime.parts import HitchReceiver
+from osc2tx_runtime.domain.actors.parts import HitchReceiver
+from osc2tx_runtime.domain.measuring.motions import OrientationRate, Velocity
+from osc2tx_runtime.language.tree import Emit, Parallel
 from osc2tx_runtime.running.trace import TraceWriter, number, to_json
 from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
 

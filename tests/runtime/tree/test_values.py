@@ -19,8 +19,8 @@ from osc2tx_runtime import (
     at_most,
     within,
 )
-from osc2tx_runtime.behaviour.coverage import CoverageItem, Unit
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.language.tree.coverage import CoverageItem, Unit
 
 
 class Relations(Scenario):

@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     StationaryObject,
     Vehicle,
 )
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     lane,
     location,
     orientation,
@@ -32,8 +32,8 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
+from osc2tx_runtime.domain.values import Orientation
 from osc2tx_runtime.opendrive import Pose as MapPose
-from osc2tx_runtime.values import Orientation
 from osc2tx_runtime.world.attitude import tilt_on
 
 Run = Callable[..., Any]

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Person, Serial
-from osc2tx_runtime.actors import Point
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.actors import Point
+from osc2tx_runtime.domain.modifiers import (
     avoid_collisions,
     keep_position,
     lane,

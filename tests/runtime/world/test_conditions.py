@@ -13,9 +13,9 @@ from itertools import pairwise
 
 import pytest
 
-from osc2tx_runtime.actors import Vehicle
-from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.domain.actors import Vehicle
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorState, EmbeddedWorld
 from osc2tx_runtime.world.catalogue import Shape

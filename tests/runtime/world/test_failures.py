@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, OdrPoint, Parallel, Person, Point, Pose, Serial, Wait, elapsed
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     along,
     change_lane,
     distance,
@@ -20,9 +20,9 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.roads.road_parts import Lane, Stretch
-from osc2tx_runtime.values import RoutePoint
-from osc2tx_runtime.ways.path_values import Path, RelativePathSt, Trajectory
+from osc2tx_runtime.domain.paths.path_values import Path, RelativePathSt, Trajectory
+from osc2tx_runtime.domain.routes.road_parts import Lane, Stretch
+from osc2tx_runtime.domain.values import RoutePoint
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -12,13 +12,28 @@ import pytest
 
 import osc2tx_runtime
 from osc2tx_runtime import RunSettings
-from osc2tx_runtime.actors import Person, PhysicalObject, Point, Pose, StationaryObject, Vehicle
-from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.domain.actors import (
+    Person,
+    PhysicalObject,
+    Point,
+    Pose,
+    StationaryObject,
+    Vehicle,
+)
+from osc2tx_runtime.domain.modifiers import (
+    Modifier,
+    keep_lane,
+    lane,
+    location,
+    position,
+    speed,
+    yaw,
+)
+from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
 from osc2tx_runtime.errors import ScenarioError, SettingsError
-from osc2tx_runtime.modifiers import Modifier, keep_lane, lane, location, position, speed, yaw
+from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.scenario import Placement
 from osc2tx_runtime.opendrive import RoadMap, read_map
-from osc2tx_runtime.placing.initializer import ScenarioInitializer
-from osc2tx_runtime.scenario import Placement
 from osc2tx_runtime.world import EmbeddedWorld
 
 MAPS = Path(osc2tx_runtime.__file__).parent / "maps"

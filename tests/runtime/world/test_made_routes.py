@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.paths.paths import PathError
+from osc2tx_runtime.domain.routes.crossing_lines import laid
+from osc2tx_runtime.domain.routes.made_routes import poses_of_route
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.values import Pose
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
-from osc2tx_runtime.roads.crossing_lines import laid
-from osc2tx_runtime.roads.made_routes import poses_of_route
-from osc2tx_runtime.roads.road_graph import graph_of
-from osc2tx_runtime.roads.stretches import Stretch
-from osc2tx_runtime.values import Pose
-from osc2tx_runtime.ways.path_values import Path
-from osc2tx_runtime.ways.paths import PathError
 
 Load = Callable[[str], RoadMap]
 Place = tuple[float, float]

@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     at_most,
     within,
 )
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     compound_lane_side,
     end_lane,
     lane_side,
@@ -33,9 +33,9 @@ from osc2tx_runtime.modifiers import (
     routes_overlap,
     start_lane,
 )
+from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
+from osc2tx_runtime.domain.routes.road_parts import RoadPart
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.roads.map_solver import MapSolver, Relation
-from osc2tx_runtime.roads.road_parts import RoadPart
 
 Load = Callable[[str], RoadMap]
 MAPS = Path(osc2tx_runtime.__file__).parent / "maps"

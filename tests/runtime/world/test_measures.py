@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import pytest
 
-from osc2tx_runtime.actors import Person, StationaryObject, Vehicle
-from osc2tx_runtime.capabilities import capabilities
-from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.domain.actors import Person, StationaryObject, Vehicle
+from osc2tx_runtime.domain.capabilities import capabilities
+from osc2tx_runtime.domain.modifiers import MODIFIERS, speed
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.modifiers import MODIFIERS, speed
+from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 

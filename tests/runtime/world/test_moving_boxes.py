@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from osc2tx_runtime.actors import Vehicle
+from osc2tx_runtime.domain.actors import Vehicle
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.catalogue import Shape

@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Person, Serial
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     acceleration,
     change_lane,
     change_speed,
@@ -21,7 +20,7 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.shapes import (
+from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
     AnyLateralShape,
     AnyShape,
@@ -32,7 +31,8 @@ from osc2tx_runtime.shapes import (
     CommonSpeedShape,
     OwnShape,
 )
-from osc2tx_runtime.values import Point
+from osc2tx_runtime.domain.values import Point
+from osc2tx_runtime.errors import ScenarioError
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

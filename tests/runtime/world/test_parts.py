@@ -22,10 +22,10 @@ from osc2tx_runtime import (
     Trailer,
     Vehicle,
 )
-from osc2tx_runtime.actors import Actor
+from osc2tx_runtime.domain.actors import Actor
+from osc2tx_runtime.domain.values import Orientation
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import Pose as MapPose
-from osc2tx_runtime.values import Orientation
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.commands import FollowCourse
 from osc2tx_runtime.world.curve import Curve, Knot

@@ -17,11 +17,11 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.actors import Point, Pose
-from osc2tx_runtime.modifiers import along, physical_movement, position, yaw
-from osc2tx_runtime.values import RoutePoint
-from osc2tx_runtime.ways.path_values import Path, RelativePath
-from osc2tx_runtime.ways.paths import curve_of_path
+from osc2tx_runtime.domain.actors import Point, Pose
+from osc2tx_runtime.domain.modifiers import along, physical_movement, position, yaw
+from osc2tx_runtime.domain.paths.path_values import Path, RelativePath
+from osc2tx_runtime.domain.paths.paths import curve_of_path
+from osc2tx_runtime.domain.values import RoutePoint
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -24,8 +24,7 @@ from osc2tx_runtime import (
     elapsed,
     run_scenario,
 )
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     acceleration,
     avoid_collisions,
     lane,
@@ -33,6 +32,7 @@ from osc2tx_runtime.modifiers import (
     position,
     speed,
 )
+from osc2tx_runtime.errors import ScenarioError
 from tests.runtime.world.two_cars import TwoCars
 
 Made = Callable[[], Behaviour]

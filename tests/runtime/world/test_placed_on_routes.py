@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     along,
     lane,
     lane_side,
@@ -34,9 +34,9 @@ from osc2tx_runtime.modifiers import (
     set_map_file,
     speed,
 )
+from osc2tx_runtime.domain.routes.map_solver import MapSolver
+from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.roads.map_solver import MapSolver
-from osc2tx_runtime.roads.road_graph import graph_of
 
 Load = Callable[[str], RoadMap]
 

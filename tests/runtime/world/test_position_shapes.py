@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Pose, within
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     acceleration,
     along,
     along_trajectory,
@@ -20,15 +19,16 @@ from osc2tx_runtime.modifiers import (
     position,
     speed,
 )
-from osc2tx_runtime.shapes import (
+from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
+from osc2tx_runtime.domain.shapes import (
     AnyPositionShape,
     AnySpeedShape,
     CommonPositionShape,
     CommonSpeedShape,
     OwnShape,
 )
-from osc2tx_runtime.values import Point
-from osc2tx_runtime.ways.path_values import Path, Trajectory
+from osc2tx_runtime.domain.values import Point
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -19,8 +19,7 @@ from osc2tx_runtime import (
     elapsed,
     within,
 )
-from osc2tx_runtime.errors import UnsupportedError
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     along,
     avoid_collisions,
     change_speed,
@@ -32,7 +31,8 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.ways.path_values import Path
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.errors import UnsupportedError
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

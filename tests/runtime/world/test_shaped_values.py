@@ -18,7 +18,7 @@ from osc2tx_runtime import (
     elapsed,
     within,
 )
-from osc2tx_runtime.modifiers import (
+from osc2tx_runtime.domain.modifiers import (
     acceleration,
     change_lane,
     change_speed,
@@ -30,9 +30,13 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.roads.road_parts import Lane, Stretch
-from osc2tx_runtime.shapes import CommonAccelerationShape, CommonLateralShape, CommonSpeedShape
-from osc2tx_runtime.ways.path_values import Path
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.routes.road_parts import Lane, Stretch
+from osc2tx_runtime.domain.shapes import (
+    CommonAccelerationShape,
+    CommonLateralShape,
+    CommonSpeedShape,
+)
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

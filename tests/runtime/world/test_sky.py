@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 import pytest
 
 from osc2tx_runtime import Environment, GeodeticPosition, Vehicle
-from osc2tx_runtime.context import ExecutionContext
+from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.sky import Sky

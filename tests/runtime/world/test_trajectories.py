@@ -11,9 +11,9 @@ import pytest
 from osc2tx_runtime import (
     Behaviour,
 )
-from osc2tx_runtime.actors import Pose
-from osc2tx_runtime.modifiers import along_trajectory, physical_movement
-from osc2tx_runtime.ways.path_values import RelativeTrajectory, Trajectory
+from osc2tx_runtime.domain.actors import Pose
+from osc2tx_runtime.domain.modifiers import along_trajectory, physical_movement
+from osc2tx_runtime.domain.paths.path_values import RelativeTrajectory, Trajectory
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -3,7 +3,7 @@
 from osc2tx.analysis import library_facts as facts
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.library import shared_library
-from osc2tx_runtime.registry import methods
+from osc2tx_runtime.language.registry import methods
 
 CARLA = shared_library("2.2", "carla", "all").scope
 NOT_DECLARED = {("animal", "walk")}

@@ -10,9 +10,9 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import violations
 from osc2tx.backends.py_trees.runtime_api import ArgumentRule, runtime_support
 from osc2tx.diagnostics import SourceFile, Span
-from osc2tx_runtime.argument_rules import Rule
-from osc2tx_runtime.modifiers import MODIFIERS
-from osc2tx_runtime.registry import methods
+from osc2tx_runtime.domain.modifiers import MODIFIERS
+from osc2tx_runtime.language.argument_rules import Rule
+from osc2tx_runtime.language.registry import methods
 
 SPAN = Span(SourceFile("x.osc", "x"), 0, 1)
 RULES = {

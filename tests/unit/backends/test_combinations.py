@@ -10,12 +10,12 @@ from osc2tx.backends.py_trees.combinations import CombinationCheck
 from osc2tx.backends.py_trees.runtime_api import runtime_support
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx_runtime import Vehicle
-from osc2tx_runtime import modifiers as runtime
-from osc2tx_runtime.actions.checks import check_modifiers
-from osc2tx_runtime.actions.movement import Drive
+from osc2tx_runtime.domain import modifiers as runtime
+from osc2tx_runtime.domain.actions.checks import check_modifiers
+from osc2tx_runtime.domain.actions.movement import Drive
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.shapes import CommonPositionShape
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.shapes import CommonPositionShape
-from osc2tx_runtime.ways.path_values import Path
 
 SPAN = Span(SourceFile("x.osc", "x"), 0, 1)
 OTHER, WAY = Vehicle(name="other"), Path(())

@@ -4,7 +4,7 @@ import runpy
 from pathlib import Path
 
 import osc2tx_runtime
-import osc2tx_runtime.modifiers
+import osc2tx_runtime.domain.modifiers
 import osc2tx_runtime.units
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, identifier
 from osc2tx.backends.py_trees.runtime_api import (
@@ -18,7 +18,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 from osc2tx.semantics.library import shared_library
 from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol, StructSymbol
 from osc2tx.semantics.types import StructType
-from osc2tx_runtime.capabilities import capabilities
+from osc2tx_runtime.domain.capabilities import capabilities
 
 REPOSITORY = Path(__file__).parent.parent.parent.parent
 
@@ -38,7 +38,7 @@ def test_level_and_classes_exist() -> None:
 def test_modifiers_can_be_imported_by_their_names() -> None:
     support = runtime_support()
     for name in {*support.modifiers, *support.placement}:
-        assert hasattr(osc2tx_runtime.modifiers, identifier(name))
+        assert hasattr(osc2tx_runtime.domain.modifiers, identifier(name))
 
 
 def test_members_that_are_objects_are_so_in_the_library() -> None:

@@ -142,7 +142,7 @@ def test_without_cache_all_is_compiled(
 
 
 def test_remembered_reports_are_those_of_the_first_time(project: Project) -> None:
-    from osc2tx.reported import settle_all
+    from osc2tx.compilation.reports import settle_all
 
     library = "import osc.standard\nscenario base:\n  do serial:\n    wait @gone\n"
     write(project.sources / "lib.osc", library)

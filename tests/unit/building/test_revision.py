@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from osc2tx.building.compare import Comparison, compare_with
+from osc2tx.compilation.inputs import InputError
 from osc2tx.config import GivenOptions
-from osc2tx.inputs import InputError
 from tests.unit.building.projects import Project, contents, write
 
 

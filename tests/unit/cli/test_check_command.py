@@ -2,7 +2,7 @@
 
 import pytest
 
-from osc2tx import reporting
+from osc2tx.cli import reporting
 from tests.unit.cli.shell import DRIVE, Ended, Shell
 
 LEVEL = "scenario top: abstract (open: map file; place of ego)"

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from osc2tx.cli import cli
-from osc2tx.reporting import Session
+from osc2tx.cli.reporting import Session
 
 UNTIDY = "actor a:\n  x:length\n"
 TIDY = "actor a:\n    x: length\n"

@@ -13,7 +13,7 @@ from click.testing import CliRunner, Result
 
 from osc2tx.cli import cli
 from osc2tx.cli.init import FILES
-from osc2tx.reporting import Session
+from osc2tx.cli.reporting import Session
 
 REPOSITORY = Path(__file__).parents[3]
 

@@ -11,8 +11,8 @@ import pytest
 from osc2tx.building import checks, fingerprint, memory
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, check_job
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.driver import Compilation
 from tests.unit.cli.shell import DRIVE, Shell
 
 ROOT = Path(__file__).parents[3]
@@ -201,7 +201,8 @@ def test_the_stamp_tells_one_osc2tx_from_another(
 
 def test_what_is_recalled_needs_no_stage(tmp_path: Path) -> None:
     (tmp_path / "a.osc").write_text(DRIVE.format(name="top"))
-    stages = ("antlr4", "osc2tx.driver", "osc2tx.syntax", "osc2tx.semantics", "osc2tx.ir")
+    stages = ("antlr4", "osc2tx.compilation.driver", "osc2tx.syntax", "osc2tx.semantics")
+    stages += ("osc2tx.ir",)
     program = (
         "import sys, atexit\n"
         f"atexit.register(lambda: print([m for m in {stages!r} if m in sys.modules]))\n"

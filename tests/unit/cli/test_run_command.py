@@ -7,8 +7,8 @@ from pathlib import Path
 import click
 import pytest
 
+from osc2tx.cli.run import choose_scenario, merge_settings
 from osc2tx.config import ConfigError, ConfigFiles
-from osc2tx.run_command import choose_scenario, merge_settings
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import SettingsError
 from tests.unit.cli.shell import Shell

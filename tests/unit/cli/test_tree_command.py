@@ -9,7 +9,7 @@ from click.testing import CliRunner, Result
 from lxml import etree
 
 from osc2tx.cli import cli
-from osc2tx.reporting import Session
+from osc2tx.cli.reporting import Session
 
 SOURCE = """
 import osc.standard

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.building.manifest import MANIFEST_NAME
-from osc2tx_runtime.roads.map_search import DEFAULT_MAP, SHIPPED
+from osc2tx_runtime.domain.routes.map_search import DEFAULT_MAP, SHIPPED
 from tests.unit.building.projects import listing
 from tests.unit.cli.shell import Shell
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.explanations import Explanation
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 
 PRELUDE = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"

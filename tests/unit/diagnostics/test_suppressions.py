@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.reports import settle_all
 from osc2tx.diagnostics import Diagnostic
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
-from osc2tx.reported import settle_all
 
 CARLA = CompileOptions(dialect="carla")
 GOOD = "import osc.standard\n\nscenario top:\n    do serial:\n        wait @go{}\n"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
-from osc2tx.driver import Compilation
 from osc2tx.formatter import format_source
 from osc2tx.options import CompileOptions
 from osc2tx.syntax import parse

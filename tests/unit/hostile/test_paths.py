@@ -9,7 +9,7 @@ import pytest
 
 from osc2tx.building.build import BuildOptions, BuildResult, build
 from osc2tx.config import GivenOptions
-from osc2tx.portable import is_portable
+from osc2tx.support.portable_names import is_portable
 from tests.unit.building.projects import DRIVE, contents, drive, listing, write
 from tests.unit.hostile.texts import MULTILINE, TEXTS, skeleton, strings
 

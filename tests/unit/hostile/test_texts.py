@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from tests.unit.hostile.texts import MULTILINE, TEXTS, quoted, skeleton, strings
 

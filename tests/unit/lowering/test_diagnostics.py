@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import CODES
 from osc2tx.diagnostics.render import render_text
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 
 FOLDER = Path(__file__).parents[2] / "golden" / "diagnostics"

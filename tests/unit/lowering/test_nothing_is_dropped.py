@@ -10,7 +10,7 @@ from typing import get_args
 
 import pytest
 
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx.syntax import ast
 

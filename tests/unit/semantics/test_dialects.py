@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity, SourceFile
 from osc2tx.diagnostics.render import render_text
-from osc2tx.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import dump_model
 from osc2tx.semantics.dialects import (

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.facts.ways import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.behaviour.parameters import Range
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.modifiers.roads import MAP_MODIFIERS, MapModifier
-from osc2tx_runtime.roads.crossings import Crossing, CrossingType
-from osc2tx_runtime.roads.made_routes import poses_of_route
-from osc2tx_runtime.roads.map_solver import MapSolver, Relation
-from osc2tx_runtime.roads.road_graph import graph_of
-from osc2tx_runtime.roads.road_parts import (
+from osc2tx_runtime.domain.modifiers.roads import MAP_MODIFIERS, MapModifier
+from osc2tx_runtime.domain.paths.path_values import ConnectPointsBy
+from osc2tx_runtime.domain.paths.path_values import Path as Way
+from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
+from osc2tx_runtime.domain.routes.made_routes import poses_of_route
+from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.road_parts import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -26,10 +26,10 @@ from osc2tx_runtime.roads.road_parts import (
     RoadPart,
     Route,
 )
-from osc2tx_runtime.roads.stretches import Stretch
-from osc2tx_runtime.values import Pose as WayPose
-from osc2tx_runtime.ways.path_values import ConnectPointsBy
-from osc2tx_runtime.ways.path_values import Path as Way
+from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.values import Pose as WayPose
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.tree.parameters import Range
 
 __all__ = [
     "PARTS",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import XmlProfile, XmlVersion
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

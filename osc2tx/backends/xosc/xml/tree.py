@@ -16,8 +16,8 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.symbols import Symbol
 from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, ElementType, element_type, literals
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.light_dataclass import dataclass
 from osc2tx.options import XmlVersion
+from osc2tx.support.light_dataclass import dataclass
 
 Value: TypeAlias = str | int | float | bool
 

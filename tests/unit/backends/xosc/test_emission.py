@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc import emit
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlProfile, XmlVersion
 
 HEAD = """import osc.standard.all

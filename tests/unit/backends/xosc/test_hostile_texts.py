@@ -7,7 +7,7 @@ from lxml import etree
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.tree import comment_text, element, text_of
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
 

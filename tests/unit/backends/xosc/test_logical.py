@@ -14,7 +14,7 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, OneOfPolicy, XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.checks import schema_errors, story_problems

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.xosc import XmlScenario, emit
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import XML_VERSIONS, CompileOptions, XmlOptions, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems
 

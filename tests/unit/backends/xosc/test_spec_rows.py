@@ -35,7 +35,7 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc import XmlScenario, emit
-from osc2tx.driver import Compilation
+from osc2tx.compilation.driver import Compilation
 from osc2tx.options import (
     ONE_OF_POLICIES,
     XML_VERSIONS,

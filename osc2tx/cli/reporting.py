@@ -1,0 +1,247 @@
+"""What a command says at its end: diagnostics in the form asked for, a summary, an exit code.
+
+Text for people goes to stderr and the summary to stdout; with a form for programs, that form alone
+goes to stdout, and all else to stderr.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from functools import wraps
+from pathlib import Path
+from typing import Any, Literal, TypeAlias, get_args
+
+import click
+
+from osc2tx import __version__
+from osc2tx.compilation.reports import Reported, settle_all
+from osc2tx.diagnostics.report import Report, make_report
+
+OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
+OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)
+FORMATS_FOR_READERS: tuple[OutputFormat, ...] = ("text", "github")
+MOST_SHOWN = 50  # diagnostics of one file, where people read them
+BUG_REPORT = "osc2tx: this is a bug of osc2tx; please report it with the lines above"
+
+
+class Exit(IntEnum):
+    """What the process returns."""
+
+    OK = 0
+    STALE = 1
+    WARNINGS = 1  # under --strict
+    USAGE = 2
+    ERRORS = 3
+    UNREADABLE = 4
+    FAILED = 5
+    BUG = 70
+    INTERRUPTED = 130
+
+
+@dataclass(slots=True)
+class Session:
+    """One run of the command line.
+
+    Attributes:
+        has_document: Whether a program that reads our output has got its document.
+    """
+
+    has_document: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Reporter:
+    """Prints what a command has to say.
+
+    Attributes:
+        session: The run of the command line that this is for.
+        form: How diagnostics are printed.
+        is_strict: Whether warnings count for the exit code.
+        most_shown: How many diagnostics of one file are shown, 0 for all; `None` leaves it to
+            the form: readers are spared an avalanche, programs are not.
+    """
+
+    session: Session
+    form: OutputFormat = "text"
+    is_strict: bool = False
+    most_shown: int | None = None
+
+    def report(
+        self, compilations: Sequence[Reported], bugs: Sequence[str] = ()
+    ) -> tuple[Exit, Report]:
+        """Print all diagnostics, and bugs of ours.
+
+        Returns:
+            The exit code they call for, and what there is to report.
+        """
+        most = self.most_shown
+        if most is None:
+            most = MOST_SHOWN if self.form in FORMATS_FOR_READERS else 0
+        settled = settle_all(compilations)
+        report = make_report(
+            settled.shown,
+            files=len(compilations),
+            suppressed=len(settled.suppressed),
+            folder=Path.cwd(),
+            most_shown=most,
+        )
+        entries = (entry for item in compilations for entry in item.scenarios)
+        report = replace(report, scenarios=tuple(entries))
+        self._print(report, failed=bool(bugs))
+        for bug in bugs:
+            complain(bug)
+        if bugs:
+            complain(BUG_REPORT)
+        return self._exit_code(compilations, report, bugs), report
+
+    def report_nothing(self) -> None:
+        """Print that there is nothing to report, where programs expect a document."""
+        self._print(Report(), failed=False)
+
+    def warn(self, sentences: Sequence[str]) -> Exit:
+        """Print warnings that belong to no place in a source; return the exit code they call for.
+
+        They are told once each, before all that is not a diagnostic.
+        """
+        for sentence in sentences:
+            complain(f"warning: {sentence}")
+        return Exit.WARNINGS if self.is_strict and sentences else Exit.OK
+
+    def find_fault(self, file: Path, message: str) -> None:
+        """Print what is wrong with an output."""
+        complain(f"{file}: {message}")
+        if self.form == "github":
+            from osc2tx.diagnostics.render import render_remark
+
+            text = render_remark(file.as_posix(), "osc2tx build --check", message)
+            click.echo(text, nl=False)
+
+    def say(self, line: str) -> None:
+        """Print a line that sums up, where it does not disturb."""
+        click.echo(line, err=self.form != "text")
+
+    def _print(self, report: Report, *, failed: bool) -> None:
+        if self.form == "text":
+            _print_text(report)
+        elif self.form != "github" and self.session.has_document:
+            return  # a second document would spoil the first, as in the rounds of --watch
+        else:
+            self.session.has_document = True
+            click.echo(_document(report, self.form, failed=failed), nl=False)
+
+    def _exit_code(
+        self, compilations: Sequence[Reported], report: Report, bugs: Sequence[str]
+    ) -> Exit:
+        if bugs:
+            return Exit.BUG
+        if any(compilation.source is None for compilation in compilations):
+            return Exit.UNREADABLE
+        if report.errors:
+            return Exit.ERRORS
+        return Exit.WARNINGS if self.is_strict and report.warnings else Exit.OK
+
+
+def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that say how to report; the command gets a `reporter`."""
+
+    @wraps(command)
+    def with_reporter(
+        *args: Any,
+        output_format: OutputFormat,
+        strict: bool,
+        max_diagnostics: int | None,
+        **more: Any,
+    ) -> Any:
+        session = click.get_current_context().find_object(Session) or Session()
+        reporter = Reporter(session, output_format, strict, max_diagnostics)
+        return command(*args, reporter=reporter, **more)
+
+    options = (
+        click.option(
+            "--output-format",
+            type=click.Choice(OUTPUT_FORMATS),
+            default="text",
+            help="Form of diagnostics; all but `text` go to standard output.",
+        ),
+        click.option("--strict", is_flag=True, help="Exit with 1 if there are warnings."),
+        click.option(
+            "--max-diagnostics",
+            type=click.IntRange(min=0),
+            metavar="N",
+            help=f"Show at most N of one file, 0 for all.  [default: {MOST_SHOWN}; json, sarif: 0]",
+        ),
+    )
+    for option in reversed(options):
+        with_reporter = option(with_reporter)
+    return with_reporter
+
+
+def report_failure(message: str, arguments: Sequence[str], session: Session) -> None:
+    """Print a document that says why there is nothing else, if the reader waits for one.
+
+    Args:
+        message: Why the command did not begin.
+        arguments: The command line; it may be wrong, so only the form is looked for.
+        session: Knows whether there is a document already.
+    """
+    form = _form_asked_for(arguments)
+    if form != "text" and not session.has_document:
+        session.has_document = True
+        click.echo(_document(Report(failure=message), form, failed=True), nl=False)
+
+
+def _form_asked_for(arguments: Sequence[str]) -> OutputFormat:
+    form: OutputFormat = "text"
+    for index, argument in enumerate(arguments):
+        name, sign, value = argument.partition("=")
+        if name == "--output-format":
+            written = value if sign else "".join(arguments[index + 1 : index + 2])
+            form = next((known for known in OUTPUT_FORMATS if known == written), form)
+    return form
+
+
+def _document(report: Report, form: OutputFormat, *, failed: bool) -> str:
+    from osc2tx.diagnostics import render
+
+    match form:
+        case "json":
+            return render.render_json(report, version=__version__)
+        case "sarif":
+            return render.render_sarif(report, version=__version__, failed=failed)
+        case "github":
+            return render.render_github(report)
+        case "text":
+            raise ValueError("a text for people is no document")
+
+
+def _print_text(report: Report) -> None:
+    if not report.diagnostics:
+        return
+    from osc2tx.diagnostics.render import render_all  # mostly there is nothing to render
+
+    color = sys.stderr.isatty() and "NO_COLOR" not in os.environ
+    text = render_all(report.diagnostics, color=color, folder=report.folder)
+    click.echo(text, err=True, color=color)
+    for file, count in report.hidden.items():
+        complain(f"{file}: {count} more not shown" if file else f"{count} more not shown")
+    complain(f"`osc2tx explain {report.diagnostics[0].code}` says more about a code.")
+
+
+def complain(message: str) -> None:
+    """Print a message that belongs to no place in a source."""
+    click.echo(message, err=True)
+
+
+def found(report: Report) -> str:
+    """Return the numbers of a report in words."""
+    text = f"{count_of(report.errors, 'error')}, {count_of(report.warnings, 'warning')}"
+    return f"{text}, {report.suppressed} suppressed" if report.suppressed else text
+
+
+def count_of(number: int, noun: str) -> str:
+    """Return a number with its noun."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -1,0 +1,48 @@
+"""`osc2tx tree`: loads the runtime, which knows what a scenario becomes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from osc2tx.building.jobs import compile_all, run_all
+from osc2tx.cli.loading import scenarios_of_module
+from osc2tx.cli.options import compile_options
+from osc2tx.cli.reporting import Exit, Reporter, complain, report_options
+from osc2tx.cli.run import choose_scenario
+from osc2tx.config import GivenOptions
+from osc2tx_runtime import ScenarioError
+from osc2tx_runtime.report.tree import tree_svg, tree_text
+
+_FORMS = {"text": tree_text, "svg": tree_svg}
+
+
+@click.command()
+@click.argument("file", metavar="FILE", type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--scenario", metavar="NAME", help="Which scenario of the file to draw.")
+@click.option("--form", type=click.Choice(list(_FORMS)), default="text", help="What to print.")
+@compile_options
+@report_options
+def tree(
+    file: Path, scenario: str | None, form: str, given: GivenOptions, reporter: Reporter
+) -> Exit:
+    """Print the behavior tree of a scenario, as text or as an SVG picture."""
+    if reporter.form != "text":
+        raise click.UsageError("the tree and --output-format both print to standard output")
+    (compilation,) = compile_all([file], given)
+    bugs = run_all([compilation], lambda item: item.module)
+    code, _ = reporter.report([compilation], bugs)
+    if code >= Exit.USAGE:
+        return code
+    if compilation.module is None:
+        raise click.UsageError(f"{file} declares no scenario")
+    with scenarios_of_module(compilation.module) as scenarios:
+        chosen = choose_scenario(scenarios, scenario, file)
+        try:
+            drawn = _FORMS[form](chosen().create_tree())
+        except ScenarioError as error:
+            complain(f"{error.source or chosen.source}: error: {error.message}")
+            return Exit(error.exit_code)
+    click.echo(drawn, nl=False)
+    return code

@@ -1,0 +1,289 @@
+"""Runs the stages on one source file and keeps what they make.
+
+    source ─ ast ─ model ─ analysis ─ ir ─┬─ module
+                                          └─ xml
+
+Each product is made when it is first asked for, from the one before it. A product is `None` when
+the source has errors that stand in the way; the sink says which.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
+from osc2tx.compilation.products import DUMPS, Output, files_of_module, files_of_xml
+from osc2tx.compilation.reports import LossEntry, settle_all
+from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
+from osc2tx.diagnostics.report import ScenarioEntry
+from osc2tx.options import CompileOptions, ProductName
+from osc2tx.support.recursion import room_for_trees
+from osc2tx.syntax import parse, read_source
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from osc2tx.analysis import Analysis, ScenarioLevel
+    from osc2tx.backends.py_trees.emitter import GeneratedModule
+    from osc2tx.backends.xosc.emitter import XmlScenario
+    from osc2tx.ir import Module
+    from osc2tx.semantics import SemanticModel
+    from osc2tx.syntax.ast import File
+
+
+__all__ = ["Compilation", "Output"]
+
+
+class Compilation:
+    """The compilation of one file.
+
+    Attributes:
+        path: The file.
+        name: How diagnostics and generated files call it; relative, forward slashes.
+        options: How to compile it.
+        sink: What the stages had to say so far.
+        lookups: Where imported files were looked for, and what was found there.
+        is_complete: Whether all stages that can report something ran and found no error.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        name: str,
+        options: CompileOptions,
+        *,
+        roots: Sequence[Path] = (),
+        is_trusted: bool = True,
+        text: str | None = None,
+    ) -> None:
+        """Take the file; nothing is read yet.
+
+        Args:
+            path: The file.
+            name: What to call it.
+            options: How to compile it.
+            roots: Folders whose files it may import, besides its own folder.
+            is_trusted: Whether somebody asked for this very file; else it is not read if it is a
+                link to somewhere outside of the folders.
+            text: The text, for a file that exists only in the mind of the caller.
+        """
+        self.path = path
+        self.name = name
+        self.options = options
+        self.sink = DiagnosticSink()
+        self.lookups: dict[Path, Lookup] = {}
+        self.is_complete = False
+        self._roots = (path.parent, *roots)
+        self._is_trusted = is_trusted
+        self._text = text
+        self._is_well_formed = False
+
+    @cached_property
+    def source(self) -> SourceFile | None:
+        """The text."""
+        if self._text is not None:
+            return SourceFile(self.name, self._text, self.path)
+        if not self._is_trusted and leads_outside(self.path, self._roots):
+            message = f"cannot read `{self.name}`: it is a link to a file outside of the folder"
+            self.sink.report("OSC101", None, message, help="name the file itself to compile it")
+            return None
+        return read_source(self.path, self.name, self.sink)
+
+    @cached_property
+    def ast(self) -> File | None:
+        """The syntax tree of what could be understood."""
+        if self.source is None:
+            return None
+        parsed = parse(self.source, self.sink, allow=self._relaxed)
+        self._is_well_formed = not self._failed()
+        return parsed
+
+    @cached_property
+    def formatted(self) -> str | None:
+        """The text in the style of the standard (§9.2.2); not made if it has syntax errors."""
+        if self.ast is None or self.source is None or not self._is_well_formed:
+            return None
+        from osc2tx.formatter import format_source
+
+        return format_source(self.source)
+
+    @cached_property
+    def model(self) -> SemanticModel | None:
+        """The checked program; not made for a text with syntax errors, as they breed others."""
+        if self.ast is None or self._failed():
+            return None
+        from osc2tx.semantics import DIALECTS, ModelBuilder
+
+        loader = ImportLoader(self.path, self.name, self._roots, self.sink, self._relaxed)
+        self.lookups = loader.lookups
+        builder = ModelBuilder(
+            self.sink,
+            standard=self.options.standard,
+            dialect=DIALECTS[self.options.dialect],
+            load=loader,
+        )
+        with room_for_trees():
+            return builder.build(self.ast)
+
+    @cached_property
+    def analysis(self) -> Analysis | None:
+        """What constraints allow, and how far the scenarios are worked out."""
+        if self.model is None or self._failed():
+            return None
+        from osc2tx.analysis import analyse
+
+        with room_for_trees():
+            return analyse(self.model, self.sink, self.options.one_of)
+
+    @property
+    def levels(self) -> Sequence[ScenarioLevel]:
+        """How far each scenario is worked out; nothing if the constraints have no solution."""
+        if "analysis" not in self.__dict__ or self.analysis is None:
+            return ()  # nobody has asked for it
+        return () if self._failed() else self.analysis.levels
+
+    @cached_property
+    def ir(self) -> Module | None:
+        """What the scenarios mean, verified; an `ir.Module` without scenarios for a library."""
+        if self.model is None or self.analysis is None or self._failed():
+            return None
+        from osc2tx.ir import verify
+        from osc2tx.lowering import lower
+
+        with room_for_trees():
+            module = lower(self.model, self.analysis.constraints, self.options, self.sink)
+            if self._failed():
+                return None
+            verify(module)
+        return module
+
+    @cached_property
+    def is_supported(self) -> bool:
+        """Whether the backend can write all of it down; what it cannot is reported."""
+        if self.ir is None:
+            return False
+        if self.options.target != "xosc":
+            from osc2tx.backends.py_trees.support import check_support
+
+            check_support(self.ir, self.sink)
+        self.is_complete = not self._failed()
+        if self.options.target == "xosc":
+            self._report_losses()
+        return not self._failed()
+
+    @cached_property
+    def module(self) -> GeneratedModule | None:
+        """The Python module; `None` also for a file that declares no scenario."""
+        if self.ir is None or self.options.target == "xosc":
+            return None
+        if not self.is_supported or not self.ir.scenarios:
+            return None
+        from osc2tx.backends.py_trees import emit
+
+        with room_for_trees():
+            return emit(self.ir)
+
+    @cached_property
+    def xml(self) -> tuple[XmlScenario, ...]:
+        """The scenarios of the file as OpenSCENARIO XML, each with what became of it.
+
+        Empty for a library, if there are errors, and if only modules are asked for.
+        """
+        if self.ir is None or not self.ir.scenarios or self.options.target == "py":
+            return ()
+        from osc2tx.backends.xosc import emit
+
+        with room_for_trees():
+            found = emit(self.ir, self.options.xml, self.path.parent, self.stem)
+        for scenario in found:
+            for place in scenario.map_places:
+                self.lookups[place] = look_up(place)
+        return found
+
+    @property
+    def stem(self) -> str:
+        """What the names of all outputs begin with."""
+        if self.ir is None or not self.ir.scenarios:
+            return ""
+        from osc2tx.backends.py_trees.emitter import module_stem
+
+        return module_stem(self.ir.source)
+
+    def outputs(self) -> Sequence[Output]:
+        """Return the files that the source makes; none for a library, or if there are errors."""
+        return (*self.module_outputs(), *self.xml_outputs())
+
+    def module_outputs(self) -> tuple[Output, ...]:
+        """Return the Python module and its source map, if it makes one."""
+        return () if self.module is None else files_of_module(self.module)
+
+    def xml_outputs(self) -> tuple[Output, ...]:
+        """Return the OpenSCENARIO XML files.
+
+        A scenario that cannot be said in XML makes only the report that says why.
+        """
+        if not self.is_supported and self.options.target != "xosc":  # which also reports losses
+            return ()
+        return files_of_xml(self.xml)
+
+    @property
+    def losses(self) -> tuple[LossEntry, ...]:
+        """How the scenarios fared on their way to XML, as far as that was asked for."""
+        return tuple(
+            LossEntry(scenario.name, scenario.xml is not None, scenario.report.summary())
+            for scenario in self.xml
+        )
+
+    def _report_losses(self) -> None:
+        """Report what keeps scenarios from being XML."""
+        for scenario in self.xml:
+            for entry in scenario.report.obstacles:
+                self.sink.report(entry.code, entry.span, entry.message, help=entry.help)
+
+    @property
+    def start(self) -> Span:
+        """The place of what concerns the file as a whole, even if there is no text."""
+        return Span(self.source or SourceFile(self.name, "", self.path), 0, 0)
+
+    @property
+    def reports(self) -> tuple[Diagnostic, ...]:
+        """All that was reported, suppressed or not."""
+        return self.sink.sorted()
+
+    @property
+    def scenarios(self) -> tuple[ScenarioEntry, ...]:
+        """The levels as plain data, for reports."""
+        return tuple(
+            ScenarioEntry(
+                source=found.scenario.span.source,
+                name=found.scenario.qualified_name,
+                level=found.level.value,
+                open=tuple(opening.text for opening in found.open),
+                summary=str(found),
+            )
+            for found in self.levels
+        )
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """All that was reported and no comment suppresses, in order of place."""
+        return settle_all([self]).shown
+
+    def check(self) -> bool:
+        """Run all stages that can report something; return whether there is no error."""
+        return self.is_supported
+
+    def dump(self, product: ProductName) -> str | None:
+        """Return a product as text; `None` where it does not exist."""
+        return DUMPS[product](self)
+
+    def _failed(self) -> bool:
+        return self.sink.has_errors
+
+    @cached_property
+    def _relaxed(self) -> frozenset[str]:
+        from osc2tx.semantics.dialects import DIALECTS
+
+        return DIALECTS[self.options.dialect].relaxed

@@ -1,0 +1,177 @@
+"""Finds and parses the files that a source file imports (§7.7.5)."""
+
+from __future__ import annotations
+
+import os
+import posixpath
+from collections.abc import Collection, Sequence
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
+from osc2tx.support.light_dataclass import dataclass
+from osc2tx.syntax import ast, parse, read_source
+
+
+@dataclass(frozen=True, slots=True)
+class Lookup:
+    """What was found where an imported file could be.
+
+    Attributes:
+        path: The place, links followed; empty if no file can have such a name.
+        text: What the file says; `None` if nothing was read.
+        is_refused: Whether there may be something that was not read, or could not be.
+    """
+
+    path: str
+    text: str | None = None
+    is_refused: bool = False
+
+
+class ImportLoader:
+    """Turns an import statement into the syntax tree of what it names.
+
+    A scenario is text from somewhere, so it must not make the compiler read whatever its user can
+    read: only files below the given folders are opened, and links are followed before a path is
+    judged. What is refused is reported here and gives an empty tree; `None` means that there is
+    no such file, which is for the caller to report.
+
+    Attributes:
+        lookups: All places that were looked at; the product depends on what is there.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        name: str,
+        roots: Sequence[Path],
+        sink: DiagnosticSink,
+        relaxed: Collection[str],
+    ) -> None:
+        """Take the surroundings of the root file.
+
+        Args:
+            path: The root file.
+            name: What it is called; imported files are named relative to the same place.
+            roots: Folders whose files may be imported.
+            sink: Where diagnostics go.
+            relaxed: Deviations from the grammar that the dialect allows.
+        """
+        self._folder = path.resolve().parent
+        self._prefix = posixpath.dirname(name)
+        self._roots = tuple(root.resolve() for root in roots)
+        self._sink = sink
+        self._relaxed = relaxed
+        self._parsed: dict[Path, ast.File] = {}
+        self._read: dict[Path, Lookup] = {}
+        self.lookups: dict[Path, Lookup] = {}
+
+    def __call__(self, statement: ast.Import, source: SourceFile) -> ast.File | None:
+        """Return the tree of the imported file.
+
+        Args:
+            statement: The import.
+            source: The file it stands in.
+        """
+        if source.path is None:
+            return None
+        folder = source.path.resolve().parent
+        if statement.uri is None:
+            return self._module(statement, folder)
+        path = _local_path(statement.uri)
+        if path is None:
+            return self._refuse(statement, f"`{statement.uri}` is no local file", None)
+        plain, decoded = folder / path, folder / unquote(path)
+        found = self._open(statement, plain, statement.uri)
+        if found is None and decoded != plain:
+            found = self._open(statement, decoded, statement.uri)
+        return found
+
+    def _module(self, statement: ast.Import, folder: Path) -> ast.File | None:
+        """Look for `a.b` as `a/b.osc` beside the importing file, then in the roots."""
+        place = Path(*statement.module).with_suffix(".osc")
+        for start in (folder, *self._roots):
+            found = self._open(statement, start / place, ".".join(statement.module))
+            if found is not None:
+                return found
+        return None
+
+    def _open(self, statement: ast.Import, path: Path, written: str) -> ast.File | None:
+        asked = path
+        try:
+            path = path.resolve()
+            allowed = any(path.is_relative_to(root) for root in self._roots)
+            if allowed and not path.exists():
+                self.lookups[asked] = Lookup(str(path))
+                return None
+        except (OSError, ValueError):  # a name that no file can have
+            self.lookups[asked] = Lookup("")
+            return None
+        if not allowed:
+            self.lookups[asked] = Lookup(str(path), is_refused=True)
+            return self._refuse(
+                statement,
+                f"`{written}` lies outside of the folders that may be imported from",
+                "name the folder that holds both files, or put an `osc2tx.toml` there",
+            )
+        if path not in self._parsed:
+            self._parsed[path] = self._parse(statement, path)
+        self.lookups[asked] = self._read[path]
+        return self._parsed[path]
+
+    def _parse(self, statement: ast.Import, path: Path) -> ast.File:
+        relative = Path(os.path.relpath(path, self._folder)).as_posix()
+        name = posixpath.normpath(posixpath.join(self._prefix, relative))
+        found = DiagnosticSink()
+        source = read_source(path, name, found)
+        if source is not None:
+            self._read[path] = Lookup(str(path), source.text)
+            return parse(source, self._sink, allow=self._relaxed)
+        self._read[path] = Lookup(str(path), is_refused=True)
+        for report in found.sorted():
+            self._sink.report(report.code, statement.span, report.message, help=report.help)
+        return _nothing(statement)
+
+    def _refuse(self, statement: ast.Import, message: str, help: str | None) -> ast.File:
+        self._sink.report("OSC205", statement.span, message, help=help)
+        return _nothing(statement)
+
+
+def _nothing(statement: ast.Import) -> ast.File:
+    source = SourceFile(f"<{statement.span}>", "")
+    return ast.File(span=Span(source, 0, 0), imports=(), statements=())
+
+
+def _local_path(uri: str) -> str | None:
+    """Return the path in a URI reference; `None` if it names no file of this machine."""
+    try:
+        parts = urlsplit(uri)
+    except ValueError:
+        return uri
+    if parts.scheme == "file":
+        return parts.path if parts.netloc in ("", "localhost") else None
+    if len(parts.scheme) > 1 and "://" in uri:  # one letter is a drive
+        return None
+    return uri
+
+
+def look_up(place: Path) -> Lookup:
+    """Return what is at a place, for a file that is no scenario."""
+    try:
+        path = place.resolve()
+        return Lookup(str(path), path.read_text(encoding="utf-8"))
+    except (FileNotFoundError, NotADirectoryError):
+        return Lookup(str(path))
+    except (OSError, ValueError):
+        return Lookup("", is_refused=True)
+
+
+def leads_outside(path: Path, folders: Sequence[Path]) -> bool:
+    """Return whether a file is a link to something that is in none of the folders."""
+    if not path.is_symlink():
+        return False
+    try:
+        target = path.resolve()
+    except (OSError, RuntimeError):  # a link to itself is for the reader to report
+        return False
+    return not any(target.is_relative_to(folder.resolve()) for folder in folders)

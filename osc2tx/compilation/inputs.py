@@ -1,0 +1,106 @@
+"""From the paths of a command line to source files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from osc2tx.support.light_dataclass import dataclass
+
+
+class InputError(Exception):
+    """A path that cannot be used; the message names it.
+
+    Attributes:
+        unreadable: Whether the path itself is at fault; else there is nothing to do in it.
+    """
+
+    def __init__(self, message: str, *, unreadable: bool = True) -> None:
+        """Take the message."""
+        super().__init__(message)
+        self.unreadable = unreadable
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """One source file to compile.
+
+    Attributes:
+        path: Where it is.
+        folder: The folder that was asked for, or that of the file that was asked for; imports
+            may reach everything in it, and outputs mirror its layout.
+        is_asked: Whether this very file was asked for.
+    """
+
+    path: Path
+    folder: Path
+    is_asked: bool
+
+    @property
+    def name(self) -> str:
+        """How generated files call it: relative to the folder, forward slashes."""
+        return self.path.relative_to(self.folder).as_posix()
+
+
+def find_inputs(paths: Sequence[str | Path]) -> list[Input]:
+    """Return the files named, and the `.osc` files of the folders named, each once.
+
+    Folders are walked in the order of names; those that start with a dot are left out.
+
+    Raises:
+        InputError: If a path does not exist, or a folder holds no scenario file.
+    """
+    found: dict[str, Input] = {}
+    folders: dict[Path, str] = {}
+    for path in map(Path, paths):
+        for item in _inputs_of(path):
+            _require_unicode(item.path)
+            found.setdefault(_real_path(item.path, folders), item)
+    return list(found.values())
+
+
+def _real_path(path: Path, folders: dict[Path, str]) -> str:
+    """Return the path with links followed; those of a folder once for all its files."""
+    if path.is_symlink():
+        return os.path.realpath(path)
+    if path.parent not in folders:
+        folders[path.parent] = os.path.realpath(path.parent)
+    return os.path.join(folders[path.parent], path.name)
+
+
+def _inputs_of(path: Path) -> list[Input]:
+    try:
+        if not path.exists():
+            raise InputError(f"{path}: no such file or folder")
+        if not path.is_dir():
+            return [Input(path, path.parent, is_asked=True)]
+    except (OSError, ValueError) as error:
+        raise InputError(f"{str(path)!r}: {error}") from None
+    inputs = []
+    for folder, folders, files in os.walk(path, onerror=_refuse):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        inputs += [
+            Input(Path(folder, name), path, is_asked=False)
+            for name in sorted(files)
+            if _is_source(name)
+        ]
+    if not inputs:
+        raise InputError(f"{path}: no .osc file in this folder", unreadable=False)
+    return inputs
+
+
+def _is_source(name: str) -> bool:
+    return name.endswith(".osc") and not name.startswith(".")
+
+
+def _refuse(error: OSError) -> None:
+    raise InputError(f"{error.filename}: {error.strerror}")
+
+
+def _require_unicode(path: Path) -> None:
+    """Refuse names that no text file could cite."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{str(path)!r}: the file name is not UTF-8") from None

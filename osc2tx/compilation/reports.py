@@ -1,0 +1,87 @@
+"""What there is to report on source files, wherever it comes from: a compilation or a memory.
+
+Nothing here loads a stage: a check whose result is remembered needs none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Protocol
+
+from osc2tx.diagnostics import Diagnostic, SourceFile, Span
+from osc2tx.diagnostics.report import ScenarioEntry
+from osc2tx.diagnostics.suppressions import Settled, Suppression, settle
+from osc2tx.support.light_dataclass import dataclass
+
+
+class Reported(Protocol):
+    """What there is to report on one source file, wherever it was compiled."""
+
+    @property
+    def source(self) -> SourceFile | None:
+        """The text; `None` if there is none."""
+
+    @property
+    def start(self) -> Span:
+        """The place of what concerns the file as a whole, even if there is no text."""
+
+    @property
+    def reports(self) -> Sequence[Diagnostic]:
+        """What the stages had to say, in order of place."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all stages that can report something ran and found no error."""
+
+    @property
+    def scenarios(self) -> Sequence[ScenarioEntry]:
+        """The scenarios of the file, with how far each is worked out."""
+
+
+@dataclass(frozen=True, slots=True)
+class LossEntry:
+    """What became of a scenario as OpenSCENARIO XML.
+
+    Attributes:
+        scenario: Its name.
+        is_written: Whether there is XML.
+        summary: What its report says, in one line.
+    """
+
+    scenario: str
+    is_written: bool
+    summary: str
+
+
+def settle_all(compilations: Sequence[Reported]) -> Settled:
+    """Return what was reported on several files, each report once, and what comments suppress.
+
+    A report in a file that several others import counts once; a suppression there is used if it
+    is of use to one of them.
+    """
+    found: dict[tuple[object, ...], Diagnostic] = {}
+    for compilation in compilations:
+        for reported in compilation.reports:
+            span = reported.primary or compilation.start
+            diagnostic = replace(reported, primary=span)
+            place = (span.source.identity, span.start, span.end)
+            found.setdefault((diagnostic.code, diagnostic.message, *place), diagnostic)
+    judged = {
+        compilation.source: compilation.is_complete
+        for compilation in compilations
+        if compilation.source is not None and _may_suppress(compilation.source)
+    }
+    return settle(found.values(), judged, _suppressions_of)
+
+
+def _may_suppress(source: SourceFile) -> bool:
+    return "#!" in source.text
+
+
+def _suppressions_of(source: SourceFile) -> Sequence[Suppression]:
+    if not _may_suppress(source):
+        return ()
+    from osc2tx.syntax.suppressions import find_suppressions  # few texts have any
+
+    return find_suppressions(source)

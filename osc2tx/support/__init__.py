@@ -1,0 +1,1 @@
+"""Support for every stage; imports nothing of ours."""

@@ -1,0 +1,227 @@
+"""Actions on the lane alone (DSL 8.8.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, Literal, Unpack
+
+from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.domain.modifiers.base import band_of, now
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.action import ActionOptions
+from osc2tx_runtime.language.argument_rules import above, at_least, at_most_one
+from osc2tx_runtime.language.registry import LATERAL, action
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.language.tree.limits import Duration
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.commands import LaneChange
+from osc2tx_runtime.world.lanes import lanes_to_left, neighbouring, offset_from
+from osc2tx_runtime.world.lateral import shift_profile
+from osc2tx_runtime.world.profiles import DynamicProfile
+
+from .groups import SPEED_FREE
+from .rated import check_profile, peak_of
+from .shaped import ShapedAction
+from .shifts import check_shift, jump_aside, lanes_to
+from .support import Refused
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
+    from osc2tx_runtime.domain.routes.road_parts import Lane
+    from osc2tx_runtime.language.tree.parameters import Range
+
+__all__ = ["SIDES", "ChangeLane", "FollowLane", "LaneSide"]
+
+LaneSide = Literal["left", "right", "inside", "outside", "same"]
+SIDES: tuple[LaneSide, ...] = ("left", "right", "inside", "outside", "same")
+
+
+class _OnLane(ShapedAction):
+    """Goes to a place across the road."""
+
+    accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        course: tuple[DynamicProfile, Value | None],
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.rate_profile, self._rate_peak = course
+        check_profile(self.action_name, self.rate_profile)
+
+    @property
+    def rate_peak(self) -> float | None:
+        """The peak of the lateral speed (m/s) now; None if none is given."""
+        return peak_of(self._rate_peak, "m/s")
+
+    def shift(self, lanes: int, offset: float, duration: Duration | None) -> None:
+        """Commands the way to a lane (so many to the left) and an offset (m) in it.
+
+        Raises:
+            Refused: It cannot be.
+        """
+        if self.may_jump:
+            jump_aside(self, lanes, offset)
+            return
+        peak = self.rate_peak
+        there = neighbouring(self.world.map, self.place_of(self.actor.id), lanes)
+        time = None
+        if there is not None and duration is not None and self.rate_profile != "asap":
+            time = self._time(there, offset, duration, peak)
+            if self.strict and time is not None:
+                check_shift(self, lanes, offset, time)
+        self.command(LATERAL, LaneChange(lanes, offset, self.rate_profile, peak, time))
+
+    def _time(
+        self, there: LanePosition, offset: float, duration: Duration, peak: float | None
+    ) -> float | None:
+        """How long it is to take, where the duration leaves a choice."""
+        here, place = self.here, LanePosition(there.road, there.lane, there.s)
+        start = offset_from(self.world.map, place, here.x, here.y)
+        course = (self.rate_profile, peak, None)
+        own = shift_profile(start, offset, here.lateral_speed, course, self.limits).duration
+        low, high = duration if isinstance(duration, tuple) else (duration, duration)
+        if low - self.context.dt <= own <= high + self.context.dt and low < high:
+            return None
+        if peak is None:
+            return min(max(own, low), high)
+        if abs(own - min(max(own, low), high)) > self.context.dt:
+            raise Refused(
+                f"with rate_peak {peak:g} m/s it takes {own:.2f} s, not"
+                f" {low if own < low else high:g} s"
+            )
+        return None
+
+
+@action("vehicle", "change_lane", slots=(LATERAL,))
+class ChangeLane(_OnLane):
+    """End in another lane, aligned with it.
+
+    Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the speed.
+        num_of_lanes: How many lanes away from the reference.
+        side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
+            Without a side one is drawn from the seed among those that exist.
+        reference: Default: the actor itself.
+        offset: Metres left of the centre of the target lane at the end.
+        rate_profile: Course of the lateral speed.
+        rate_peak: Its peak (m/s).
+        target: Instead of a number and a side: a lane of the map beside the present one.
+        **options: Duration and label.
+    """
+
+    rules = (
+        at_most_one("target", "side"),
+        at_most_one("target", "reference"),
+        at_least(0, "num_of_lanes"),
+        above(0, "rate_peak"),
+    )
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        num_of_lanes: int | Callable[[], int] = 1,
+        side: LaneSide | None = None,
+        reference: PhysicalObject | None = None,
+        offset: Value = 0.0,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: Value | None = None,
+        target: Lane | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
+        if side is not None and side not in SIDES:
+            raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
+        self.num_of_lanes = num_of_lanes
+        self.side = side
+        self.reference = reference
+        self.offset = offset
+        self.target = target
+
+    def on_start(self) -> None:
+        """Commands the change."""
+        self.shift(self._lanes(), value_of(self.offset), self.duration)
+
+    def on_update(self) -> Status:
+        """Ends in the lane, after a jump at the next step."""
+        if self.may_jump and not self.has_goal:
+            return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+        return super().on_update()
+
+    def _lanes(self) -> int:
+        """Lanes to the left of the present one; negative: to the right."""
+        if self.target is not None:
+            return lanes_to(self, self.target)
+        own = self.place_of(self.actor.id)
+        beside = 0
+        if self.reference is not None:
+            beside = lanes_to_left(self.world.map, own, self.place_of(self.reference.id))
+        if self.side == "same":
+            return beside
+        count = now(self.num_of_lanes)
+        if count < 0:
+            raise Refused(f"num_of_lanes {count} is negative")
+        return beside + count * self._direction(count)
+
+    def _direction(self, count: int) -> int:
+        """1 for left, -1 for right."""
+        own = self.place_of(self.actor.id)
+        right_hand = self.world.map.roads[own.road].right_hand_traffic
+        match self.side:
+            case "left":
+                return 1
+            case "right":
+                return -1
+            case "inside":
+                return 1 if right_hand else -1
+            case "outside":
+                return -1 if right_hand else 1
+        return 1 if self.drawn_side(count) == "left" else -1
+
+
+@action("vehicle", "follow_lane", slots=(LATERAL,), ends="open")
+class FollowLane(_OnLane):
+    """Stay in a lane.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the speed.
+        offset: Metres left of its centre.
+        offset_range: Instead of it: what it may be at any time.
+        rate_profile: Course of the lateral speed on the way there.
+        rate_peak: Its peak (m/s).
+        target: A lane of the map beside the present one; None: the present one.
+        **options: Duration and label.
+    """
+
+    rules = (at_most_one("offset", "offset_range"), above(0, "rate_peak"))
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        offset: Value | None = None,
+        offset_range: Range[float] | Callable[[], Range[float]] | None = None,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: Value | None = None,
+        target: Lane | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
+        self.offset = offset
+        self.offset_range = offset_range
+        self.target = target
+
+    def on_start(self) -> None:
+        """Commands the offset."""
+        lanes = 0 if self.target is None else lanes_to(self, self.target)
+        low, high = band_of(self.offset, self.offset_range)
+        here = self.place_of(self.actor.id).offset if lanes == 0 else 0.0
+        self.shift(lanes, min(max(here, low), high), None)

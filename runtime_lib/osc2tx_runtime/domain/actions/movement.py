@@ -1,0 +1,62 @@
+"""Generic movement: `drive`, `walk`, `move`, shaped by modifiers only (DSL 8.8.2.3, 8.8.3.1)."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from osc2tx_runtime.domain.modifiers import (
+    Acceleration,
+    AvoidCollisions,
+    ChangeSpeed,
+    Distance,
+    KeepPosition,
+    KeepSpeed,
+    PhysicalMovement,
+    Speed,
+)
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
+
+from .groups import LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
+from .shaped import ShapedAction
+
+__all__ = ["Drive", "Move", "Walk"]
+
+
+class Movement(ShapedAction):
+    """Moves as the modifiers say, until it is ended from outside or reaches what they say."""
+
+    moves_itself = False
+
+
+@action("movable_object", "move", slots=(LONGITUDINAL, LATERAL), ends="open")
+class Move(Movement):
+    """Move as the modifiers say."""
+
+    accepts: ClassVar[tuple[type, ...]] = (
+        *SPEED_SHAPERS,
+        *LANE_SHAPERS,
+        *TURN_SHAPERS,
+        *PATH_SHAPERS,
+        *(Distance, KeepPosition, PhysicalMovement),
+    )
+
+
+@action("vehicle", "drive", slots=(LONGITUDINAL, LATERAL), ends="open")
+class Drive(Movement):
+    """Drive as the modifiers say; without any, on in the lane at the present speed."""
+
+    accepts: ClassVar[tuple[type, ...]] = Move.accepts
+
+
+@action("animal", "walk", slots=(LONGITUDINAL, LATERAL), ends="open")
+@action("person", "walk", slots=(LONGITUDINAL, LATERAL), ends="open")
+class Walk(Movement):
+    """Walk as the modifiers say, straight on or along a path."""
+
+    accepts: ClassVar[tuple[type, ...]] = (
+        *(Speed, ChangeSpeed, KeepSpeed, Acceleration),
+        *(Distance, KeepPosition, AvoidCollisions),
+        *TURN_SHAPERS,
+        *PATH_SHAPERS,
+        PhysicalMovement,
+    )

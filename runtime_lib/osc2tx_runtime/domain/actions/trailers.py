@@ -1,0 +1,62 @@
+"""Coupling trailers (DSL 8.8.3.12, 8.8.3.13)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Unpack
+
+from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.language.action import ActionOptions
+from osc2tx_runtime.language.registry import action
+from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
+
+from .support import OneStepAction, Refused
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Trailer, Vehicle
+
+__all__ = ["ConnectTrailer", "DisconnectTrailer"]
+
+
+@action("vehicle", "connect_trailer")
+class ConnectTrailer(OneStepAction):
+    """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end."""
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        trailer: Trailer,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.vehicle, self.trailer = actor, trailer
+
+    def on_start(self) -> None:
+        """Couples it, if it is near enough and free."""
+        world, tow, trailer = self.world, self.actor.id, self.trailer.id
+        gap = coupling_gap(self.here, world.state(trailer))
+        if world.trailer_of(tow) is not None:
+            raise Refused(f"{tow} tows {world.trailer_of(tow)} already")
+        if any(world.trailer_of(other) == trailer for other in world.actors()):
+            raise Refused(f"{trailer} is towed already")
+        if gap > COUPLING_REACH:
+            raise Refused(
+                f"the coupler of {trailer} is {gap:.1f} m from the hitch of {tow}; couple within"
+                f" {COUPLING_REACH:g} m"
+            )
+        misfit = self.trailer.misfit(self.vehicle)
+        if misfit is not None:
+            raise Refused(f"{tow} cannot tow {trailer}: {misfit}")
+        self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
+
+
+@action("vehicle", "disconnect_trailer")
+class DisconnectTrailer(OneStepAction):
+    """Uncouple the trailer, which brakes and stands."""
+
+    def on_start(self) -> None:
+        """Uncouples it."""
+        tow, world = self.actor.id, self.world
+        if world.trailer_of(tow) is None:
+            raise Refused(f"{tow} tows no trailer")
+        self.effect("trailer", None, lambda: world.attach(tow, None))

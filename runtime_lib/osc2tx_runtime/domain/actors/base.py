@@ -1,0 +1,54 @@
+"""What all actors have (DSL 8.7.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.registry import methods
+
+if TYPE_CHECKING:
+    from py_trees.behaviour import Behaviour
+
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["Actor"]
+
+
+class Actor:
+    """Base of all actors.
+
+    Attributes:
+        kinds: Actor kinds of the DSL, most derived first.
+        id: Name of the field that holds it; given by the scenario.
+        source: Where it is declared.
+    """
+
+    kinds: ClassVar[tuple[str, ...]] = ("osc_actor",)
+
+    def __init__(self, *, name: str | None = None) -> None:
+        self.id = name or ""
+        self.source: str | None = None
+        self.name = name
+        self._context: ExecutionContext | None = None
+
+    def bind(self, context: ExecutionContext) -> None:
+        """Joins a run: live fields read its world from now on."""
+        self._context = context
+
+    @property
+    def context(self) -> ExecutionContext:
+        """The run."""
+        if self._context is None:
+            raise ScenarioError(f"{self.id or self.kinds[0]} is read before the scenario runs")
+        return self._context
+
+    def __getattr__(self, name: str) -> Callable[..., Behaviour]:
+        """Return an action of this actor, as a constructor of its node."""
+        if name.startswith("_"):
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+        return methods.bind(self, name)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id})"

@@ -1,0 +1,113 @@
+"""The environment (DSL 8.10.2)."""
+
+from __future__ import annotations
+
+from datetime import datetime as calendar
+from datetime import timedelta, timezone
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.measuring.weather import (
+    CelestialLightSource,
+    CelestialPosition,
+    GeodeticPosition,
+    Weather,
+    celestial_position,
+    weather_of,
+)
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.world.sky import Sky
+
+from .base import Actor
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["Environment"]
+
+
+class Environment(Actor):
+    """Weather and light.
+
+    Args:
+        name: Role name.
+        geodetic_position: Where on the globe the origin of the world is.
+        datetime: Unix time (s) when the scenario starts.
+
+    Attributes:
+        sun: Its position, and to name it in `assign_celestial_position`.
+        moon: Likewise.
+    """
+
+    kinds = ("environment", *Actor.kinds)
+
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        geodetic_position: GeodeticPosition | None = None,
+        datetime: float | None = None,
+    ) -> None:
+        super().__init__(name=name)
+        self._geodetic_position = geodetic_position
+        self._datetime = datetime
+        self.sun = CelestialLightSource(lambda: self._place_of("sun"), "sun")
+        self.moon = CelestialLightSource(lambda: self._place_of("moon"), "moon")
+
+    def bind(self, context: ExecutionContext) -> None:
+        """Joins a run; place and time say where sun and moon stand, until an action does."""
+        super().bind(context)
+        if self._geodetic_position is not None and self._datetime is not None:
+            place = self._geodetic_position
+            context.world.begin_under(Sky(place.latitude, place.longitude, self._datetime))
+
+    @property
+    def geodetic_position(self) -> GeodeticPosition:
+        """Where on the globe the origin of the world is.
+
+        Raises:
+            ScenarioError: The scenario says nothing about it.
+        """
+        if self._geodetic_position is None:
+            raise ScenarioError(f"nothing says the geodetic_position of {self.id}", self.source)
+        return self._geodetic_position
+
+    @property
+    def datetime(self) -> float:
+        """Unix time (s) when the scenario starts.
+
+        Raises:
+            ScenarioError: The scenario says nothing about it.
+        """
+        if self._datetime is None:
+            raise ScenarioError(f"nothing says the datetime of {self.id}", self.source)
+        return self._datetime
+
+    @property
+    def weather(self) -> Weather:
+        """The weather at the present step."""
+        return weather_of(self.context.world.environment())
+
+    def _place_of(self, source: Literal["sun", "moon"]) -> CelestialPosition:
+        return celestial_position(source, self.context.world.environment())
+
+    @staticmethod
+    def local_to_unix_time(
+        year: int,
+        month: int,
+        day: int,
+        hour: int,
+        minute: int,
+        second: int,
+        time_zone: float,
+    ) -> float:
+        """Unix time (s) of a local date and time (DSL 8.10.2.1.1); time zone in hours east of UTC.
+
+        Raises:
+            ScenarioError: There is no such date, time or zone.
+        """
+        try:
+            zone = timezone(timedelta(hours=time_zone))
+            local = calendar(year, month, day, hour, minute, second, tzinfo=zone)
+            return local.timestamp()
+        except ValueError as error:
+            raise ScenarioError(f"local_to_unix_time: {error}") from None

@@ -1,0 +1,50 @@
+"""The road network as an actor (DSL 8.12.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.routes.road_network import RoadNetwork
+
+from .base import Actor
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle
+
+__all__ = ["Map"]
+
+DrivingRule = Literal["left_hand_traffic", "right_hand_traffic"]
+
+
+class Map(Actor, RoadNetwork):
+    """The road network.
+
+    Args:
+        name: Role name.
+        map_file: File name with or without `.xodr`, found in the folders of `--map-path`, then
+            among the maps of the runtime.
+        driving_rule: What the map must have: `left_hand_traffic` or `right_hand_traffic`.
+        traffic_light_control: Cycles from which `sync` of the traffic light actions knows what
+            lights in step show; they are not played by themselves.
+    """
+
+    kinds = ("map", *Actor.kinds)
+
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        map_file: str | None = None,
+        driving_rule: DrivingRule | None = None,
+        traffic_light_control: Sequence[TrafficLightCycle] = (),
+    ) -> None:
+        super().__init__(name=name)
+        self.named_file = map_file
+        self.required_rule = driving_rule
+        self.traffic_light_control = list(traffic_light_control)
+
+    @property
+    def driving_rule(self) -> DrivingRule:
+        """The side on which its roads are driven."""
+        return "right_hand_traffic" if self.outer_side() == "right" else "left_hand_traffic"

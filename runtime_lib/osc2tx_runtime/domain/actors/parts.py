@@ -1,0 +1,169 @@
+"""Parts of physical objects (DSL 8.6, 8.7.11 to 8.7.14) as values.
+
+A scenario may say a part as a whole or some members of it. What it leaves open is `UNSAID` in the
+value, and the actor that the part belongs to fills it in from the catalogue.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, replace
+from typing import TypeVar
+
+from osc2tx_runtime.domain.values import Point
+from osc2tx_runtime.errors import UnsupportedError
+
+__all__ = [
+    "UNSAID",
+    "Axle",
+    "BehavioralModel",
+    "BmEngine",
+    "BoundingBox",
+    "HitchCoupler",
+    "HitchReceiver",
+    "completed",
+    "is_open",
+]
+
+UNSAID = math.nan
+"""A number that nobody says."""
+
+_NOWHERE = Point(UNSAID, UNSAID, UNSAID)
+
+PartT = TypeVar("PartT", "BoundingBox", "Axle", "HitchReceiver", "HitchCoupler")
+
+
+@dataclass(frozen=True, slots=True)
+class BoundingBox:
+    """Box around an object without side mirrors, down to the ground.
+
+    Attributes:
+        center: Its middle (m), from the reference point of the object.
+        length: Metres along x.
+        width: Metres along y.
+        height: Metres along z.
+    """
+
+    center: Point = _NOWHERE
+    length: float = UNSAID
+    width: float = UNSAID
+    height: float = UNSAID
+
+
+@dataclass(frozen=True, slots=True)
+class Axle:
+    """An axle with its wheels.
+
+    Attributes:
+        max_steering: Largest angle of its wheels (rad).
+        wheel_diameter: Metres.
+        track_width: Metres between the centre lines of the outer wheels.
+        position_x: Metres before the reference point of the vehicle.
+        position_z: Metres above it.
+        number_of_wheels: On both sides together.
+    """
+
+    max_steering: float = UNSAID
+    wheel_diameter: float = UNSAID
+    track_width: float = UNSAID
+    position_x: float = UNSAID
+    position_z: float = UNSAID
+    number_of_wheels: int = 2
+
+
+@dataclass(frozen=True, slots=True)
+class HitchReceiver:
+    """The half of a hitch on the vehicle that tows.
+
+    Attributes:
+        hitch_type: What couplers fit.
+        position_x: Metres before the reference point of the vehicle.
+        position_z: Metres above it.
+        max_rotation: Largest yaw between both vehicles (rad).
+        max_tilt: Largest pitch or roll between both vehicles (rad).
+        connected: Tells whether something hangs on it now.
+    """
+
+    hitch_type: str = "none"
+    position_x: float = UNSAID
+    position_z: float = UNSAID
+    max_rotation: float = UNSAID
+    max_tilt: float = UNSAID
+    connected: Callable[[], bool] = field(default=lambda: False, compare=False, repr=False)
+
+    @property
+    def is_towing(self) -> bool:
+        """Whether a trailer hangs on it now."""
+        return self.connected()
+
+
+@dataclass(frozen=True, slots=True)
+class HitchCoupler:
+    """The half of a hitch on the trailer.
+
+    Attributes:
+        hitch_type: What receivers fit; empty: not said.
+        position_x: Metres before the reference point of the trailer.
+        position_z: Metres above it.
+        connected: Tells whether it hangs on something now.
+    """
+
+    hitch_type: str = ""
+    position_x: float = UNSAID
+    position_z: float = UNSAID
+    connected: Callable[[], bool] = field(default=lambda: False, compare=False, repr=False)
+
+    @property
+    def is_towed(self) -> bool:
+        """Whether a vehicle tows it now."""
+        return self.connected()
+
+
+def completed(said: PartT, known: PartT) -> PartT:
+    """Return what is said, and what is known where nothing is."""
+    names = [each.name for each in fields(said) if is_open(getattr(said, each.name))]
+    return replace(said, **{name: getattr(known, name) for name in names})
+
+
+def is_open(value: object) -> bool:
+    """Whether nobody says a member of a part."""
+    if isinstance(value, Point):
+        return value.x != value.x
+    return value == "" or value != value
+
+
+ENGINES = ("steady_driver", "careful_driver")
+"""Names of the models that the embedded world has."""
+
+
+@dataclass(frozen=True, slots=True)
+class BmEngine:
+    """What drives an object while no action does.
+
+    Attributes:
+        name: `steady_driver` holds the speed and keeps the lane; `careful_driver` also keeps
+            behind others and stops at red lights.
+
+    Raises:
+        UnsupportedError: There is no model of this name.
+    """
+
+    name: str = ENGINES[0]
+
+    def __post_init__(self) -> None:
+        if type(self) is not BmEngine:
+            raise UnsupportedError(
+                f"the content of {type(self).__name__} means nothing to the embedded world; name"
+                f" one of its models in `bm_engine.name`: {', '.join(ENGINES)}"
+            )
+        if self.name not in ENGINES:
+            known = ", ".join(ENGINES)
+            raise UnsupportedError(f"there is no behavioral model `{self.name}`; known: {known}")
+
+
+@dataclass(frozen=True, slots=True)
+class BehavioralModel:
+    """How an object behaves by itself (DSL 8.6)."""
+
+    bm_engine: BmEngine = BmEngine()

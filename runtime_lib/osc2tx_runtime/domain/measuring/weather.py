@@ -1,0 +1,176 @@
+"""The weather as scenarios read it (DSL 8.10): values of the present step, SI units.
+
+What no action has set is not known: it is nan, so no comparison with it holds. Only rain and snow
+do not fall then, and fog hides nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from osc2tx_runtime.domain.measuring.measured import Measured
+
+__all__ = [
+    "Air",
+    "CelestialLightSource",
+    "CelestialPosition",
+    "Clouds",
+    "Fog",
+    "GeodeticPosition",
+    "Precipitation",
+    "Weather",
+    "Wind",
+    "celestial_position",
+    "weather_of",
+]
+
+_UNTOUCHED = {"rain_intensity": 0.0, "snow_intensity": 0.0, "visual_range": math.inf}
+
+
+@dataclass(frozen=True, slots=True)
+class Air:
+    """The air near the ground.
+
+    Attributes:
+        temperature: K.
+        pressure: Pa.
+        relative_humidity: 0 to 1.
+    """
+
+    temperature: float = math.nan
+    pressure: float = math.nan
+    relative_humidity: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class Precipitation:
+    """Rain or snow.
+
+    Attributes:
+        intensity: Water column per time (m/s).
+    """
+
+    intensity: float = _UNTOUCHED["rain_intensity"]
+
+
+@dataclass(frozen=True, slots=True)
+class Wind:
+    """The wind.
+
+    Attributes:
+        speed: m/s.
+        direction: Where it comes from (rad from +y, clockwise).
+    """
+
+    speed: float = math.nan
+    direction: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class Fog:
+    """Fog.
+
+    Attributes:
+        visual_range: How far one sees (m).
+    """
+
+    visual_range: float = _UNTOUCHED["visual_range"]
+
+
+@dataclass(frozen=True, slots=True)
+class Clouds:
+    """Clouds.
+
+    Attributes:
+        cloudiness: Okta; 9 when the sky cannot be seen.
+    """
+
+    cloudiness: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class Weather:
+    """All of it."""
+
+    air: Air = Air()
+    rain: Precipitation = Precipitation()
+    snow: Precipitation = Precipitation()
+    wind: Wind = Wind()
+    fog: Fog = Fog()
+    clouds: Clouds = Clouds()
+
+
+@dataclass(frozen=True, slots=True)
+class GeodeticPosition:
+    """A point on the globe (WGS 84).
+
+    Attributes:
+        latitude: rad, to the north.
+        longitude: rad, to the east.
+    """
+
+    latitude: float
+    longitude: float
+
+
+@dataclass(frozen=True, slots=True)
+class CelestialPosition:
+    """Where the sun or the moon stands.
+
+    Attributes:
+        azimuth: rad from +y, clockwise.
+        elevation: rad above the horizon.
+    """
+
+    azimuth: float
+    elevation: float
+
+
+class CelestialLightSource:
+    """The sun or the moon.
+
+    Args:
+        position: Tells where it stands at the present step.
+        name: `sun` or `moon`.
+    """
+
+    def __init__(
+        self, position: Callable[[], CelestialPosition], name: Literal["sun", "moon"]
+    ) -> None:
+        self._position = position
+        self.name = name
+
+    @property
+    def position(self) -> CelestialPosition:
+        """Where it stands now."""
+        return self._position()
+
+
+def weather_of(values: Mapping[str, float]) -> Weather:
+    """Return the weather by the values of an environment, see `World.environment`."""
+
+    def measured(name: str) -> float:
+        return Measured(values.get(name, _UNTOUCHED.get(name, math.nan)))
+
+    return Weather(
+        Air(*map(measured, ("temperature", "pressure", "relative_humidity"))),
+        Precipitation(measured("rain_intensity")),
+        Precipitation(measured("snow_intensity")),
+        Wind(measured("wind_speed"), measured("wind_direction")),
+        Fog(measured("visual_range")),
+        Clouds(measured("cloudiness")),
+    )
+
+
+def celestial_position(
+    name: Literal["sun", "moon"], values: Mapping[str, float]
+) -> CelestialPosition:
+    """Return where the sun or the moon stands by the values of an environment."""
+    azimuth, elevation = (values.get(f"{name}_{angle}") for angle in ("azimuth", "elevation"))
+    return CelestialPosition(
+        Measured(math.nan if azimuth is None else azimuth),
+        Measured(math.nan if elevation is None else elevation),
+    )

@@ -1,0 +1,176 @@
+"""What all modifiers share: the base classes, numbers and ranges that may be read late, checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeVar
+
+from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.argument_rules import Rule, check_arguments
+from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.tree.parameters import Range
+    from osc2tx_runtime.world.computed import Computed
+    from osc2tx_runtime.world.profiles import DynamicProfile
+
+__all__ = [
+    "At",
+    "Modifier",
+    "MovementModifier",
+    "Shape",
+    "Side",
+    "Value",
+    "band_of",
+    "course_of",
+    "now",
+    "own_course",
+    "target_of",
+    "value_of",
+    "wanted",
+]
+
+ValueT = TypeVar("ValueT")
+Value = float | Callable[[], float]
+Shape = CommonShape | OwnShape[AnyShape]
+Side = Literal["left", "right"]
+At = Literal["start", "end", "all"]
+
+_SAME = 1e-3  # between what a shape reaches and what is asked for
+
+
+def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
+    """A value that may be read late.
+
+    Raises:
+        ScenarioError: The expression has no value, as in a division by zero.
+    """
+    if not callable(value):
+        return value
+    try:
+        return value()
+    except EVALUATION_ERRORS as error:
+        raise ScenarioError(f"an argument has no value: {error}") from error
+
+
+def value_of(value: Value) -> float:
+    """The number now."""
+    return float(now(value))
+
+
+def band_of(
+    value: Value | None, band: Range[float] | Callable[[], Range[float]] | None
+) -> tuple[float, float]:
+    """The least and the greatest allowed number now; both the same for a plain one.
+
+    Args:
+        value: The scalar parameter; 0 if neither is given.
+        band: Its `*_range` twin.
+    """
+    if band is None:
+        number = 0.0 if value is None else value_of(value)
+        return number, number
+    bounds = now(band)
+    return float(bounds.low), float(bounds.high)
+
+
+def wanted(
+    value: Value | None,
+    band: Range[float] | Callable[[], Range[float]] | None,
+    shape: Shape | None,
+) -> tuple[float, float]:
+    """The least and the greatest allowed number now, or what a shape reaches.
+
+    Raises:
+        ScenarioError: The shape reaches something else than is given.
+    """
+    target = target_of(shape)
+    if value is None and band is None:
+        return target or 0.0, target or 0.0
+    low, high = band_of(value, band)
+    if target is not None and not low - _SAME <= target <= high + _SAME:
+        there = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+        raise ScenarioError(f"the shape reaches {target:g}, which is not {there}")
+    return low, high
+
+
+def course_of(shape: Shape | None) -> tuple[DynamicProfile, float | None]:
+    """Profile and peak of the rate that a common shape gives."""
+    if isinstance(shape, CommonShape):
+        return shape.rate_profile, shape.rate_peak
+    return "none", None
+
+
+def own_course(shape: Shape | None) -> Computed | None:
+    """The course that a shape of the scenario computes; None for others."""
+    return shape.course() if isinstance(shape, OwnShape) else None
+
+
+def target_of(shape: Shape | None) -> float | None:
+    """The value that a shape reaches; None if it says none, or never ends."""
+    if isinstance(shape, OwnShape):
+        course = shape.course()
+        return None if math.isinf(course.duration) else course.end
+    return shape.target if isinstance(shape, CommonShape) else None
+
+
+@dataclass(frozen=True, slots=True)
+class Modifier:
+    """Base of all modifiers.
+
+    Attributes:
+        name: Name in the DSL.
+        rules: Which parameters go together; the compiler knows them as well.
+        shaped_by: The base of shapes that give the course of its value; None: there are none.
+    """
+
+    name: ClassVar[str] = ""
+    rules: ClassVar[tuple[Rule, ...]] = ()
+    shaped_by: ClassVar[type[AnyShape] | None] = None
+
+    def __post_init__(self) -> None:
+        """Checks the rules. With slots, subclasses cannot reach it by `super()`."""
+        check_arguments(self.name, self.rules, self.given())
+        shape: Shape | None = getattr(self, "shape", None)
+        wanted = self.shaped_by
+        if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
+            raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")
+
+    def given(self) -> dict[str, Any]:
+        """Parameters with values that are not those of a modifier without arguments."""
+        values = ((field, getattr(self, field.name)) for field in fields(self))
+        return {
+            field.name: value
+            for field, value in values
+            if value is not None and value != field.default
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MovementModifier(Modifier):
+    """Base of the modifiers with the common parameters (DSL 8.9.1.1).
+
+    Attributes:
+        at: When it holds.
+        movement_mode: `monotonous`: within the limits of the actor, and the controlled quantity
+            never turns back on its way; what cannot be done so fails.
+        track: What counts of a reference: what it does, or (`projected`) what it would do if it
+            went on in its lane at the speed it has at the start of the action.
+    """
+
+    at: At = "all"
+    movement_mode: Literal["monotonous", "other"] = "other"
+    track: Literal["actual", "projected"] = "actual"
+
+    @property
+    def projected(self) -> bool:
+        """Whether the reference counts as it would go on."""
+        return self.track == "projected"
+
+    @property
+    def monotonous(self) -> bool:
+        """Whether it has to go without surprise."""
+        return self.movement_mode == "monotonous"

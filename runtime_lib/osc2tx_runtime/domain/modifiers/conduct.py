@@ -1,0 +1,103 @@
+"""Modifiers of what to move along and of how to behave (DSL 8.9.11, 8.9.12, 8.9.17, 8.9.18)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+
+from .base import Modifier, MovementModifier, Value, now
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Trailer
+    from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
+    from osc2tx_runtime.domain.routes.road_parts import RoadPath, Route
+
+__all__ = [
+    "Along",
+    "AlongTrajectory",
+    "AvoidCollisions",
+    "OnPath",
+    "PhysicalMovement",
+    "TowTrailer",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class PhysicalMovement(Modifier):
+    """Whether a quantity may jump to its value."""
+
+    name = "physical_movement"
+    option: Literal["prefer_physical", "prefer_non_physical", "must_be_physical"] = (
+        "must_be_physical"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Along(MovementModifier):
+    """A path to move along, or a route of the map; then in its lanes, from wherever one is.
+
+    Attributes:
+        route: The path or route.
+        start_offset: Metres of it that are left out at its start.
+        end_offset: Metres that are left out at its end.
+        shape: Course of the metres along it, from its start.
+    """
+
+    name = "along"
+    shaped_by = AnyPositionShape
+    route: Path | Route | Callable[[], Path | Route]
+    start_offset: Value = 0.0
+    end_offset: Value = 0.0
+    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+
+    @property
+    def way(self) -> Path | Route:
+        """The path or route now."""
+        late: Any = self.route  # of a union `now` cannot tell which part it returns
+        found: Path | Route = now(late)
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class AlongTrajectory(MovementModifier):
+    """A trajectory to move along; offsets as for `along`."""
+
+    name = "along_trajectory"
+    trajectory: Trajectory | Callable[[], Trajectory]
+    start_offset: Value = 0.0
+    end_offset: Value = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class OnPath(Modifier):
+    """Starts on a piece of road, wherever there is room if nothing else says where.
+
+    Attributes:
+        path: The piece of road.
+    """
+
+    name = "on_path"
+    path: RoadPath
+
+
+@dataclass(frozen=True, slots=True)
+class AvoidCollisions(Modifier):
+    """Whether to slow down for what is ahead in the lane.
+
+    The standard lets all actors avoid collisions; here they do so only where a scenario asks for
+    it, because scenarios of near misses and crashes are what most people write.
+    """
+
+    name = "avoid_collisions"
+    avoid: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class TowTrailer(Modifier):
+    """A trailer that is coupled from the start."""
+
+    name = "tow_trailer"
+    trailer: Trailer

@@ -1,0 +1,49 @@
+"""Base of the map modifiers: relations between stretches of a map."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from typing import ClassVar
+
+from osc2tx_runtime.domain.routes.road_graph import RoadGraph
+from osc2tx_runtime.domain.routes.road_parts import RoadPart
+from osc2tx_runtime.domain.routes.stretches import Stretch
+
+from .base import Modifier
+
+__all__ = ["Known", "MapModifier", "Row", "fits"]
+
+Known = Mapping[str, Stretch]
+Row = dict[str, Stretch]
+
+
+@dataclass(frozen=True, slots=True)
+class MapModifier(Modifier):
+    """Base of the modifiers of maps.
+
+    Attributes:
+        leads: Its rows also limit the part that is chosen first.
+    """
+
+    leads: ClassVar[bool] = False
+
+    def parts(self) -> dict[str, RoadPart]:
+        """Declared roads and lanes that it is about, by parameter."""
+        values = ((each.name, getattr(self, each.name)) for each in fields(self))
+        return {name: value for name, value in values if isinstance(value, RoadPart)}
+
+    def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
+        """Stretches by parameter for which it holds, given some of them."""
+        raise NotImplementedError
+
+    def candidates(self, graph: RoadGraph, known: Known, name: str) -> tuple[Stretch, ...]:
+        """Stretches that a parameter can stand for: the known one, or all of its kind."""
+        if name in known:
+            return (known[name],)
+        return self.parts()[name].candidates(graph)
+
+
+def fits(row: Row, known: Known) -> bool:
+    """Whether a row agrees with the stretches that are known."""
+    return all(row[name] == stretch for name, stretch in known.items())

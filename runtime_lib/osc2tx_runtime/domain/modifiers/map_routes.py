@@ -1,0 +1,274 @@
+"""Map modifiers about routes: what follows, overlaps or runs against what (DSL 8.12.2.2)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from osc2tx_runtime.domain.routes.road_graph import RoadGraph
+from osc2tx_runtime.domain.routes.road_parts import RoadPart
+from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.errors import UnsupportedError
+
+from .map_base import Known, MapModifier, Row, fits
+
+__all__ = ["RoadsFollowInJunction", "RoutesAreInSequence", "RoutesAreOpposite", "RoutesOverlap"]
+
+JunctionDirection = Literal["straight", "right", "u_turn", "left", "other"]
+OverlapKind = Literal["equal", "start", "end", "inside", "any", "other"]
+LateralOverlap = Literal["never", "sometimes", "always"]
+
+_WITHIN = math.radians(10.0)  # of a direction at a junction (DSL 8.12.22)
+_TURNS: Mapping[JunctionDirection, float] = {
+    "straight": 0.0,
+    "right": -0.5 * math.pi,
+    "u_turn": math.pi,
+    "left": 0.5 * math.pi,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RoutesAreInSequence(MapModifier):
+    """One route follows another: a lane at the end of it leads to one at the begin of the other.
+
+    Attributes:
+        preceding: The first.
+        succeeding: The second; roads follow each other directly or through a junction.
+        road: The road that contains both.
+    """
+
+    name = "routes_are_in_sequence"
+    preceding: RoadPart
+    succeeding: RoadPart
+    road: RoadPart | None = None
+
+    def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
+        """Pairs that follow each other."""
+        for first in self.candidates(graph, known, "preceding"):
+            ways = set(_onward(graph, first))
+            for second in self.candidates(graph, known, "succeeding"):
+                if second == first or not ways.intersection(_entries(graph, second)):
+                    continue
+                row = {"preceding": first, "succeeding": second}
+                if self.road is None:
+                    yield row
+                elif first.road == second.road:
+                    yield {**row, "road": Stretch("road", first.road)}
+
+
+def _exits(graph: RoadGraph, stretch: Stretch) -> tuple[Stretch, ...]:
+    """Lanes at the end of a stretch, in its direction."""
+    if stretch.parts:
+        return _exits(graph, stretch.parts[-1])
+    if stretch.kind != "road":
+        return graph.lanes_of(stretch)
+    last = len(graph.map.roads[stretch.road].sections) - 1 if stretch.forwards else 0
+    return graph.lanes_of(Stretch("lane_section", stretch.road, last, forwards=stretch.forwards))
+
+
+def _entries(graph: RoadGraph, stretch: Stretch) -> tuple[Stretch, ...]:
+    """Lanes at the begin of a stretch; of a road at both ends, for it may be entered there."""
+    if stretch.parts:
+        return _entries(graph, stretch.parts[0])
+    if stretch.kind != "road":
+        return graph.lanes_of(stretch)
+    last = len(graph.map.roads[stretch.road].sections) - 1
+    ends = ((0, True), (last, False))
+    return tuple(
+        lane
+        for section, forwards in ends
+        for lane in graph.lanes_of(
+            Stretch("lane_section", stretch.road, section, forwards=forwards)
+        )
+    )
+
+
+def _onward(graph: RoadGraph, stretch: Stretch) -> Iterator[Stretch]:
+    """Lanes that follow the end of a stretch, also through a junction."""
+    for lane in _exits(graph, stretch):
+        for after in graph.after(lane):
+            yield after
+            if graph.map.roads[after.road].junction is not None:
+                yield from graph.after(after)
+
+
+@dataclass(frozen=True, slots=True)
+class RoadsFollowInJunction(MapModifier):
+    """A way through a junction from one road to another.
+
+    Attributes:
+        junction: The junction.
+        in_road: Road that enters it.
+        out_road: Road that leaves it.
+        direction: Where it turns to, within 10 degrees.
+        clockwise_count: How many roads on, clockwise, the out-road is from the in-road.
+        number_of_roads: How many roads meet in the junction.
+        in_lane: Lane that enters it.
+        out_lane: Lane that leaves it.
+        junction_route: The lane in between.
+        resulting_route: In-road, lane in between and out-road.
+    """
+
+    name = "roads_follow_in_junction"
+    junction: RoadPart | None = None
+    in_road: RoadPart | None = None
+    out_road: RoadPart | None = None
+    direction: JunctionDirection | None = None
+    clockwise_count: int | None = None
+    number_of_roads: int | None = None
+    in_lane: RoadPart | None = None
+    out_lane: RoadPart | None = None
+    junction_route: RoadPart | None = None
+    resulting_route: RoadPart | None = None
+
+    def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
+        """Ways through junctions, as far as they are asked for."""
+        asked = self.parts()
+        for passage in graph.passages:
+            if not self._turns(passage.turn):
+                continue
+            arms = sorted(graph.arms(passage.junction), reverse=True)  # clockwise
+            roads = [road for _, road in arms]
+            if self.number_of_roads not in (None, len(roads)):
+                continue
+            there, here = roads.index(passage.out_lane.road), roads.index(passage.in_lane.road)
+            count = (there - here) % len(roads) or len(roads)
+            if self.clockwise_count not in (None, count):
+                continue
+            row = {
+                "junction": passage.junction,
+                "in_road": Stretch("road", passage.in_lane.road),
+                "out_road": Stretch("road", passage.out_lane.road),
+                "in_lane": passage.in_lane,
+                "out_lane": passage.out_lane,
+                "junction_route": passage.via,
+                "resulting_route": passage.route,
+            }
+            if fits(row, known):
+                yield {name: row[name] for name in asked}
+
+    def _turns(self, turn: float) -> bool:
+        if self.direction is None:
+            return True
+        fits = {
+            name: abs(math.remainder(turn - angle, math.tau)) <= _WITHIN
+            for name, angle in _TURNS.items()
+        }
+        return fits.get(self.direction, not any(fits.values()))
+
+
+@dataclass(frozen=True, slots=True)
+class RoutesOverlap(MapModifier):
+    """Two routes run side by side, or one on the other, over a part of the same road.
+
+    Attributes:
+        route1: The first; the kinds of overlap are seen from it.
+        route2: The second.
+        overlap_kind: Which part of the first: all of it with all of the second (`equal`), its
+            start, its end, a part `inside` of it; `other`: more than that.
+    """
+
+    name = "routes_overlap"
+    route1: RoadPart
+    route2: RoadPart
+    overlap_kind: OverlapKind
+
+    def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
+        """Pairs that overlap so."""
+        for first in self.candidates(graph, known, "route1"):
+            for second in self.candidates(graph, known, "route2"):
+                if self._overlaps(_extent(graph, first), _extent(graph, second), first.forwards):
+                    yield {"route1": first, "route2": second}
+
+    def _overlaps(
+        self, one: Mapping[str, tuple[float, float]], other: Mapping[str, tuple[float, float]],
+        forwards: bool,
+    ) -> bool:  # fmt: skip
+        shared = [road for road in one if road in other]
+        if len(one) > 1 or len(other) > 1:  # compound: only whole roads in common are told apart
+            if not shared:
+                return False
+            return self.overlap_kind == "any" or (self.overlap_kind == "equal") == (
+                one.keys() == other.keys()
+            )
+        if not shared:
+            return False
+        (begin, end), (other_begin, other_end) = one[shared[0]], other[shared[0]]
+        if min(end, other_end) <= max(begin, other_begin):
+            return False
+        at_begin, at_end = other_begin <= begin, other_end >= end
+        if not forwards:
+            at_begin, at_end = at_end, at_begin
+        match self.overlap_kind:
+            case "any":
+                return True
+            case "equal":
+                return (begin, end) == (other_begin, other_end)
+            case "start":
+                return at_begin and not at_end
+            case "end":
+                return at_end and not at_begin
+            case "inside":
+                return not at_begin and not at_end
+        return at_begin and at_end and (begin, end) != (other_begin, other_end)
+
+
+def _extent(graph: RoadGraph, stretch: Stretch) -> dict[str, tuple[float, float]]:
+    """Range of s by road."""
+    if stretch.kind == "compound_route":
+        return {part.road: (0.0, graph.map.roads[part.road].length) for part in stretch.parts}
+    if stretch.kind == "junction":
+        return {}
+    road = graph.map.roads[stretch.road]
+    if stretch.parts:
+        numbers = [part.section or 0 for part in stretch.parts]
+        begin, end = road.sections[min(numbers)].begin, road.sections[max(numbers)].end
+        return {stretch.road: (begin, end)}
+    if stretch.section is None:
+        return {stretch.road: (0.0, road.length)}
+    section = road.sections[stretch.section]
+    return {stretch.road: (section.begin, section.end)}
+
+
+@dataclass(frozen=True, slots=True)
+class RoutesAreOpposite(MapModifier):
+    """Two routes of one road run in opposite directions.
+
+    Attributes:
+        route1: A lane section, lane or compound lane.
+        route2: The other one.
+        containing_road: The road.
+        lateral_overlap: Whether they share lanes: `always` needs lanes for both directions.
+    """
+
+    name = "routes_are_opposite"
+    route1: RoadPart
+    route2: RoadPart
+    containing_road: RoadPart | None = None
+    lateral_overlap: LateralOverlap = "never"
+
+    def __post_init__(self) -> None:
+        """Refuses roads, which have no direction, and lanes for both directions."""
+        for part in (self.route1, self.route2):
+            if part.kind not in ("lane_section", "lane", "compound_lane"):
+                raise UnsupportedError(f"{self.name}: a {part.kind} has no direction of its own")
+        if self.lateral_overlap != "never":
+            raise UnsupportedError(
+                f"{self.name}: lateral_overlap `{self.lateral_overlap}` needs lanes that are"
+                " driven in both directions, which this runtime does not drive on"
+            )
+
+    def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
+        """Pairs of routes side by side."""
+        for first in self.candidates(graph, known, "route1"):
+            for second in self.candidates(graph, known, "route2"):
+                opposite = first.road == second.road and first.forwards != second.forwards
+                if not opposite or first.section != second.section:
+                    continue
+                row = {"route1": first, "route2": second}
+                if self.containing_road is not None:
+                    row["containing_road"] = Stretch("road", first.road)
+                if fits(row, known):
+                    yield row

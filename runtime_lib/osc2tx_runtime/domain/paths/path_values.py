@@ -1,0 +1,210 @@
+"""Paths, trajectories and routes that scenarios pass around (DSL 8.12), SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.values import NetworkPoint, OdrPoint, Pose, RoutePoint
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.routes.road_network import RoadNetwork
+    from osc2tx_runtime.domain.routes.road_parts import Route
+    from osc2tx_runtime.world.curve import Curve
+
+__all__ = [
+    "ConnectPointsBy",
+    "MadeRoute",
+    "NetworkPath",
+    "NetworkTrajectory",
+    "Path",
+    "PathInterpolation",
+    "PathPoint",
+    "RelativePath",
+    "RelativePathOdr",
+    "RelativePathPose3d",
+    "RelativePathSt",
+    "RelativeTrajectory",
+    "RelativeTrajectoryOdr",
+    "RelativeTrajectoryPose3d",
+    "RelativeTrajectorySt",
+    "RelativeTransform",
+    "Trajectory",
+]
+
+ConnectPointsBy = Literal["road", "lane_section", "lane", "crossing", "waypoint"]
+PathPoint = Pose | RoutePoint | OdrPoint
+PathInterpolation = Literal["straight_line", "smooth"]
+RelativeTransform = Literal["world_relative", "object_relative", "road_relative", "lane_relative"]
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """A way through poses in the world.
+
+    Attributes:
+        points: Poses; a yaw that is left open is that of the way.
+        interpolation: How they are joined.
+    """
+
+    points: Sequence[Pose]
+    interpolation: PathInterpolation = "straight_line"
+    _curve: list[Curve] = field(default_factory=list, init=False, repr=False, compare=False)
+
+    def in_world(self) -> Path:
+        """The path through poses."""
+        return self
+
+    @property
+    def curve(self) -> Curve:
+        """Its curve; made once.
+
+        Raises:
+            PathError: There are not two different points.
+        """
+        if not self._curve:
+            from osc2tx_runtime.domain.paths.paths import curve_of_path  # which knows this class
+
+            self._curve.append(curve_of_path(self.in_world()))
+        return self._curve[0]
+
+    @property
+    def length(self) -> float:
+        """Its length (m)."""
+        return self.curve.length
+
+    @property
+    def directionality(self) -> Literal["uni_direction"]:
+        """One moves along it from its first point to its last."""
+        return "uni_direction"
+
+    @property
+    def min_lanes(self) -> int:
+        """It has no lanes."""
+        return 0
+
+    @property
+    def max_lanes(self) -> int:
+        """It has no lanes."""
+        return 0
+
+    @property
+    def anchors(self) -> list[str]:
+        """Nothing in the map file is it."""
+        return []
+
+    def start_point(self) -> RoutePoint:
+        """Where it begins (DSL 8.12.5.1.1)."""
+        return RoutePoint(self, 0.0, 0.0)
+
+    def end_point(self) -> RoutePoint:
+        """Where it ends (DSL 8.12.5.1.2)."""
+        return RoutePoint(self, self.length, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkPath(Path):
+    """A path through points of the road network; poses come from the map when it is used.
+
+    Attributes:
+        places: The points.
+        on_road_network: Along lanes from point to point.
+        network: The map.
+    """
+
+    places: Sequence[NetworkPoint] = ()
+    on_road_network: bool = False
+    network: RoadNetwork | None = field(default=None, repr=False, compare=False)
+
+    def in_world(self) -> Path:
+        """The path through poses.
+
+        Raises:
+            PathError: A point is not on the map, or no way along lanes leads to it.
+        """
+        assert self.network is not None
+        return self.network.in_world(self)
+
+
+@dataclass(frozen=True, slots=True)
+class MadeRoute(NetworkPath):
+    """A route that a scenario has put together; `places` are left out.
+
+    Attributes:
+        route_elements: What it consists of, in order.
+        connect_points_by: What points of it stand for.
+    """
+
+    route_elements: Sequence[NetworkPoint | Route | Path] = ()
+    connect_points_by: ConnectPointsBy = "waypoint"
+
+
+@dataclass(frozen=True, slots=True)
+class RelativePath:
+    """A way relative to an object; see `relative_to` in `paths` for the frames."""
+
+    points: Sequence[PathPoint]
+    interpolation: PathInterpolation = "straight_line"
+
+
+@dataclass(frozen=True, slots=True)
+class RelativePathPose3d(RelativePath):
+    """Points in Cartesian coordinates."""
+
+
+@dataclass(frozen=True, slots=True)
+class RelativePathSt(RelativePath):
+    """Points in s and t."""
+
+
+@dataclass(frozen=True, slots=True)
+class RelativePathOdr(RelativePath):
+    """Points in road coordinates."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trajectory:
+    """A way through poses in the world at given times.
+
+    Attributes:
+        points: As of `Path`.
+        time_stamps: Seconds since the start of the action, one per point, ascending.
+        interpolation: How they are joined.
+    """
+
+    points: Sequence[Pose]
+    time_stamps: Sequence[float]
+    interpolation: PathInterpolation = "straight_line"
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkTrajectory(Trajectory):
+    """A trajectory through points of the road network; likewise."""
+
+    places: Sequence[NetworkPoint] = ()
+    on_road_network: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeTrajectory:
+    """A trajectory relative to an object."""
+
+    points: Sequence[PathPoint]
+    time_stamps: Sequence[float]
+    interpolation: PathInterpolation = "straight_line"
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeTrajectoryPose3d(RelativeTrajectory):
+    """Points in Cartesian coordinates."""
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeTrajectorySt(RelativeTrajectory):
+    """Points in s and t."""
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeTrajectoryOdr(RelativeTrajectory):
+    """Points in road coordinates."""

@@ -1,0 +1,115 @@
+"""Who is placed before whom: actors that others are placed by, towing vehicles before trailers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    Lane,
+    Lateral,
+    Location,
+    Modifier,
+    OnPath,
+    Orient,
+    Position,
+    Speed,
+    TowTrailer,
+    Yaw,
+)
+from osc2tx_runtime.domain.placing.poses import one_of_kind
+from osc2tx_runtime.errors import PlacementError
+
+__all__ = ["PLACEMENT_MODIFIERS", "Start", "couple", "cycle_of"]
+
+PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
+    Along,
+    Position,
+    Location,
+    Lane,
+    Lateral,
+    Speed,
+    Yaw,
+    Orient,
+    TowTrailer,
+    OnPath,
+)
+"""Modifiers that say where and how an actor starts."""
+
+
+class Start:
+    """One actor to be placed.
+
+    Attributes:
+        actor: Who.
+        modifiers: Where and how.
+        source: Place in the scenario.
+        references: Actors that must be placed before.
+        rank: Absolute places come before relative ones, defaults last.
+        towed_by: The vehicle it is coupled to from the start.
+    """
+
+    def __init__(
+        self, actor: PhysicalObject, modifiers: Sequence[Modifier], source: str | None
+    ) -> None:
+        self.actor = actor
+        self.modifiers = modifiers
+        self.source = source
+        self.references: list[PhysicalObject] = []
+        self.towed_by: PhysicalObject | None = None
+        for modifier in modifiers:
+            if not isinstance(modifier, PLACEMENT_MODIFIERS):
+                raise PlacementError(f"{actor.id} cannot start with {modifier.name}", source)
+            if getattr(modifier, "at", "all") == "end":
+                raise PlacementError(f"{actor.id}: {modifier.name} at the end is no start", source)
+            reference = getattr(modifier, "reference", None)
+            reference = reference or getattr(modifier, "relative_to", None)
+            if reference is not None:
+                self.references.append(reference)
+        position = one_of_kind(modifiers, Position)
+        absolute = position is not None and position.absolute
+        absolute = absolute or one_of_kind(modifiers, Location) is not None
+        self.rank = 0 if absolute else 1 if self.references else 2
+
+
+def couple(starts: Sequence[Start]) -> None:
+    """Makes trailers wait for what tows them.
+
+    Raises:
+        PlacementError: A trailer has a place of its own, or two towing vehicles, or its coupler
+            does not fit.
+    """
+    by_id = {start.actor.id: start for start in starts}
+    for start in starts:
+        tow = one_of_kind(start.modifiers, TowTrailer)
+        if tow is None:
+            continue
+        trailer = by_id[tow.trailer.id]
+        if trailer.modifiers or trailer.towed_by is not None:
+            raise PlacementError(
+                f"{trailer.actor.id} is towed by {start.actor.id}, so it has no place of its own",
+                start.source,
+            )
+        misfit = tow.trailer.misfit(start.actor) if isinstance(start.actor, Vehicle) else None
+        if misfit is not None:
+            raise PlacementError(
+                f"{start.actor.id} cannot tow {trailer.actor.id}: {misfit}", start.source
+            )
+        trailer.towed_by, trailer.references, trailer.rank = start.actor, [start.actor], 1
+
+
+def cycle_of(waiting: Sequence[Start]) -> PlacementError:
+    """Name the starts that wait for each other."""
+    by_id = {start.actor.id: start for start in waiting}
+    start, seen = waiting[0], []
+    while start not in seen:
+        seen.append(start)
+        blocking = [r.id for r in start.references if r.id in by_id]
+        if not blocking:
+            missing = ", ".join(reference.id for reference in start.references)
+            return PlacementError(f"{start.actor.id} waits for {missing}", start.source)
+        start = by_id[blocking[0]]
+    ring = seen[seen.index(start) :]
+    places = ", ".join(f"{each.actor.id} ({each.source})" for each in ring)
+    return PlacementError(f"the starts of {places} depend on each other", ring[-1].source)

@@ -1,0 +1,46 @@
+"""How the map of a scenario is found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from osc2tx_runtime.errors import InputError
+
+__all__ = ["DEFAULT_MAP", "SHIPPED", "find_map"]
+
+SHIPPED = Path(__file__).parents[2] / "maps"
+DEFAULT_MAP = "highway.xodr"
+SUFFIXES = ("", ".xodr")
+
+
+def find_map(name: str | None, folders: Sequence[Path]) -> Path:
+    """Return the file of a map.
+
+    A file among `folders` is the map itself. Folders are searched in their order, then the maps
+    of this package; `Town06` also finds `Town06.xodr`.
+
+    Args:
+        name: What the scenario says; None for the default map.
+        folders: Of the settings.
+
+    Raises:
+        InputError: If there is no such file; the message says where it was searched.
+    """
+    for entry in folders:
+        if entry.is_file():
+            return entry
+        if not entry.is_dir():
+            raise InputError(f"--map-path {entry}: there is no such folder or file")
+    wanted = name or DEFAULT_MAP
+    for folder in (*folders, SHIPPED):
+        for suffix in SUFFIXES:
+            path = folder / f"{wanted}{suffix}"
+            if path.is_file():
+                return path
+    searched = ", ".join([*map(str, folders), "the maps of osc2tx_runtime"])
+    shipped = ", ".join(sorted(path.name for path in SHIPPED.glob("*.xodr")))
+    raise InputError(
+        f"map `{wanted}` not found in {searched}; give its folder with --map-path."
+        f" Shipped maps: {shipped or 'none'}"
+    )

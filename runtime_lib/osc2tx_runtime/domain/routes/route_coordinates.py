@@ -1,0 +1,105 @@
+"""Where an actor is in the coordinates of the road, lane section, lane or crossing under it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.routes.crossings import Crossing
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.road_parts import LaneSection
+from osc2tx_runtime.domain.routes.route_axes import axis_lanes
+from osc2tx_runtime.domain.routes.routes import route_point_at
+from osc2tx_runtime.domain.routes.stretches import CrossingLine, Stretch
+from osc2tx_runtime.domain.values import RoadRoute, RoutePoint
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.opendrive import LanePosition, Pose
+from osc2tx_runtime.world.state import ActorState
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["RouteType", "between_on_crossing", "place_in_route"]
+
+RouteType = Literal["on_road", "on_lane_section", "on_lane", "on_crossing"]
+
+_EDGE = 0.5  # m beyond the ends of a crossing
+_UNKNOWN_WIDTH = 4.0  # m: of a crossing whose width nothing says
+
+
+def place_in_route(
+    context: ExecutionContext, state: ActorState, route_type: RouteType
+) -> RoutePoint:
+    """The place of an actor on what is under it.
+
+    Raises:
+        ScenarioError: There is no such route under it.
+    """
+    if route_type == "on_crossing":
+        return _on_crossing(context, state)
+    place, road_map = state.lane_position, context.world.map
+    if place is None:
+        raise ScenarioError("it is not on a road")
+    if route_type == "on_lane":
+        return route_point_at(road_map, place)
+    if route_type == "on_road":
+        line = road_map.road_pose(place.road, place.s, 0.0)
+        return RoutePoint(RoadRoute(place.road), place.s, _aside(line, state))
+    return _on_section(context, place, state)
+
+
+def _on_section(context: ExecutionContext, place: LanePosition, state: ActorState) -> RoutePoint:
+    graph = graph_of(context.world.map)
+    lane = graph.stretch_of(graph.map.lane_key(place))
+    found = Stretch("lane_section", lane.road, lane.section, forwards=lane.forwards)
+    axes = axis_lanes(graph, found)
+    if not axes or axes[0].lane is None:
+        raise ScenarioError("it is not on a lane section for vehicles")
+    section = LaneSection()
+    section.bind(context)
+    section.choose(found)
+    line = graph.map.pose(LanePosition(place.road, axes[0].lane, place.s))
+    return RoutePoint(section, graph.along(axes[0], place.s), _aside(line, state))
+
+
+def _aside(line: Pose, state: ActorState) -> float:
+    """How far (m) an actor is to the left of a line."""
+    return (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
+
+
+# --- crossings --------------------------------------------------------------------------------
+
+
+def _on_crossing(context: ExecutionContext, state: ActorState) -> RoutePoint:
+    """On a crossing of the scenario, else on a crosswalk of the map."""
+    for found in (*context.crossings, *graph_of(context.world.map).crossings):
+        assert found.line is not None
+        s, t = found.line.place_of(state.x, state.y)
+        half = 0.5 * (found.line.width or _UNKNOWN_WIDTH)
+        if -_EDGE <= s <= found.line.length + _EDGE and abs(t) <= half:
+            crossing = Crossing()
+            crossing.bind(context)
+            crossing.choose(found)
+            return RoutePoint(crossing, s, t)
+    raise ScenarioError("it is not on a crossing")
+
+
+def between_on_crossing(
+    context: ExecutionContext, here: ActorState, there: ActorState, *, ahead: bool, mode: str
+) -> float:
+    """How much further along a crossing, or to the left of it, another place is (m).
+
+    Raises:
+        ScenarioError: The first one is on no crossing.
+        UnsupportedError: It is to be measured between boxes.
+    """
+    if mode != "reference_points":
+        raise UnsupportedError("along a crossing distances count between reference points only")
+    point = _on_crossing(context, here)
+    s, t = _line_of(point).place_of(there.x, there.y)
+    return s - point.s if ahead else t - point.t
+
+
+def _line_of(point: RoutePoint) -> CrossingLine:
+    assert isinstance(point.route, Crossing)
+    return point.route.line

@@ -1,0 +1,194 @@
+"""Shapes: the course of a quantity over the time of a phase (DSL 8.9.1.2).
+
+A shape gives the course of the value that its modifier names: a speed, or how much faster than
+another one; a distance along the road, or to another actor; a place across the lane. The time
+counts from the start of the action. There are common shapes, which say how a target is reached,
+and those of a scenario, which compute every value themselves (`OwnShape`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+from osc2tx_runtime.world.computed import Computed
+from osc2tx_runtime.world.profiles import (
+    QUINTIC_PEAK,
+    Cosine,
+    DynamicProfile,
+    Linear,
+    Profile,
+    Quintic,
+    cosine_duration,
+)
+
+__all__ = [
+    "AnyAccelerationShape",
+    "AnyLateralShape",
+    "AnyPositionShape",
+    "AnyShape",
+    "AnySpeedShape",
+    "CommonAccelerationShape",
+    "CommonLateralShape",
+    "CommonPositionShape",
+    "CommonShape",
+    "CommonSpeedShape",
+    "OwnShape",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class AnyShape:
+    """Base of all shapes.
+
+    Attributes:
+        kind: Name of the base in the DSL of all shapes for this quantity.
+    """
+
+    kind: ClassVar[str] = "any_shape"
+
+
+@dataclass(frozen=True, slots=True)
+class AnySpeedShape(AnyShape):
+    """Of a speed (m/s)."""
+
+    kind = "any_speed_shape"
+
+
+@dataclass(frozen=True, slots=True)
+class AnyAccelerationShape(AnyShape):
+    """Of an acceleration (m/s^2)."""
+
+    kind = "any_acceleration_shape"
+
+
+@dataclass(frozen=True, slots=True)
+class AnyPositionShape(AnyShape):
+    """Of a place along the road, a way, or a distance to another actor (m)."""
+
+    kind = "any_position_shape"
+
+
+@dataclass(frozen=True, slots=True)
+class AnyLateralShape(AnyShape):
+    """Of a place across the lane (m)."""
+
+    kind = "any_lateral_shape"
+
+
+@dataclass(frozen=True, slots=True)
+class CommonShape(AnyShape):
+    """What the common shapes share.
+
+    In an action they start from what the actor does. Asked by themselves they start at zero: their
+    members say nothing else of a start.
+
+    Attributes:
+        rate_profile: Course of the first derivative of the quantity.
+        rate_peak: Its peak.
+        target: Value to be reached, where the modifier gives none.
+    """
+
+    rate_profile: DynamicProfile = "none"
+    rate_peak: float | None = None
+    target: float | None = None
+
+    def duration(self) -> float:
+        """Seconds from zero to the target.
+
+        Raises:
+            ScenarioError: Profile, peak or target leave it open.
+        """
+        return self._from_zero().duration
+
+    def compute(self, time: float) -> float:
+        """Value so many seconds after a start at zero; raises as `duration`."""
+        return self._from_zero().value(time)
+
+    def _from_zero(self) -> Profile:
+        if self.target is None:
+            raise ScenarioError("a common shape without a target has no values by itself")
+        if not self.rate_peak or self.rate_profile not in ("constant", "smooth"):
+            raise ScenarioError(
+                "a common shape has values by itself with a rate_peak and the rate_profile"
+                " constant or smooth; otherwise they depend on the actor"
+            )
+        if self.rate_profile == "constant":
+            return Linear(0.0, self.target, abs(self.target) / self.rate_peak)
+        return self._smooth(self.target, self.rate_peak)
+
+    def _smooth(self, target: float, peak: float) -> Profile:
+        return Quintic(0.0, target, QUINTIC_PEAK * abs(target) / peak)
+
+
+@dataclass(frozen=True, slots=True)
+class CommonSpeedShape(CommonShape, AnySpeedShape):
+    """Of a speed (m/s); the rate is the acceleration (m/s^2)."""
+
+    def _smooth(self, target: float, peak: float) -> Profile:
+        return Cosine(0.0, target, cosine_duration(target, peak))
+
+
+@dataclass(frozen=True, slots=True)
+class CommonAccelerationShape(CommonShape, AnyAccelerationShape):
+    """Of an acceleration (m/s^2); the rate is the jerk (m/s^3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommonPositionShape(CommonShape, AnyPositionShape):
+    """Of a place along the road, a way or a distance (m); the rate is a speed (m/s).
+
+    The speed is that against what the distance counts from: of the actor itself, or relative to
+    the actor that it is to be ahead of or behind.
+    """
+
+
+@dataclass(frozen=True, slots=True)
+class CommonLateralShape(CommonShape, AnyLateralShape):
+    """Of a place across the lane (m); the rate is the lateral speed (m/s)."""
+
+
+ShapeT = TypeVar("ShapeT", bound=AnyShape, covariant=True)
+
+
+class OwnShape(Generic[ShapeT]):
+    """A shape of a scenario, with its methods.
+
+    Args:
+        shape: The object, with the members that the methods read.
+        compute: The value so many seconds after the start of the action.
+        duration: How long (s) the course is; None: it goes on as long as the action.
+    """
+
+    def __init__(
+        self,
+        shape: ShapeT,
+        compute: Callable[[Any, float], float],
+        duration: Callable[[Any], float] | None = None,
+    ) -> None:
+        self.kind = shape.kind
+        self._shape = shape
+        self._compute = compute
+        self._duration = duration
+
+    def course(self) -> Computed:
+        """The course, asked for its length now and for its values when they are needed.
+
+        Raises:
+            ScenarioError: A method has no value, as in a division by zero.
+        """
+        length = math.inf if self._duration is None else self._asked(self._duration)
+        if not length >= 0.0:
+            raise ScenarioError(f"the duration of the shape is {length:g} s")
+        return Computed(lambda t: self._asked(self._compute, t), length)
+
+    def _asked(self, method: Callable[..., float], *arguments: float) -> float:
+        try:
+            return float(method(self._shape, *arguments))
+        except EVALUATION_ERRORS as error:
+            name = "compute" if arguments else "duration"
+            raise ScenarioError(f"`{name}` of the shape has no value: {error}") from error

@@ -1,0 +1,247 @@
+"""The state of one run that all nodes share: clock, events, slots, effects.
+
+Nothing a node does in a pass may change what another node reads at the same instant. So nodes
+hand their wishes in here, and `commit` carries them out once the instant is settled:
+
+- `post`, `assign`: an event, a new value become visible with the next pass;
+- `claim`, `command`, `release`: who moves an actor;
+- `effect`: a change of state at one instant (assign_speed, set_lights).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.clock import whole_steps
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.slots import Effect, Effects, Slots
+from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.running.trace import TraceWriter
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Actor
+    from osc2tx_runtime.domain.routes.stretches import Stretch
+    from osc2tx_runtime.language.action import Action
+    from osc2tx_runtime.language.tree.events import Event
+    from osc2tx_runtime.language.tree.variables import Sampled
+    from osc2tx_runtime.world.commands import Command
+    from osc2tx_runtime.world.protocol import World
+
+__all__ = ["MAX_PASSES", "ExecutionContext"]
+
+MAX_PASSES = 1000
+
+
+class ExecutionContext:
+    """One run.
+
+    Attributes:
+        world: The world; its snapshot is that of the present step.
+        settings: Settings of the run.
+        actors: Actors by id, in the order of their declaration.
+        crossings: Where the crossings lie that the scenario declares.
+        events: Declared events by name.
+        trace: Takes the lines of the trace.
+        dt: Length of a step in seconds.
+        step: Present step; `time` is `step * dt`.
+        pass_number: Number of the present pass within the step, from 0.
+        tick: Number of the present pass within the run, from 1: the clock of events.
+        snapshot: Number of the values that nodes read: changes with every step, and with every
+            pass in which a sampled variable gets a new value.
+        settled: The instant is settled; what is unfinished now is unfinished at this instant.
+        one_of: Policy of the scenario: `race`, `first` or `seeded`.
+        random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
+            that draw from one generator would depend on the order of their visit.
+        collisions: Time in seconds and the two actors of each new contact.
+        label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        settings: RunSettings | None = None,
+        actors: Mapping[str, Actor] | None = None,
+        *,
+        events: Mapping[str, Event] | None = None,
+        trace: TraceWriter | None = None,
+        label_events: Mapping[tuple[str, str], Event] | None = None,
+        one_of: str = "race",
+    ) -> None:
+        self.world = world
+        self.settings = settings or RunSettings()
+        self.actors: dict[str, Actor] = dict(actors or {})
+        self.events = dict(events or {})
+        self.trace = trace or TraceWriter(enabled=False)
+        self.label_events = dict(label_events or {})
+        self.one_of = one_of
+        self.dt = self.settings.dt
+        self.step = 0
+        self.pass_number = 0
+        self.tick = 0
+        self.snapshot = 0
+        self.settled = False
+        self.random = random.Random(self.settings.seed)
+        self.slots = Slots()
+        self.effects = Effects()
+        self.collisions: list[tuple[float, str, str]] = []
+        self.crossings: list[Stretch] = []
+        self._cast: tuple[str, ...] | None = None
+        self._left: dict[str, str] = {}  # actors to behavioral models of this instant
+        self._posted: dict[Event, list[Mapping[str, Any]]] = {}
+        self._assigned: dict[Sampled, Any] = {}
+        self._pass_wanted = False
+        self._settling_wanted = False
+
+    @property
+    def time(self) -> float:
+        """Seconds since the start of the scenario."""
+        return self.step * self.dt
+
+    def steps(self, seconds: float) -> int:
+        """Return a duration in steps: until the first one at or after its end."""
+        return whole_steps(seconds, self.dt)
+
+    def cast(self) -> tuple[str, ...]:
+        """Return the ids of the placed actors, in the order of their declaration.
+
+        Those of invoked scenarios come last, by path.
+        """
+        if self._cast is None:
+            placed = set(self.world.actors())
+            found = (actor_id for actor_id in self.actors if actor_id in placed)
+            self._cast = tuple(sorted(found, key=lambda name: name.rpartition(".")[0]))
+        return self._cast
+
+    def random_for(self, key: str) -> random.Random:
+        """Return a generator of its own for `key`: same seed and key, same draws."""
+        return random.Random(f"{self.settings.seed}/{key}")
+
+    # --- events and passes ---
+
+    def post(self, event: Event, arguments: Mapping[str, Any] | None = None) -> None:
+        """Let an event occur now; others see it from the next pass of this instant on."""
+        self._posted.setdefault(event, []).append(dict(arguments or {}))
+        self.trace.event(event.name, arguments)
+
+    def assign(self, variable: Sampled, value: Any) -> None:
+        """Give a sampled variable a value; others read it from the next pass of this instant on."""
+        self._assigned[variable] = value
+        self._pass_wanted = True
+
+    def request_pass(self) -> None:
+        """Ask for one more pass at this instant."""
+        self._pass_wanted = True
+
+    def request_settling(self) -> None:
+        """Ask for a pass with `settled` set, after all others of this instant."""
+        self._settling_wanted = True
+
+    def begin_step(self, step: int) -> None:
+        """Go to a step; its first pass comes next."""
+        self.step = step
+        self._left.clear()
+        self.snapshot += 1
+        self.pass_number = -1
+        self.settled = False
+
+    def begin_pass(self) -> None:
+        """Start a pass: what was posted before becomes visible.
+
+        Raises:
+            ScenarioError: If the instant does not come to rest.
+        """
+        self.tick += 1
+        self.pass_number += 1
+        if self.pass_number >= MAX_PASSES:
+            changing = {event.name for event in self._posted}
+            names = ", ".join(sorted(changing.union(v.name for v in self._assigned)))
+            raise ScenarioError(
+                f"events chase each other at {self.time:.3f} s without time going on"
+                + (f": {names}" if names else "")
+            )
+        posted, self._posted = self._posted, {}
+        for event, arguments in posted.items():
+            event.occur(self.tick, arguments)
+        if self._assigned:
+            self.snapshot += 1
+            for variable, value in self._assigned.items():
+                variable.value = value
+                self.trace.variable(variable.name, value)
+            self._assigned.clear()
+        self._pass_wanted = self._settling_wanted = False
+
+    def next_pass(self) -> bool:
+        """Return whether this instant needs another pass, and say what kind in `settled`."""
+        if self._posted or self._pass_wanted:
+            self.settled = False
+            return True
+        if self._settling_wanted and not self.settled:
+            self.settled = True
+            return True
+        return False
+
+    # --- who controls what ---
+
+    def claim(self, actor_id: str, slot: str, owner: Action) -> None:
+        """Make an action the owner of a slot; two live owners at a settled instant conflict."""
+        self.slots.claim((actor_id, slot), owner)
+
+    def release(self, actor_id: str, slot: str, owner: Action) -> None:
+        """Give a slot up. Without a new owner the actor holds its speed or keeps its lane."""
+        self.slots.release((actor_id, slot), owner)
+
+    def leave(self, actor_id: str, slot: str, model: str, command: Command | None) -> None:
+        """Let a slot without owner pursue the command of a behavioral model; None: hold, keep.
+
+        Raises:
+            ScenarioError: At this instant it was left to another model.
+        """
+        other = self._left.setdefault(actor_id, model)
+        if other != model:
+            names = ", ".join(sorted((other, model)))
+            raise ScenarioError(f"{actor_id} gets two behavioral models at once: {names}")
+        self.slots.leave((actor_id, slot), command)
+
+    def command(self, actor_id: str, slot: str, owner: Action, command: Command) -> None:
+        """Set the command of an owner; the world gets it when the instant is settled."""
+        self.slots.command((actor_id, slot), owner, command)
+
+    def effect(
+        self, key: tuple[str, ...], owner: Action, value: object, apply: Callable[[], None]
+    ) -> None:
+        """Ask for a change of state at this instant.
+
+        Args:
+            key: What changes, as in ("speed", "hero").
+            owner: Who wants it.
+            value: New value: two actions that are not in sequence may only want equal ones.
+            apply: Carries it out, once the instant is settled: calls of the world and the trace.
+        """
+        self.effects.add(key, Effect(owner, value, apply))
+
+    def check_conflicts(self) -> None:
+        """Judge the claims and effects of a settled instant.
+
+        Raises:
+            SlotConflict: If two actions control the same thing.
+        """
+        self.slots.check()
+        self.effects.check()
+
+    def commit(self) -> None:
+        """Carry out what the settled instant brought: effects first, then commands."""
+        self.effects.apply()
+        self.slots.send(self.world)
+
+    def note_collision(self, step: int, one: str, other: str) -> None:
+        """Note a contact that began on the way to a step."""
+        self.collisions.append((step * self.dt, one, other))
+        self.trace.collision((one, other))
+
+    def clear(self) -> None:
+        """Forget claims, effects and posted events; the run is over."""
+        self.slots = Slots()
+        self.effects.clear()
+        self._posted.clear()

@@ -1,0 +1,62 @@
+"""What a scenario has declared: names for it, and checks of what is given to it from outside."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.actors import Actor
+from osc2tx_runtime.domain.routes.map_objects import MapObject
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.events import Event
+from osc2tx_runtime.running.settings import check_known, near
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.scenario import Scenario
+
+__all__ = ["check_arguments", "check_settings", "name_members"]
+
+
+def name_members(scenario: Scenario) -> None:
+    """Give actors, map objects and events the names of their attributes, and note them."""
+    lines = scenario._source_map.fields
+    handed_in = {id(actor) for actor in scenario._arguments.values()}
+    handed_in.update(id(actor) for actor in scenario._root.actors.values())
+    for attribute, value in vars(scenario).items():
+        path = f"{scenario._path}.{attribute}" if scenario._path else attribute
+        if isinstance(value, Actor) and id(value) not in handed_in:
+            value.id = path
+            value.source = scenario._source_map.place(lines.get(attribute))
+            scenario.actors[attribute] = scenario._root.actors[path] = value
+        elif isinstance(value, MapObject):
+            value.source = scenario._source_map.place(lines.get(attribute))
+            scenario._root.map_objects.append(value)
+        elif isinstance(value, Event):
+            value.name = path
+            scenario.events[attribute] = scenario._root.events[path] = value
+
+
+def check_arguments(scenario: Scenario) -> None:
+    """Refuse arguments that are no parameter and no actor of the scenario.
+
+    Raises:
+        TypeError: A program calls the class so.
+        ScenarioError: A scenario invokes it so.
+    """
+    for name in scenario._arguments:
+        if name not in scenario.parameters and not isinstance(vars(scenario).get(name), Actor):
+            if scenario._caller is None:
+                raise TypeError(f"{type(scenario).__name__}() has no parameter {name!r}")
+            hint = near(name, scenario.parameters)
+            raise ScenarioError(
+                f"{scenario._path}: scenario {scenario.name} has no parameter {name}{hint}",
+                scenario._caller.scenario.source,
+            )
+
+
+def check_settings(scenario: Scenario) -> None:
+    """Report settings that name nothing of this scenario."""
+    settings = scenario.settings
+    check_known("--set", "parameter", settings.set, scenario.parameters)
+    check_known("--signal", "event", settings.signal, scenario.events)
+    check_known("--spawn", "actor", settings.spawn, scenario.actors)
+    check_known("--destination", "actor", settings.destination, scenario.actors)

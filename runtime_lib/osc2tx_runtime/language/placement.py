@@ -1,0 +1,29 @@
+"""Where an actor is to be when the scenario starts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Actor
+    from osc2tx_runtime.domain.modifiers import Modifier
+
+__all__ = ["Placement"]
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where and how an actor starts.
+
+    Attributes:
+        actor: Who.
+        modifiers: position, lane, speed and so on, as written.
+        source: Place in the scenario.
+        throughout: All of it holds later as well.
+    """
+
+    actor: Actor
+    modifiers: tuple[Modifier, ...]
+    source: str
+    throughout: bool = False

@@ -1,0 +1,43 @@
+"""Actions that cannot be made: they keep their place in the tree, so that their line is named."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.action import Action
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Actor
+
+__all__ = ["RefusedAction"]
+
+
+class RefusedAction(Action):
+    """Stands for an action that nobody carries out, or whose arguments are wrong.
+
+    When it is made nobody knows its place in the scenario; at setup, before the first step, it
+    does, and refuses the run. Until then the tree can be shown and counted like any other.
+
+    Args:
+        actor: Who was to act.
+        name: Name of the action.
+        error: Why it cannot.
+        label: Label of the node.
+    """
+
+    def __init__(
+        self, actor: Actor, name: str, error: ScenarioError, label: str | None = None
+    ) -> None:
+        super().__init__(actor, label=label)
+        self.name = self.action_name = f"{actor.id} {name}"
+        self.error = error
+
+    def setup(self, **kwargs: Any) -> None:
+        """Refuse the run.
+
+        Raises:
+            ScenarioError: Always; it names the place.
+        """
+        self.error.source = self.error.source or self.source or None
+        raise self.error

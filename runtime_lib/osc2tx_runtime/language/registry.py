@@ -1,0 +1,237 @@
+"""The registry of methods: which class carries out `hero.change_lane(...)`."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+from osc2tx_runtime.errors import (
+    USER_CODE_ERRORS,
+    ScenarioError,
+    UnsupportedError,
+    blame,
+    is_own,
+)
+from osc2tx_runtime.language.argument_rules import check_arguments
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Actor
+    from osc2tx_runtime.language.action import Action
+
+__all__ = [
+    "ENTRY_POINTS",
+    "LATERAL",
+    "LONGITUDINAL",
+    "Ends",
+    "Method",
+    "MethodRegistry",
+    "action",
+    "methods",
+]
+
+ENTRY_POINTS = "osc2tx.methods"
+"""Group of entry points; each names a module that registers actions. See docs/extending.md."""
+
+LONGITUDINAL = "longitudinal"
+LATERAL = "lateral"
+
+_OPTIONS = ("duration", "label")  # what every action takes
+
+Ends = Literal["goal", "open", "instant"]
+ActionT = TypeVar("ActionT", bound="type[Action]")
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """One registered action.
+
+    Attributes:
+        kind: Actor kind of the DSL (`vehicle`).
+        name: Method name (`change_lane`).
+        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing.
+        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once.
+        factory: The class that carries it out.
+    """
+
+    kind: str
+    name: str
+    slots: tuple[str, ...]
+    ends: Ends
+    factory: type[Action]
+
+    def signature(self) -> str:
+        """Return the call as one writes it: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
+        parameters = list(inspect.signature(self.factory).parameters.values())[1:]  # not `actor`
+        return f"{self.name}({', '.join(str(parameter) for parameter in parameters)})"
+
+
+class MethodRegistry:
+    """Finds action classes by actor kind and method name."""
+
+    def __init__(self) -> None:
+        self._methods: dict[tuple[str, str], Method] = {}
+        self._extended = False
+
+    def extend(self) -> None:
+        """Import the modules that installed packages name in the entry point group.
+
+        Happens once, when a method is asked for that nobody has registered: it takes time.
+
+        Raises:
+            ScenarioError: If such a module cannot be imported.
+        """
+        if self._extended:
+            return
+        self._extended = True
+        from importlib.metadata import entry_points
+
+        for entry in sorted(entry_points(group=ENTRY_POINTS), key=lambda found: found.name):
+            try:
+                entry.load()
+            except (ImportError, AttributeError, ValueError, SyntaxError) as error:
+                package = "" if entry.dist is None else f" of {entry.dist.name}"
+                raise ScenarioError(
+                    f"the actions in {entry.value}{package} cannot be loaded: {error}"
+                ) from error
+
+    def action(
+        self,
+        kind: str,
+        name: str,
+        *,
+        slots: Iterable[str] = (),
+        ends: Ends = "goal",
+        replace: bool = False,
+    ) -> Callable[[ActionT], ActionT]:
+        """Register the decorated `Action` class as method `name` of actors of `kind`.
+
+        Args:
+            kind: Actor kind of the DSL, such as `vehicle`.
+            name: Method name.
+            slots: Slots the action claims for as long as it runs.
+            ends: When it ends.
+            replace: Take the place of a registered class instead of reporting it.
+
+        Raises:
+            ValueError: If the method is registered already.
+        """
+
+        def register(factory: ActionT) -> ActionT:
+            known = self._methods.get((kind, name))
+            if known is not None and not replace:
+                raise ValueError(
+                    f"{kind}.{name} is registered already, by {known.factory.__qualname__};"
+                    " pass replace=True to take its place"
+                )
+            method = Method(kind, name, tuple(slots), ends, factory)
+            self._methods[kind, name] = method
+            if "method" not in vars(factory):  # for instances made without the registry
+                factory.method = method
+            return factory
+
+        return register
+
+    def find(self, kinds: Iterable[str], name: str) -> Method | None:
+        """Return the method of the first of `kinds` (most derived first) that has it."""
+        for kind in kinds:
+            method = self._methods.get((kind, name))
+            if method is not None:
+                return method
+        return None
+
+    def names(self, kinds: Iterable[str]) -> tuple[str, ...]:
+        """Return the sorted method names of an actor with these kinds."""
+        wanted = tuple(kinds)
+        return tuple(sorted({name for kind, name in self._methods if kind in wanted}))
+
+    def near(self, kinds: Iterable[str], name: str) -> tuple[str, ...]:
+        """Return up to three method names that look like `name`."""
+        return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
+
+    def bind(self, actor: Actor, name: str) -> Callable[..., Action]:
+        """Return the constructor of the action `name` for one actor.
+
+        What it cannot make refuses the run at its line, before the first step: an action that
+        nobody registered, and arguments that it does not take.
+        """
+        kinds = type(actor).kinds
+        if self.find(kinds, name) is None:
+            self.extend()
+        found = self.find(kinds, name)
+
+        def create(*args: Any, **kwargs: Any) -> Action:
+            from osc2tx_runtime.language.refused import RefusedAction  # it needs this module
+
+            try:
+                if found is None:
+                    raise self._missing(kinds, name)
+                _check_arguments(found, actor, args, kwargs)
+                node = make(found, actor, args, kwargs)
+            except ScenarioError as error:
+                return RefusedAction(actor, name, error, kwargs.get("label"))
+            node.become(found)
+            return node
+
+        return create
+
+    def _missing(self, kinds: tuple[str, ...], name: str) -> UnsupportedError:
+        near = self.near(kinds, name)
+        hint = f"; did you mean {' or '.join(near)}?" if near else ""
+        return UnsupportedError(
+            f"{kinds[0]} has no action `{name}`, and no installed package brings one by the entry"
+            f" point group {ENTRY_POINTS}{hint}"
+        )
+
+    def signature(self, kind: str, name: str) -> str:
+        """Return how a method is called, as text."""
+        return self._methods[kind, name].signature()
+
+    def all(self) -> tuple[Method, ...]:
+        """Return every method, sorted by kind and name."""
+        return tuple(self._methods[key] for key in sorted(self._methods))
+
+
+def make(method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> Action:
+    """Make an action.
+
+    Raises:
+        ScenarioError: If a class of the user's own raises something.
+    """
+    try:
+        return method.factory(actor, *args, **kwargs)
+    except USER_CODE_ERRORS as error:
+        if not is_own(method.factory):
+            raise
+        raise ScenarioError(f"{actor.id} {method.name}: {blame(method.factory, error)}") from error
+
+
+def _check_arguments(
+    method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+) -> None:
+    """Compare a call with the signature and the rules of the class.
+
+    Raises:
+        ScenarioError: They do not fit.
+    """
+    signature = inspect.signature(method.factory)
+    unknown = [name for name in kwargs if name not in (*signature.parameters, *_OPTIONS)]
+    try:
+        if unknown:  # `**options` would hand them on
+            raise TypeError(f"unknown argument '{unknown[0]}'")
+        signature.bind(actor, *args, **kwargs)
+    except TypeError as error:
+        raise ScenarioError(
+            f"{actor.id} {method.name}: {error}; it is {method.signature()}"
+        ) from error
+    given = {name: value for name, value in kwargs.items() if value is not None}
+    given.update({"with": args} if args else {})
+    check_arguments(f"{actor.id} {method.name}", method.factory.rules, given)
+
+
+methods = MethodRegistry()
+"""The registry that actors use; own actions go in here as well."""
+
+action = methods.action

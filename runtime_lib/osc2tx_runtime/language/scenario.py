@@ -1,0 +1,297 @@
+"""The base of generated scenarios: cast, values, placement, behavior."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+
+from osc2tx_runtime.domain.actors import Actor, Map
+from osc2tx_runtime.domain.modifiers import SetMapFile
+from osc2tx_runtime.domain.routes.map_objects import MapObject
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.members import check_arguments, check_settings, name_members
+from osc2tx_runtime.language.placement import Placement
+from osc2tx_runtime.language.scenario_values import ScenarioValues
+from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements
+from osc2tx_runtime.language.tree.base import Behaviour
+from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, argument_key
+from osc2tx_runtime.language.tree.invocation import (
+    Caller,
+    Invocation,
+    check_recursion,
+    unique_name,
+)
+from osc2tx_runtime.language.tree.limits import Duration
+from osc2tx_runtime.language.tree.override import Mode
+from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, within
+from osc2tx_runtime.language.tree.variables import MISSING, Sampled
+from osc2tx_runtime.running.settings import RunSettings, near
+from osc2tx_runtime.running.sidecar import read_source_map
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.modifiers import MapModifier, Modifier
+
+__all__ = [
+    "Placement",
+    "Range",
+    "Scenario",
+    "any_of",
+    "at_least",
+    "at_most",
+    "within",
+]
+
+AnyT = TypeVar("AnyT")
+
+
+class Scenario(ScenarioValues):
+    """A scenario. Generated classes write `declare`, `placement` and `behavior`.
+
+    Args:
+        settings: Of the run.
+        caller: The scenario that invokes this one; `invoke` gives it.
+        **arguments: Values of parameters, before those of the settings; for an invoked scenario
+            also the actors that take the place of the declared ones.
+
+    Attributes:
+        name: Name in the scenario file.
+        source: Scenario file.
+        one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
+        settings: Of the run.
+        actors: Declared actors by id, in order; the scenario that runs also has those of all that
+            it invokes.
+        map_objects: Declared traffic lights and groups of them; likewise.
+        events: Declared events by name, in order; likewise.
+        parameters: Values of the parameters, in order; likewise.
+        placements: What `placement` asked for; likewise, once there is a tree.
+        label_events: (label, `start` | `end` | `fail`) to the event that somebody waits for.
+    """
+
+    name: ClassVar[str] = ""
+    source: ClassVar[str] = ""
+    one_of: ClassVar[str] = "race"
+
+    def __init__(
+        self,
+        settings: RunSettings | None = None,
+        *,
+        caller: Caller | None = None,
+        **arguments: Any,
+    ) -> None:
+        super().__init__(
+            settings or RunSettings(),
+            arguments,
+            read_source_map(type(self), self.name, self.source),
+            caller=None if caller is None else caller.scenario,
+            path="" if caller is None else caller.path,
+            key="" if caller is None else caller.key,
+        )
+        self._caller = caller
+        self._root: Scenario = self if caller is None else caller.scenario._root
+        self.actors: dict[str, Actor] = {}
+        self.map_objects: list[MapObject] = []
+        self.events: dict[str, Event] = {}
+        self.placements: list[Placement] = []
+        self.label_events: dict[tuple[str, str], Event] = {}
+        self._variables: dict[str, Sampled] = {}
+        self._invoked: dict[str, Scenario] = {}
+        self._keys: dict[str, None] = {}
+        self._inner_events: dict[str, Event] = {}
+        self._overrides: list[tuple[str, str, Mode]] = []
+        self._declare_values(self.declare)
+        name_members(self)
+        check_arguments(self)
+        self._computed(self.placement)
+        self._own_placements = len(self.placements)
+
+    # --- written by generated classes ---
+
+    def declare(self) -> None:
+        """Set the cast, events and values as attributes."""
+
+    def placement(self) -> None:
+        """Call `place` for the actors that do not start just anywhere."""
+
+    def behavior(self) -> Behaviour:
+        """Return the tree."""
+        raise NotImplementedError
+
+    # --- used by generated classes ---
+
+    def place(self, actor: Actor, *modifiers: Modifier, throughout: bool = False) -> None:
+        """Say where and how an actor starts.
+
+        Args:
+            actor: The actor.
+            *modifiers: What holds at the start.
+            throughout: The first action sees to all of it anyway: where the scenario is invoked
+                in the middle of a run, nobody is placed.
+        """
+        lines = self._source_map.placements
+        index = len(self.placements)
+        source = self._source_map.place(lines[index] if index < len(lines) else None)
+        self.placements.append(Placement(actor, modifiers, source, throughout))
+
+    def require(self, road_map: Map, *modifiers: MapModifier) -> None:
+        """Say what the declared roads and lanes of the map are like."""
+        self.place(road_map, *modifiers)
+
+    def sample(
+        self,
+        expression: Callable[[], AnyT],
+        trigger: Trigger,
+        default: Any = MISSING,
+        *,
+        condition: Guard | None = None,
+    ) -> AnyT:
+        """Make a variable: `self.v = self.sample(lambda: self.ego.speed, self.near, 0 * mps)`.
+
+        Read later, `self.v` is its latest value: `default`, and from the pass after an occurrence
+        on what `expression` gave at that occurrence.
+
+        Args:
+            expression: Gives the new value.
+            trigger: When: an event, a condition or a boolean function.
+            default: Value before the first sample; without it the variable cannot be read before.
+            condition: With an event: only an occurrence at which this is true counts.
+        """
+        variable: Any = Sampled(expression, trigger, default, condition)
+        return variable  # type: ignore[no-any-return]
+
+    def invoke(
+        self,
+        scenario: type[Scenario],
+        /,
+        *,
+        actor: Actor | None = None,
+        label: str | None = None,
+        duration: Duration | None = None,
+        **arguments: Any,
+    ) -> Behaviour:
+        """Invoke another scenario: `self.invoke(Approach, actor=self.ego, lead=self.car1)`.
+
+        Args:
+            scenario: Its class.
+            actor: Its `actor`, for a scenario of an actor.
+            label: Name for `@label.end`, for settings (`--set label.gap=12`) and in the trace.
+            duration: Seconds, or (least, most) seconds, that it takes.
+            **arguments: Its parameters (a range is drawn from) and actors.
+
+        Raises:
+            ScenarioError: If it invokes itself, or does not take the arguments.
+        """
+        check_recursion(self, scenario)
+        given = arguments if actor is None else {"actor": actor, **arguments}
+        short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
+        names, index = self._source_map.invocations, len(self._invoked)
+        # By place in the source; without a map by the order of the calls.
+        name = names[index] if index < len(names) else unique_name(label or short, self._invoked)
+        path = f"{self._path}.{name}" if self._path else name
+        # Not by the order of the members: as written, without a map by the arguments.
+        keys = self._source_map.draws
+        written = keys[index] if index < len(keys) else None
+        key = written or label or f"{scenario.name}{argument_key(given)}"
+        key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
+        self._keys[key] = None
+        invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
+        self._invoked[name] = invoked
+        who = f"{actor.id} {short}" if actor is not None else short
+        return Invocation(label or who, invoked, invoked.create_tree(), duration)
+
+    def invoked(self, label: str) -> Any:
+        """Return an invoked scenario, to read its values: `self.invoked("p1").gap`."""
+        if label not in self._invoked:
+            hint = near(label, self._invoked)
+            raise ScenarioError(f"{label}: no invocation has this label{hint}", self.source)
+        return self._invoked[label]
+
+    def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
+        """Let a behavior end another when it starts; call it in `behavior`.
+
+        Args:
+            overridden: Label of the behavior that ends.
+            by: Label of the behavior that overrides it.
+            mode: `when_active`: it also does not start while the other one runs.
+        """
+        self._overrides.append((overridden, by, mode))
+
+    def started(self, label: str) -> Event:
+        """Return the event at which the node with this label starts."""
+        return self._label_event(label, "start")
+
+    def ended(self, label: str) -> Event:
+        """Return the event at which the node with this label ends."""
+        return self._label_event(label, "end")
+
+    def failed(self, label: str) -> Event:
+        """Return the event at which the node with this label fails."""
+        return self._label_event(label, "fail")
+
+    def event(self, path: str) -> Event:
+        """Return an event of an invoked scenario: `self.event("p1.near")`, `"p1.cut.end"`."""
+        found = self._inner_events.setdefault(path, Event())
+        found.name = path
+        return found
+
+    # --- used by the runtime ---
+
+    def create_tree(self) -> Behaviour:
+        """Return the tree, each node with its place in the scenario."""
+        self._invoked, self._keys, self._overrides = {}, {}, []
+        tree = assemble(self, self._computed(self.behavior))
+        if self._caller is None:
+            # Stable: the actors of each scenario in their order, the scenarios by path.
+            self.actors = dict(
+                sorted(self.actors.items(), key=lambda item: item[0].rpartition(".")[0])
+            )
+            self.placements[self._own_placements :] = invoked_placements(self, tree)
+            check_settings(self)
+        return tree
+
+    def _computed(self, method: Callable[[], AnyT]) -> AnyT:
+        """Call a method of the generated class; a value without result is an error of it."""
+        try:
+            return method()
+        except ArithmeticError as error:
+            raise ScenarioError(f"a value cannot be computed: {error}", self.source) from error
+
+    def map_file(self) -> str | None:
+        """Return the map file the scenario names; None if it leaves the map open.
+
+        Raises:
+            ScenarioError: If it names two.
+        """
+        maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
+        named = [(found.named_file, found.source) for found in maps if found.named_file]
+        named += [
+            (modifier.file, placement.source)
+            for placement in self.placements
+            for modifier in placement.modifiers
+            if isinstance(modifier, SetMapFile)
+        ]
+        for file, source in named[1:]:
+            if file != named[0][0]:
+                raise ScenarioError(f"two maps are named: {named[0][0]} and {file}", source)
+        return named[0][0] if named else None
+
+    if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if isinstance(value, Sampled):
+                value.name = f"{self._path}.{name}" if self._path else name
+                self._variables[name] = value
+                return
+            if isinstance(value, Actor) and self._caller is not None:
+                value = self._caller.cast(name, value)
+            object.__setattr__(self, name, value)
+
+        def __getattr__(self, name: str) -> Any:
+            variables = self.__dict__.get("_variables", {})
+            if name in variables:
+                return variables[name].read()
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+
+    def _label_event(self, label: str, moment: str) -> Event:
+        event = self.label_events.setdefault((label, moment), Event())
+        event.name = f"{self._path}.{label}.{moment}" if self._path else f"{label}.{moment}"
+        return event

@@ -1,0 +1,275 @@
+"""The values of a scenario: parameters, and the constraints between them."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar, Unpack, overload
+
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
+from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
+from osc2tx_runtime.running.external import external_function
+from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.running.sidecar import SourceMap
+
+__all__ = ["ATTEMPTS", "ScenarioValues"]
+
+AnyT = TypeVar("AnyT")
+
+ATTEMPTS = 1000  # draws of all values before constraints between them count as contradictory
+
+
+class _NotKeptError(Exception):
+    """A relation that `keep` demands does not hold."""
+
+    def __init__(self, line: int | None, text: str) -> None:
+        super().__init__(text)
+        self.line, self.text = line, text
+
+
+class ScenarioValues:
+    """What a scenario chooses before it runs. Generated classes use it in `declare`.
+
+    Args:
+        settings: Of the run.
+        arguments: Values that the caller gives.
+        source_map: Where things stand in the source.
+        caller: The values of the scenario that runs, for one that it invokes.
+        path: Labels of the invocations down to this scenario, for names in settings.
+        key: What draws depend on besides the seed: not on an order of invocations.
+
+    Attributes:
+        settings: Of the run.
+        parameters: Values of the parameters, in order; the scenario that runs also has those of
+            all that it invokes.
+    """
+
+    def __init__(
+        self,
+        settings: RunSettings,
+        arguments: Mapping[str, Any],
+        source_map: SourceMap,
+        *,
+        caller: ScenarioValues | None = None,
+        path: str = "",
+        key: str = "",
+    ) -> None:
+        self.settings = settings
+        self.parameters: dict[str, Any] = {}
+        self._arguments = arguments
+        self._source_map = source_map
+        self._shared: dict[str, Any] = self.parameters if caller is None else caller._shared
+        self._path = path  # empty for the scenario that runs
+        self._key = key
+        self._generator = random.Random(settings.seed)
+        self._attempt = 0
+        self._draws = False  # whether a value was drawn, so that another draw may help
+        self._kept = 0
+        self._items: dict[str, CoverageItem] = {}
+
+    # --- used by generated classes ---
+
+    @overload
+    def parameter(
+        self, name: str, default: Range[NumberT], domain: Domain | None = None
+    ) -> NumberT: ...
+    @overload
+    def parameter(
+        self, name: str, default: Choice[ValueT], domain: Domain | None = None
+    ) -> ValueT: ...
+    @overload
+    def parameter(self, name: str, default: ValueT, domain: Domain | None = None) -> ValueT: ...
+    def parameter(self, name: str, default: Any, domain: Domain | None = None) -> Any:
+        """Return the value of a parameter.
+
+        An argument of the class counts before `--set`, that before a draw from a range, that
+        before the default. Setting one parameter does not change what is drawn for another.
+        Parameters of invoked scenarios are set by path: `--set p1.gap=12`.
+
+        Args:
+            name: Name of the parameter.
+            default: Value, or the values that it is drawn from, SI units.
+            domain: What settings must keep to; the default itself where that is drawn from.
+        """
+        return self._own(name, default, domain)
+
+    def required(self, name: str, kind: type[ValueT], domain: Domain | None = None) -> ValueT:
+        """Return the value of a parameter that the scenario leaves open.
+
+        Args:
+            name: Name of the parameter.
+            kind: Type of its value.
+            domain: What the value must keep to.
+
+        Raises:
+            SettingsError: If neither an argument nor `--set` gives a value.
+        """
+        value: ValueT = self._own(name, kind, domain)
+        return value
+
+    def argument(self, name: str, default: AnyT) -> AnyT:
+        """Return a list or range: as the caller gives it, else its default; nobody can set it."""
+        value: AnyT = self._arguments.get(name, default)
+        self.parameters[name] = value
+        return value
+
+    def required_argument(self, name: str, kind: type[AnyT]) -> AnyT:
+        """Return a list, range or object that the caller has to give.
+
+        Raises:
+            SettingsError: If it does not.
+        """
+        if name not in self._arguments:
+            path = f"{self._path}.{name}" if self._path else name
+            raise SettingsError(
+                f"parameter `{path}` has no value, and `--set` cannot give it one:"
+                " who invokes the scenario must"
+            )
+        value: AnyT = self.argument(name, self._arguments[name])
+        return value
+
+    @overload
+    def global_parameter(
+        self, name: str, default: Range[NumberT], domain: Domain | None = None
+    ) -> NumberT: ...
+    @overload
+    def global_parameter(
+        self, name: str, default: Choice[ValueT], domain: Domain | None = None
+    ) -> ValueT: ...
+    @overload
+    def global_parameter(
+        self, name: str, default: ValueT, domain: Domain | None = None
+    ) -> ValueT: ...
+    def global_parameter(self, name: str, default: Any, domain: Domain | None = None) -> Any:
+        """Return the value of a global parameter: one for all scenarios of the run."""
+        return self._global(name, default, domain)
+
+    def required_global(
+        self, name: str, kind: type[ValueT], domain: Domain | None = None
+    ) -> ValueT:
+        """Return the value of a global parameter that nobody fixes: `--set` must."""
+        value: ValueT = self._global(name, kind, domain)
+        return value
+
+    def keep(self, holds: bool) -> None:
+        """Demand a relation between values; call it after their declarations.
+
+        If it does not hold, all values that are drawn are drawn anew; after a thousand draws, or
+        if none is drawn, the scenario cannot run.
+        """
+        known = self._source_map.constraints
+        index = self._kept
+        self._kept += 1
+        if not holds:
+            raise _NotKeptError(*(known[index] if index < len(known) else (None, "")))
+
+    @overload
+    def external(self, path: str) -> Callable[..., object]: ...
+    @overload
+    def external(self, path: str, kind: type[AnyT]) -> Callable[..., AnyT]: ...
+    def external(self, path: str, kind: type | None = None) -> Callable[..., Any]:
+        """Return a function of the user, `module.function`, if the settings allow it.
+
+        Raises:
+            SettingsError: If `--allow-external` does not name it.
+        """
+        place = self._source_map.place(self._source_map.fields.get(path))
+        return external_function(path, kind, self.settings.allow_external, place)
+
+    def cover(
+        self, name: str, value: Callable[[], Any] | None = None, **options: Unpack[ItemOptions]
+    ) -> None:
+        """Sample a value at an event, for the coverage of many runs; call it in `declare`.
+
+        Args:
+            name: Name of the item in the trace.
+            value: Gives the value, SI units; left out for a cross of `items`.
+            **options: See `CoverageItem`; without `at` it is sampled at the end.
+        """
+        self._items[name] = CoverageItem(name=name, kind="cover", value=value, **options)
+
+    def record(
+        self, name: str, value: Callable[[], Any] | None = None, **options: Unpack[ItemOptions]
+    ) -> None:
+        """Sample a value at an event, only to look at it; as `cover`."""
+        self._items[name] = CoverageItem(name=name, kind="record", value=value, **options)
+
+    # --- used by `Scenario` ---
+
+    def _declare_values(self, declare: Callable[[], None]) -> None:
+        """Call `declare`, again while constraints between drawn values do not hold.
+
+        Raises:
+            ScenarioError: If they never hold, or a value cannot be computed.
+        """
+        members, shared = set(vars(self)), dict(self._shared)
+        for self._attempt in range(ATTEMPTS):
+            self._kept, self._draws = 0, False
+            try:
+                return declare()
+            except ArithmeticError as error:
+                place = self._source_map.file
+                raise ScenarioError(f"a value cannot be computed: {error}", place) from error
+            except _NotKeptError as broken:
+                if not self._draws or self._attempt == ATTEMPTS - 1:
+                    raise self._error(broken) from None
+            for name in vars(self).keys() - members:
+                del self.__dict__[name]
+            self.parameters.clear()
+            self._shared.clear()
+            self._shared.update(shared)
+
+    def _error(self, broken: _NotKeptError) -> ScenarioError:
+        what = f"`{broken.text}`" if broken.text else "a constraint"
+        words = set(re.findall(r"\w+", broken.text))
+        about = {name: v for name, v in self.parameters.items() if name in words}
+        values = ", ".join(
+            f"{name}={v:.6g}" if isinstance(v, float) else f"{name}={v}"
+            for name, v in (about or self.parameters).items()
+        )
+        tried = f" in {ATTEMPTS} draws" if self._draws else ""
+        help_ = f" (the last values: {values})" if tried else f" ({values})" if values else ""
+        return ScenarioError(
+            f"{what} does not hold{tried}{help_}", self._source_map.place(broken.line)
+        )
+
+    def _own(self, name: str, default: Any, domain: Domain | None) -> Any:
+        path = f"{self._path}.{name}" if self._path else name
+        # Draws of the scenario that runs go in the order of declaration.
+        generator = self._draws_for(f"{self._key}/{name}") if self._path else self._generator
+        given = self._arguments.get(name)
+        value = self._choose(name, path, default, domain, generator, given)
+        self.parameters[name] = self._shared[path] = value
+        return value
+
+    def _global(self, name: str, default: Any, domain: Domain | None) -> Any:
+        if name not in self._shared:
+            generator = self._draws_for(f"global/{name}")
+            self._shared[name] = self._choose(name, name, default, domain, generator, None)
+        return self._shared[name]
+
+    def _choose(
+        self,
+        name: str,
+        path: str,
+        default: Any,
+        domain: Domain | None,
+        generator: random.Random,
+        given: Any,
+    ) -> Any:
+        chosen = self.settings.set
+        is_open = given is None and path not in chosen
+        self._draws |= isinstance(default if is_open else given, Range | Choice)
+        try:
+            return choose(path, default, domain, generator, given=given, settings=chosen)
+        except ScenarioError as error:
+            place = self._source_map.place(self._source_map.fields.get(name))
+            error.source = error.source or place
+            raise
+
+    def _draws_for(self, what: str) -> random.Random:
+        """Return draws that depend on the seed and on what is drawn, not on an order."""
+        again = f"/{self._attempt}" if self._attempt else ""
+        return random.Random(f"{self.settings.seed}/{what}{again}")

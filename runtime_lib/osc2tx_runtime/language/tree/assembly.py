@@ -1,0 +1,134 @@
+"""Completes the tree of a scenario before it runs: names, overrides, variables, placements."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.tree.base import Behaviour, Leaf, Node
+from osc2tx_runtime.language.tree.coverage import Recording
+from osc2tx_runtime.language.tree.ending import End, Ending
+from osc2tx_runtime.language.tree.events import Event
+from osc2tx_runtime.language.tree.invocation import invocations
+from osc2tx_runtime.language.tree.override import Mode, guard
+from osc2tx_runtime.language.tree.parallel import Parallel
+from osc2tx_runtime.language.tree.variables import Sampling
+from osc2tx_runtime.running.settings import near
+from osc2tx_runtime.running.sidecar import apply_nodes, own_nodes
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.placement import Placement
+    from osc2tx_runtime.language.scenario import Scenario
+
+__all__ = ["assemble", "invoked_placements"]
+
+
+def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
+    """Return the tree of a scenario with all that its nodes do not say themselves.
+
+    The trees of the scenarios it invokes are assembled already.
+    """
+    apply_nodes(tree, scenario._source_map)
+    for node in own_nodes(tree):
+        node.scope, node.listeners = scenario._path, scenario.label_events
+    for path, event in scenario._inner_events.items():
+        event.alias = find_event(scenario, path)
+    check_labels(scenario, tree)
+    for overridden, by, mode in scenario._overrides:
+        tree = with_override(scenario, tree, overridden, by, mode)
+    ends = [node for node in own_nodes(tree) if isinstance(node, End)]
+    if ends:
+        tree = around(scenario, tree, Ending(tree, ends))
+    services: list[Leaf] = []
+    if scenario._variables:
+        services.append(Sampling(list(scenario._variables.values())))
+    if scenario._items:
+        services.append(Recording(list(scenario._items.values())))
+    return with_services(scenario, tree, services) if services else tree
+
+
+def check_labels(scenario: Scenario, tree: Behaviour) -> None:
+    """Report a label that somebody waits for and no node has."""
+    known = {node.label for node in own_nodes(tree) if node.label}
+    for label, moment in scenario.label_events:
+        if label not in known:
+            hint = near(label, known)
+            raise ScenarioError(f"@{label}.{moment}: no node has this label{hint}", scenario.source)
+
+
+def find_event(scenario: Scenario, path: str) -> Event:
+    """Return the event a path means: `near`, `cut.end`, or `p1.` before either.
+
+    Raises:
+        ScenarioError: If there is none.
+    """
+    label, _, rest = path.partition(".")
+    if not rest:
+        if label in scenario.events:
+            return scenario.events[label]
+        hint = near(label, scenario.events)
+        raise ScenarioError(f"@{path}: {scenario.name} has no such event{hint}", scenario.source)
+    if rest in ("start", "end", "fail"):
+        return scenario._label_event(label, rest)
+    return find_event(scenario.invoked(label), rest)
+
+
+def find_node(scenario: Scenario, tree: Behaviour, path: str) -> Node:
+    """Return the node with a label, also `p1.cut` in an invoked scenario.
+
+    Raises:
+        ScenarioError: If there is none.
+    """
+    label, _, rest = path.partition(".")
+    by_label = {node.label: node for node in own_nodes(tree) if node.label}
+    if label not in by_label:
+        hint = near(label, by_label)
+        raise ScenarioError(f"override: no node has the label {label}{hint}", scenario.source)
+    node = by_label[label]
+    return find_node(scenario, node.children[0], rest) if rest else node
+
+
+def with_override(
+    scenario: Scenario, tree: Behaviour, overridden: str, by: str, mode: Mode
+) -> Behaviour:
+    """Return the tree with a guard around a behavior that another overrides."""
+    if overridden == by:
+        raise ScenarioError(f"override: {by} cannot override itself", scenario.source)
+    around = guard(find_node(scenario, tree, overridden))
+    around.add(find_node(scenario, tree, by), mode)
+    return tree if around.parent is not None else around
+
+
+def with_services(scenario: Scenario, tree: Behaviour, services: list[Leaf]) -> Behaviour:
+    """Return the tree with the nodes beside it that sample variables and coverage items."""
+    for service in services:
+        service.source, service.scope = getattr(tree, "source", ""), scenario._path
+    return around(scenario, tree, Parallel(f"{tree.name}, with what it samples", tree, *services))
+
+
+def around(scenario: Scenario, tree: Behaviour, whole: Node) -> Node:
+    """Return a node around a tree that the module does not write."""
+    whole.synthetic, whole.label = True, None
+    whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
+    return whole
+
+
+def invoked_placements(scenario: Scenario, tree: Behaviour) -> list[Placement]:
+    """Return the placements of all scenarios that a tree invokes.
+
+    Raises:
+        UnsupportedError: If one of them starts later: nobody can be put anywhere then.
+    """
+    found: list[Placement] = []
+    for invocation, at_once in invocations(tree, scenario.one_of == "race"):
+        placements = invocation.scenario.placements
+        if not at_once:
+            placements = [placement for placement in placements if not placement.throughout]
+        if placements and not at_once:
+            raise UnsupportedError(
+                f"{invocation.name} places {placements[0].actor.id}, but does not start with the"
+                " scenario; place it in the scenario that runs",
+                placements[0].source,
+            )
+        found += placements
+    return found

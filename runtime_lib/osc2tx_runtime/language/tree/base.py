@@ -1,0 +1,230 @@
+"""Bases of all nodes: what py_trees calls a behaviour, ticked without its overhead.
+
+A node's work is `pulse()`: one call per pass that returns the new status. py_trees' generator
+`tick()` is kept for viewers and visitors, but costs every node a pass through all its ancestors;
+`pulse()` calls go straight down the tree.
+
+A node is left in one of three ways, which `stop` tells apart by the status it is given:
+SUCCESS (it ended, by itself or because its open end was reached), FAILURE, INVALID (cut short).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from osc2tx_runtime.errors import ScenarioError
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+    from osc2tx_runtime.language.tree.events import Event
+
+__all__ = ["Activity", "Behaviour", "Leaf", "Node", "Status", "pulse_of"]
+
+RUNNING = Status.RUNNING
+SUCCESS = Status.SUCCESS
+FAILURE = Status.FAILURE
+INVALID = Status.INVALID
+
+
+class Activity:
+    """When a node ran, as other nodes may see it: what happens in a pass shows from the next on."""
+
+    def __init__(self) -> None:
+        self._active = self._was_active = False
+        self._changed = self._started = self._started_before = 0
+
+    def begin(self, tick: int) -> None:
+        """Note a start in pass `tick`."""
+        self._change(True, tick)
+        if self._started != tick:
+            self._started_before, self._started = self._started, tick
+
+    def end(self, tick: int) -> None:
+        """Note an end in pass `tick`."""
+        self._change(False, tick)
+
+    def started_since(self, begin: int, tick: int) -> bool:
+        """Return whether a start from pass `begin` on is visible in pass `tick`."""
+        started = self._started_before if self._started == tick else self._started
+        return 0 < begin <= started < tick
+
+    def is_active(self, tick: int) -> bool:
+        """Return whether the node is seen running in pass `tick`."""
+        return self._was_active if self._changed == tick else self._active
+
+    def _change(self, active: bool, tick: int) -> None:
+        if self._changed != tick:
+            self._was_active, self._changed = self._active, tick
+        self._active = active
+
+
+class Node(Behaviour):
+    """What leaves and compositions share.
+
+    Attributes:
+        source: Place in the scenario, `hello_world.osc:57`; filled from the sidecar map.
+        label: Name that `@label.end` and its like refer to; None without one.
+        open_ended: Never ends by itself; what surrounds it ends it.
+        instant: Takes no time (emit, call, assignments), so it bounds no composition.
+        service: Accompanies the others (on, sampled variables); no interval rule counts it.
+        synthetic: Not written in the module, so the sidecar map does not count it.
+        scope: Path of the nested scenario the node belongs to; empty in the scenario that runs.
+        listeners: (label, `start` | `end` | `fail`) of that scenario to the event waited for.
+        activity: When the node was last active; only kept where an `override` asks.
+        failed_at: Time in seconds of the last failure.
+        context: The run; there from `setup` on.
+    """
+
+    source: str = ""
+    label: str | None = None
+    open_ended: bool = False
+    instant: bool = False
+    service: bool = False
+    synthetic: bool = False
+    scope: str = ""
+    listeners: Mapping[tuple[str, str], Event] | None = None
+    activity: Activity | None = None
+    failed_at: float | None = None
+    context: ExecutionContext
+    _started: Event | None = None
+    _ended: Event | None = None
+    _failed: Event | None = None
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the `context` of the run."""
+        self.context = kwargs["context"]
+        if self.label is not None:
+            events = self.context.label_events if self.listeners is None else self.listeners
+            self._started = events.get((self.label, "start"))
+            self._ended = events.get((self.label, "end"))
+            self._failed = events.get((self.label, "fail"))
+
+    def pulse(self) -> Status:
+        """Do the work of one pass.
+
+        Called again at the same instant it must change nothing, unless an event came.
+        """
+        raise NotImplementedError
+
+    def length(self) -> int | None:
+        """Return how many steps the node will take; None where only the run can tell."""
+        return 0 if self.instant else None
+
+    def situation(self) -> str:
+        """Return what there is to say of a node that is still running; nothing, as a rule."""
+        return ""
+
+    def waits_in_vain(self) -> bool:
+        """Whether it waits, or waited, for a change to what was so already."""
+        return False
+
+    def generator(self, what: str) -> random.Random:
+        """Return a generator of this node's own: the same draws in whatever order nodes start."""
+        scope = f"{self.scope}/" if self.scope else ""
+        return self.context.random_for(f"{scope}{what}/{self.source}")
+
+    def fail(self, reason: str) -> Status:
+        """Return FAILURE and keep the reason for the verdict."""
+        self.feedback_message = reason
+        return FAILURE
+
+    def update(self) -> Status:
+        """Return the status of one pass, as py_trees asks."""
+        return self.pulse()
+
+    def tick_once(self) -> None:
+        """Pulse; py_trees' name for it."""
+        self.pulse()
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Pulse, then yield the nodes that are in use, for the visitors of py_trees."""
+        self.pulse()
+        for node in self.iterate():
+            if node.status is not INVALID:
+                yield node
+
+    def stop(self, new_status: Status = INVALID) -> None:
+        """Leave the node; what runs inside is left first."""
+        if self.status is RUNNING:
+            if new_status is FAILURE:
+                self.failed_at = self.context.time
+            self._stop_children(new_status)
+            self.terminate(new_status)
+            self._post_life_event(new_status)
+            if self.activity is not None:
+                self.activity.end(self.context.tick)
+        elif new_status is INVALID:
+            self._stop_children(new_status)
+        self.status = new_status
+
+    def _stop_children(self, new_status: Status) -> None:
+        """Running children end with an ended parent and are cut short otherwise."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.stop(SUCCESS if new_status is SUCCESS else INVALID)
+            elif new_status is INVALID and child.status is not INVALID:
+                child.stop(INVALID)
+
+    def _begin(self) -> None:
+        """Enter the node. RUNNING from here on, so that a clean-up finds a half-started node."""
+        for child in self.children:
+            if child.status is not INVALID:
+                child.stop(INVALID)
+        self.status = RUNNING
+        self.feedback_message = ""
+        if self._started is not None:
+            self.context.post(self._started)
+        if self.activity is not None:
+            self.activity.begin(self.context.tick)
+            self.context.request_pass()
+        try:
+            self.initialise()
+        except ScenarioError as error:
+            error.source = error.source or self.source or None
+            raise
+
+    def _post_life_event(self, new_status: Status) -> None:
+        event = {SUCCESS: self._ended, FAILURE: self._failed}.get(new_status)
+        if event is not None:
+            self.context.post(event)
+
+
+class Leaf(Node):
+    """A node without members; subclasses write `initialise`, `update` and `terminate`.
+
+    `terminate` is called exactly once for each `initialise`.
+    """
+
+    def update(self) -> Status:
+        """Return the status of this pass."""
+        raise NotImplementedError
+
+    def pulse(self) -> Status:
+        """Start if needed, update, and leave when that is done."""
+        try:
+            if self.status is not RUNNING:
+                self._begin()
+            status = self.update()
+        except ScenarioError as error:
+            error.source = error.source or self.source or None
+            raise
+        if status is not RUNNING:
+            self.stop(status)
+        return status
+
+
+def pulse_of(child: Behaviour) -> Callable[[], Status]:
+    """Return the call that ticks a member: nodes of ours, and any other py_trees behaviour."""
+    if isinstance(child, Node):
+        return child.pulse
+
+    def tick_foreign() -> Status:
+        child.tick_once()
+        return FAILURE if child.status is INVALID else child.status
+
+    return tick_foreign

@@ -1,0 +1,226 @@
+"""The compositions of the language but parallel: serial, one_of, and what all share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from py_trees.common import ParallelPolicy
+from py_trees.composites import Parallel as ParallelComposite
+from py_trees.composites import Sequence as SequenceComposite
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.slots import place_key
+from osc2tx_runtime.language.tree.base import (
+    FAILURE,
+    INVALID,
+    RUNNING,
+    SUCCESS,
+    Behaviour,
+    Node,
+    Status,
+    pulse_of,
+)
+from osc2tx_runtime.language.tree.limits import Duration, Limits
+
+__all__ = ["Composition", "OneOf", "Serial"]
+
+Member = tuple[Behaviour, Callable[[], Status]]
+
+
+class Composition(Node):
+    """What the three compositions share: their members and their duration."""
+
+    _limits: Limits | None = None
+    _members: tuple[Member, ...] = ()
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the context; find out what ends by itself. Members were set up before."""
+        super().setup(**kwargs)
+        self._members = tuple((child, pulse_of(child)) for child in self.children)
+        self._content_open = self._is_open()
+        self.open_ended = self._content_open and self._limits is None
+        self.instant = self._limits is None and all(is_instant(child) for child in self.children)
+
+    def pulse(self) -> Status:
+        """Advance the members, within the duration."""
+        if self.status is not RUNNING:
+            self._begin()
+        limits = self._limits
+        if limits is None:
+            status = self._advance()
+        else:
+            content = SUCCESS if limits.content_ended else self._advance()
+            status = limits.judge(content, self._content_open)
+        if status is not RUNNING:
+            self.stop(status)
+        return status
+
+    @property
+    def limits(self) -> Limits | None:
+        """The duration at work; None without one."""
+        return self._limits
+
+    def initialise(self) -> None:
+        """Start the clock of the duration."""
+        if self._limits is not None:
+            self._limits.begin()
+
+    def _limit(self, duration: Duration | None) -> None:
+        self.label = self.name
+        self._limits = None if duration is None else Limits(self, duration)
+
+    def _is_open(self) -> bool:
+        """Return whether the members never end by themselves."""
+        raise NotImplementedError
+
+    def length(self) -> int | None:
+        """Return how many steps the composition takes, if its members tell."""
+        content = None if self._content_open else self._content_length()
+        return content if self._limits is None else self._limits.length(content, self._content_open)
+
+    def _content_length(self) -> int | None:
+        """Return how many steps the members take."""
+        return None
+
+    def _advance(self) -> Status:
+        """Run the members for one pass."""
+        raise NotImplementedError
+
+
+class Serial(Composition, SequenceComposite):
+    """Members one after another, without a gap.
+
+    Args:
+        name: Label, or what the composition does.
+        *members: In order.
+        duration: Seconds, or (least, most) seconds, that the whole takes.
+    """
+
+    def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
+        super().__init__(name, memory=True, children=members)
+        self._limit(duration)
+        self._index = 0
+
+    def initialise(self) -> None:
+        """Go to the first member."""
+        super().initialise()
+        self._index = 0
+
+    def _is_open(self) -> bool:
+        for child in self.children[:-1]:
+            if is_open(child) and not getattr(child, "may_end", False):
+                raise UnsupportedError(
+                    f"{child.name} never ends by itself, so what follows it would never start;"
+                    " give it a duration or an until",
+                    getattr(child, "source", None) or None,
+                )
+        return bool(self.children) and is_open(self.children[-1])
+
+    def _content_length(self) -> int | None:
+        lengths = [length_of(child) for child in self.children]
+        known = [length for length in lengths if length is not None]
+        return sum(known) if len(known) == len(lengths) else None
+
+    def _advance(self) -> Status:
+        members = self._members
+        while self._index < len(members):
+            self.current_child, pulse = members[self._index]
+            status = pulse()
+            if status is not SUCCESS:
+                return status
+            self._index += 1
+        return SUCCESS
+
+
+class OneOf(Composition, ParallelComposite):
+    """Alternatives: a race by default, or one member chosen before the start.
+
+    In the race all members start, the first to succeed ends it (the order of the source breaks
+    ties), a failing member leaves it, and it fails when all have failed.
+
+    Args:
+        name: Label, or what the composition does.
+        *members: The alternatives.
+        duration: Seconds, or (least, most) seconds, that the whole takes.
+    """
+
+    def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
+        super().__init__(name, policy=ParallelPolicy.SuccessOnOne(), children=members)
+        self._limit(duration)
+        self._active: list[Member] = []
+
+    def setup(self, **kwargs: Any) -> None:
+        """Choose a member if the scenario does not race."""
+        super().setup(**kwargs)
+        if self.context.one_of == "race" or not self._members:
+            return
+        index = 0
+        if self.context.one_of == "seeded":
+            scope = f"{self.scope}/" if self.scope else ""
+            generator = self.context.random_for(f"{scope}one_of/{self.source}/{self.name}")
+            index = generator.randrange(len(self._members))
+        self._members = (self._members[index],)
+        self._content_open = is_open(self._members[0][0])
+        self.open_ended = self._content_open and self._limits is None
+
+    def initialise(self) -> None:
+        """Start the race."""
+        super().initialise()
+        self._active = list(self._members)
+        if self.context.one_of != "race" and self._members:
+            self._note(self._members[0][0])
+
+    def _note(self, chosen: Behaviour) -> None:
+        policy = self.context.one_of
+        self.context.trace.choice(self.name, policy, chosen.name, self.source)
+
+    def _content_length(self) -> int | None:
+        lengths = [length_of(child) for child, _ in self._members if not is_open(child)]
+        known = [length for length in lengths if length is not None]
+        return min(known, default=None) if len(known) == len(lengths) else None
+
+    def _is_open(self) -> bool:
+        return bool(self.children) and all(is_open(child) for child in self.children)
+
+    def _advance(self) -> Status:
+        running: list[Member] = []
+        winners: list[Behaviour] = []
+        for member in self._active:
+            status = member[1]()
+            if status is RUNNING:
+                running.append(member)
+            elif status is SUCCESS:
+                winners.append(member[0])
+        if winners:
+            # The order of the source; where there are no lines, that of the names.
+            winner = min(winners, key=lambda c: place_key(getattr(c, "source", ""), c.name))
+            for child, _ in running:
+                child.stop(INVALID)
+            self._active = []
+            self.current_child = winner
+            if self.context.one_of == "race":
+                self._note(winner)
+            return SUCCESS
+        self._active = running
+        return RUNNING if running else FAILURE
+
+
+def is_open(child: Behaviour) -> bool:
+    """Return whether a member never ends by itself; behaviours that are not ours do."""
+    return isinstance(child, Node) and child.open_ended
+
+
+def is_instant(child: Behaviour) -> bool:
+    """Return whether a member takes no time."""
+    return isinstance(child, Node) and child.instant
+
+
+def is_service(child: Behaviour) -> bool:
+    """Return whether a member only accompanies the others."""
+    return isinstance(child, Node) and child.service
+
+
+def length_of(child: Behaviour) -> int | None:
+    """Return how many steps a member takes, if that is known; behaviours not ours do not say."""
+    return child.length() if isinstance(child, Node) else None

@@ -1,0 +1,185 @@
+"""Conditions on the state of the world and on scenario time.
+
+A condition is sampled once per snapshot: the state of the world is that of the step, and sampled
+variables may change between two passes of an instant (`context.snapshot` counts). It starts with
+its use: `rise` and `fall` take their first sample there, which is no edge; `elapsed` and `every`
+count steps from there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.errors import ScenarioError
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = [
+    "EVALUATION_ERRORS",
+    "Condition",
+    "Edge",
+    "Watch",
+    "elapsed",
+    "evaluate",
+    "every",
+    "fall",
+    "rise",
+    "watch_level",
+]
+
+EVALUATION_ERRORS = (ArithmeticError, LookupError)
+"""What an expression of a scenario raises when it has no value."""
+
+Watch = Callable[[], bool]
+"""Says whether something happened by the present pass."""
+
+
+class Condition:
+    """A condition that has to know when its use started.
+
+    Args:
+        text: A few words for the name of the node.
+        watch: Starts it: takes the context, returns the function to ask.
+        seconds: When it comes true after its start, if that is known.
+    """
+
+    def __init__(
+        self,
+        text: str,
+        watch: Callable[[ExecutionContext], Watch],
+        seconds: float | None = None,
+    ) -> None:
+        self.text = text
+        self.watch = watch
+        self.seconds = seconds
+
+
+def rise(function: Callable[[], bool]) -> Condition:
+    """True at the instant `function` turns from false to true."""
+    return Condition("rise", lambda context: Edge(function, True, context))
+
+
+def fall(function: Callable[[], bool]) -> Condition:
+    """True at the instant `function` turns from true to false."""
+    return Condition("fall", lambda context: Edge(function, False, context))
+
+
+def elapsed(duration: float | Callable[[], float]) -> Condition:
+    """True from `duration` seconds after the start on, in whole steps.
+
+    A duration that depends on the world is a function; it is called at the start.
+    """
+
+    def watch(context: ExecutionContext) -> Watch:
+        seconds = number(duration) if callable(duration) else duration
+        due = context.step + context.steps(seconds)
+        return lambda: context.step >= due
+
+    if callable(duration):
+        return Condition("elapsed", watch)
+    return Condition(f"elapsed {duration:g} s", watch, duration)
+
+
+def every(period: float, offset: float = 0.0) -> Condition:
+    """True at the start and at each multiple of `period` after it, all shifted by `offset`.
+
+    Args:
+        period: Seconds, above zero.
+        offset: Seconds.
+    """
+    if period <= 0:
+        raise ScenarioError(f"every {period:g} s: the period must be above zero")
+
+    def watch(context: ExecutionContext) -> Watch:
+        start = context.step
+
+        def due() -> bool:
+            steps = context.step - start
+            nearest = round((steps * context.dt - offset) / period)
+            return any(
+                context.steps(offset + max(0, number) * period) == steps
+                for number in (nearest - 1, nearest, nearest + 1)
+            )
+
+        return due
+
+    return Condition(f"every {period:g} s", watch)
+
+
+def watch_level(function: Callable[[], bool], context: ExecutionContext) -> Watch:
+    """Watch a function that counts while it is true, sampled once per snapshot."""
+    sampled, value = -1, False
+
+    def happened() -> bool:
+        nonlocal sampled, value
+        if context.snapshot != sampled:
+            sampled, value = context.snapshot, evaluate(function)
+        return value
+
+    return happened
+
+
+class Edge:
+    """Watches for the instant at which a function turns; its first sample is no edge.
+
+    Args:
+        function: The function.
+        target: What it turns to.
+        context: The run.
+
+    Attributes:
+        is_vain: Whether the function had the value at the start already, and has not turned to it
+            since.
+    """
+
+    __slots__ = ("_context", "_edge", "_function", "_sampled", "_target", "_value", "is_vain")
+
+    def __init__(
+        self, function: Callable[[], bool], target: bool, context: ExecutionContext
+    ) -> None:
+        self._function = function
+        self._target = target
+        self._context = context
+        self._sampled = context.snapshot
+        self._value = evaluate(function)
+        self._edge = False
+        self.is_vain = self._value is target
+
+    def __call__(self) -> bool:
+        """Return whether the function turns in the present snapshot."""
+        if self._context.snapshot != self._sampled:
+            before, self._value = self._value, evaluate(self._function)
+            self._sampled = self._context.snapshot
+            self._edge = self._value is self._target and before is not self._target
+            self.is_vain = self.is_vain and not self._edge
+        return self._edge
+
+
+def number(function: Callable[[], float]) -> float:
+    """Return the seconds that a function of the scenario gives.
+
+    Raises:
+        ScenarioError: If it has no value, or none that is finite.
+    """
+    try:
+        seconds = float(function())
+    except EVALUATION_ERRORS as error:
+        raise ScenarioError(f"the time has no value: {error}") from error
+    if not math.isfinite(seconds):
+        raise ScenarioError(f"a time of {seconds} s never comes")
+    return seconds
+
+
+def evaluate(function: Callable[[], bool]) -> bool:
+    """Return the truth of a function of the scenario.
+
+    Raises:
+        ScenarioError: If it has no value, as in a division by zero or an index out of range.
+    """
+    try:
+        return bool(function())
+    except EVALUATION_ERRORS as error:
+        raise ScenarioError(f"the condition has no value: {error}") from error

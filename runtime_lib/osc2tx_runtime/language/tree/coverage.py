@@ -1,0 +1,183 @@
+"""Coverage and recording (§7.5): values that are sampled at an event and written to the trace."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Literal, TypedDict
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
+from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
+from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
+
+__all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording", "Unit"]
+
+Moment = Event | Literal["start", "end"]
+"""When an item is sampled: at an event, or at the start or end of the scenario."""
+
+
+class ItemOptions(TypedDict, total=False):
+    """The options of `cover` and `record`; see `CoverageItem`."""
+
+    items: tuple[str, ...]
+    unit: Unit
+    within: tuple[float, float]
+    every: float
+    buckets: tuple[float, ...]
+    at: Moment
+    ignore: Callable[[Any], bool]
+    illegal: Callable[[Any], bool]
+    target: int
+    text: str
+
+
+ROUNDING = 1e-9  # of a slice: a value this close below a boundary lies on it
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """The unit in which an item is counted: `si = value * factor + offset`."""
+
+    name: str
+    factor: float
+    offset: float = 0.0
+
+    def of(self, si: float) -> float:
+        """Return a value in SI in this unit."""
+        return (si - self.offset) / self.factor
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CoverageItem:
+    """What `cover` or `record` declares.
+
+    Attributes:
+        name: Its name, in a nested scenario with the path before it.
+        kind: `cover` or `record`.
+        value: Gives the value, in SI; None for a cross of other items.
+        items: The names of those.
+        unit: In which value, range and slices are counted.
+        within: Values of interest.
+        every: Width of a slice.
+        buckets: Boundaries between slices.
+        at: When it is sampled.
+        ignore: Which values do not count.
+        illegal: Which values must not be.
+        target: How often each slice should be hit.
+        text: What it is about.
+    """
+
+    name: str
+    kind: str
+    value: Callable[[], Any] | None = None
+    items: tuple[str, ...] = ()
+    unit: Unit | None = None
+    within: tuple[float, float] | None = None
+    every: float | None = None
+    buckets: tuple[float, ...] = ()
+    at: Moment = "end"
+    ignore: Callable[[Any], bool] | None = None
+    illegal: Callable[[Any], bool] | None = None
+    target: int | None = None
+    text: str = ""
+
+    def bucket_of(self, value: Any) -> tuple[float, float] | None:
+        """Return the slice that a number in the item's unit lies in; None outside of all."""
+        if isinstance(value, bool | str):
+            return None
+        if self.buckets:
+            return _between(value, self.buckets)
+        if self.within is not None and not self.within[0] <= value <= self.within[1]:
+            return None
+        if self.every is None:
+            return self.within
+        start, end = self.within or (0.0, math.inf)
+        low = start + math.floor((value - start) / self.every + ROUNDING) * self.every
+        if low >= end:  # the last slice holds its upper bound
+            low = start + (math.ceil((end - start) / self.every) - 1) * self.every
+        return low, min(low + self.every, end)
+
+
+def _between(value: float, boundaries: Sequence[float]) -> tuple[float, float] | None:
+    last = len(boundaries) - 2
+    for index, (low, high) in enumerate(pairwise(boundaries)):
+        if low <= value < high or (index == last and value == high):
+            return low, high
+    return None
+
+
+class Recording(Leaf):
+    """Samples the items of a scenario for as long as that runs, and at its end."""
+
+    open_ended = True
+    service = True
+    synthetic = True
+
+    def __init__(self, items: Sequence[CoverageItem]) -> None:
+        super().__init__("record " + ", ".join(item.name for item in items))
+        self._items = {item.name: item for item in items}
+        self._watches: list[tuple[CoverageItem, Watch]] = []
+        self._step: dict[str, int] = {}
+
+    def initialise(self) -> None:
+        """Sample what the start samples, and start watching."""
+        self._watches, self._step = [], {}
+        for item in self._items.values():
+            if isinstance(item.at, Event):
+                self._watches.append((item, watch(item.at, None, self.context)))
+            elif item.at == "start":
+                self._record(item)
+
+    def update(self) -> Status:
+        """Sample what is due."""
+        for item, happened in self._watches:
+            if happened() and (
+                isinstance(happened, Occurrences)
+                or self._step.get(item.name) != self.context.step  # true in all passes
+            ):
+                self._step[item.name] = self.context.step
+                self._record(item)
+        return RUNNING
+
+    def terminate(self, new_status: Status) -> None:
+        """Sample what the end of the scenario samples; one that is cut short has no end."""
+        if new_status is SUCCESS:
+            for item in self._items.values():
+                if item.at == "end":
+                    self._record(item)
+
+    def _record(self, item: CoverageItem) -> None:
+        parts = [self._items[name] for name in item.items] or [item]
+        values = [self._value(part) for part in parts]
+        if any(part.ignore and part.ignore(v) for part, v in zip(parts, values, strict=True)):
+            return
+        shown = [
+            value if part.unit is None or isinstance(value, bool | str) else part.unit.of(value)
+            for part, value in zip(parts, values, strict=True)
+        ]
+        slices = [part.bucket_of(value) for part, value in zip(parts, shown, strict=True)]
+        is_cross = bool(item.items)
+        name = f"{self.scope}.{item.name}" if self.scope else item.name
+        line: dict[str, Any] = {"name": name}
+        line["value"] = dict(zip(item.items, shown, strict=True)) if is_cross else shown[0]
+        if item.unit is not None:
+            line["unit"] = item.unit.name
+        if any(part.buckets or part.every or part.within for part in parts):
+            line["bucket"] = slices if is_cross else slices[0]
+        if any(part.illegal and part.illegal(v) for part, v in zip(parts, values, strict=True)):
+            line["illegal"] = True
+        if item.target is not None:
+            line["target"] = item.target
+        if item.text:
+            line["text"] = item.text
+        self.context.trace.sampled(item.kind, line)
+
+    def _value(self, item: CoverageItem) -> Any:
+        assert item.value is not None, item.name
+        try:
+            return item.value()
+        except EVALUATION_ERRORS as error:
+            raise ScenarioError(f"{item.name} has no value: {error}", self.source) from error

@@ -1,0 +1,205 @@
+"""The directives of the language: wait, emit, call, until."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from py_trees.decorators import Decorator
+
+from osc2tx_runtime.errors import USER_CODE_ERRORS, ScenarioError
+from osc2tx_runtime.language.tree.base import (
+    RUNNING,
+    SUCCESS,
+    Behaviour,
+    Leaf,
+    Node,
+    Status,
+    pulse_of,
+)
+from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Condition, Edge, Watch
+from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, watch
+
+__all__ = ["Call", "Emit", "Until", "Wait"]
+
+
+class Wait(Leaf):
+    """Waits for an event or a condition, from its start on.
+
+    Args:
+        trigger: An event, a condition (`rise`, `fall`, `elapsed`, `every`) or a boolean function.
+        condition: With an event: only an occurrence at which this is true counts.
+        label: Name for `@label.end` and its like.
+    """
+
+    def __init__(
+        self,
+        trigger: Trigger,
+        condition: Guard | None = None,
+        *,
+        label: str | None = None,
+    ) -> None:
+        super().__init__(f"wait {describe(trigger)}")
+        self.trigger = trigger
+        self.condition = condition
+        self.label = label
+        self._happened: Watch = lambda: False
+
+    def initialise(self) -> None:
+        """Start watching."""
+        self._happened = watch(self.trigger, self.condition, self.context)
+
+    def length(self) -> int | None:
+        """Return the steps of `elapsed`; every other trigger comes when it comes."""
+        trigger, condition = self.trigger, self.condition
+        if condition is None and isinstance(trigger, Condition) and trigger.seconds is not None:
+            return self.context.steps(trigger.seconds)
+        return None
+
+    def waits_in_vain(self) -> bool:
+        """Whether it waits for an edge to what was so already."""
+        return isinstance(self._happened, Edge) and self._happened.is_vain
+
+    def update(self) -> Status:
+        """Succeed when it happened."""
+        return SUCCESS if self._happened() else RUNNING
+
+
+class Emit(Leaf):
+    """Lets an event occur; ends in the next pass, when others see it too.
+
+    Args:
+        event: The event.
+        **arguments: Of the event; functions are called when the event is emitted. Parameters
+            that are not given have their defaults.
+    """
+
+    instant = True
+
+    def __init__(self, event: Event, /, **arguments: Any) -> None:
+        super().__init__(f"emit {event.name or 'event'}")
+        self.event = event
+        self.arguments = arguments
+        self._posted = 0
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the context; check the names of the arguments."""
+        super().setup(**kwargs)
+        problem = self.event.problem(self.arguments)
+        if problem:
+            raise ScenarioError(problem, self.source or None)
+
+    def initialise(self) -> None:
+        """Post the event.
+
+        Raises:
+            ScenarioError: If the arithmetic of an argument fails.
+        """
+        try:
+            values = self.event.complete(self.arguments)
+        except EVALUATION_ERRORS as error:
+            raise ScenarioError(f"an argument of {self.name} has no value: {error}") from error
+        self.context.post(self.event, values)
+        self._posted = self.context.tick
+
+    def update(self) -> Status:
+        """Succeed once the event is visible."""
+        return SUCCESS if self.context.tick > self._posted else RUNNING
+
+
+class Call(Leaf):
+    """Calls a function once, in no time; it must not change what other nodes read.
+
+    Args:
+        function: What to call; with arguments: `Call(lambda: note(self.ego.speed))`.
+        label: Name for `@label.end` and its like.
+    """
+
+    instant = True
+
+    def __init__(self, function: Callable[[], object], *, label: str | None = None) -> None:
+        super().__init__(
+            f"call {getattr(function, '__name__', 'function')}".replace(" <lambda>", "")
+        )
+        self.function = function
+        self.label = label
+
+    def initialise(self) -> None:
+        """Call it.
+
+        Raises:
+            ScenarioError: If it raises something itself: it may be the user's own code.
+        """
+        try:
+            self.function()
+        except USER_CODE_ERRORS as error:
+            raise ScenarioError(f"{self.name}: {type(error).__name__}: {error}") from error
+
+    def update(self) -> Status:
+        """Succeed at once."""
+        return SUCCESS
+
+
+class Until(Node, Decorator):
+    """Ends a behavior at the first of several events or conditions, with success.
+
+    The conditions are asked before the behavior in every pass, from the start of the behavior on.
+    A behavior that ends earlier ends this node with its own result.
+
+    Args:
+        behavior: What runs.
+        *conditions: What ends it; for `@e if c` write `Event(self.e, lambda: c)`.
+        label: Name for `@label.end` and its like.
+    """
+
+    def __init__(self, behavior: Behaviour, *conditions: Trigger, label: str | None = None) -> None:
+        if not conditions:
+            raise ValueError("Until needs something that ends the behavior")
+        super().__init__(
+            name=f"until {' or '.join(describe(condition) for condition in conditions)}",
+            child=behavior,
+        )
+        self.conditions = conditions
+        self.label = label
+        self._happened: list[Watch] = []
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the context; find out how to tick the behavior."""
+        super().setup(**kwargs)
+        self._pulse_child = pulse_of(self.decorated)
+
+    def length(self) -> int | None:
+        """Return the steps until the first known end, if nothing else can end it."""
+        known = [c.seconds if isinstance(c, Condition) else None for c in self.conditions]
+        lengths = [None if seconds is None else self.context.steps(seconds) for seconds in known]
+        child = self.decorated
+        if not (isinstance(child, Node) and child.open_ended):
+            lengths.append(child.length() if isinstance(child, Node) else None)
+        found = [length for length in lengths if length is not None]
+        return min(found) if len(found) == len(lengths) else None
+
+    def initialise(self) -> None:
+        """Start watching."""
+        self._happened = [watch(condition, None, self.context) for condition in self.conditions]
+
+    def waits_in_vain(self) -> bool:
+        """Whether all that ends it are edges to what was so already."""
+        edges = [isinstance(watch, Edge) and watch.is_vain for watch in self._happened]
+        return bool(edges) and all(edges)
+
+    def pulse(self) -> Status:
+        """Ask the conditions, then run the behavior."""
+        if self.status is not RUNNING:
+            self._begin()
+        status = SUCCESS if self._is_over() else self._pulse_child()
+        if status is not RUNNING:
+            self.stop(status)
+        return status
+
+    def _is_over(self) -> bool:
+        try:
+            # A list, not a generator: every condition is sampled in every step.
+            return any([happened() for happened in self._happened])
+        except ScenarioError as error:
+            error.source = error.source or self.source or None
+            raise

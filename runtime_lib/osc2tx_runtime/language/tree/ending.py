@@ -1,0 +1,81 @@
+"""`emit end` and `emit fail`: a scenario that says itself that it is over (§7.3.13)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from py_trees.decorators import Decorator
+
+from osc2tx_runtime.language.tree.base import (
+    FAILURE,
+    RUNNING,
+    SUCCESS,
+    Behaviour,
+    Leaf,
+    Node,
+    Status,
+    pulse_of,
+)
+
+__all__ = ["End", "Ending", "Fail"]
+
+
+class End(Leaf):
+    """Ends the scenario with success at this instant, whatever else runs.
+
+    Args:
+        label: Name for `@label.start`.
+    """
+
+    instant = True
+
+    def __init__(self, *, label: str | None = None) -> None:
+        super().__init__("end of the scenario")
+        self.label = label
+
+    def update(self) -> Status:
+        """Stay: the scenario ends around it."""
+        return RUNNING
+
+
+class Fail(End):
+    """Ends the scenario with failure at this instant."""
+
+
+class Ending(Node, Decorator):
+    """Stands around the tree of a scenario that ends itself.
+
+    Args:
+        behavior: The tree.
+        ends: The nodes in it that end the scenario.
+    """
+
+    synthetic = True
+
+    def __init__(self, behavior: Behaviour, ends: Sequence[End]) -> None:
+        super().__init__(name=behavior.name, child=behavior)
+        self._ends = sorted(ends, key=lambda end: end.name)
+
+    def setup(self, **kwargs: object) -> None:
+        """Take the context; find out how to tick the tree."""
+        super().setup(**kwargs)
+        self._pulse_child = pulse_of(self.decorated)
+
+    def length(self) -> int | None:
+        """Return nothing: only the run can tell."""
+        return None
+
+    def pulse(self) -> Status:
+        """Run the tree, then see whether it said that it is over; failures count first."""
+        if self.status is not RUNNING:
+            self._begin()
+        status = self._pulse_child()
+        reached = [end for end in self._ends if end.status is RUNNING]
+        failed = [end for end in reached if isinstance(end, Fail)]
+        if status is not FAILURE and failed:
+            status = self.fail(f"{failed[0].name} ({failed[0].source})")
+        elif status is not FAILURE and reached:
+            status = SUCCESS
+        if status is not RUNNING:
+            self.stop(status)
+        return status

@@ -1,0 +1,210 @@
+"""Events, and how a node watches for one.
+
+Time within an instant is the context's pass counter `tick`: an occurrence is stamped with the
+pass in which it becomes visible, a watch with the pass in which it starts, and the watch sees
+occurrences with a later stamp. So a wait beside an emit sees it wherever it stands, and a wait
+that starts after an emit does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.conditions import Condition, Watch, evaluate, watch_level
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["Event", "Guard", "Trigger", "describe", "watch"]
+
+
+class Event:
+    """A declared event.
+
+    Args:
+        trigger: Its specification: another event, a condition or a boolean function. It is
+            watched where the event is used, from the start of that use on.
+        only_if: The event occurs only if this is true as well, at the same instant.
+        parameters: Names of its parameters to their defaults: a value, a function that is called
+            when the event is emitted without the parameter, or None where it must be given.
+
+    In a condition, a reaction or a sample that the event sets off, `event["x"]` is the value of
+    the parameter `x` of that occurrence.
+
+    Attributes:
+        name: Name in trace and settings; the scenario fills in the attribute's name.
+        arguments: Of the occurrence that a condition is being asked about.
+        alias: The event this one stands for, where that is in an invoked scenario.
+    """
+
+    def __init__(
+        self,
+        trigger: Trigger | None = None,
+        only_if: Guard | None = None,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.name = ""
+        self.trigger = trigger
+        self.only_if = only_if
+        self.parameters = parameters
+        self.arguments: Mapping[str, Any] = {}
+        self.alias: Event | None = None
+        self.occurred = 0
+        self.occurrences: list[Mapping[str, Any]] = []
+
+    def __repr__(self) -> str:
+        return f"Event({self.name!r})"
+
+    def __getitem__(self, parameter: str) -> Any:
+        event = self.meant()
+        if parameter not in event.arguments:
+            raise ScenarioError(f"event {event.name} has no value {parameter} here")
+        return event.arguments[parameter]
+
+    def meant(self) -> Event:
+        """Return the event itself, or the one it stands for."""
+        return self if self.alias is None else self.alias.meant()
+
+    def problem(self, given: Iterable[str]) -> str:
+        """Return what is wrong with the names of arguments; nothing for an undeclared list."""
+        if self.parameters is None:
+            return ""
+        names = list(given)
+        unknown = [name for name in names if name not in self.parameters]
+        if unknown:
+            return f"event {self.name} has no parameter {', '.join(unknown)}"
+        missing = [n for n, default in self.parameters.items() if default is None if n not in names]
+        return f"event {self.name} needs {', '.join(missing)}" if missing else ""
+
+    def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return all arguments of an occurrence; functions are called now."""
+        both = {**(self.parameters or {}), **given}
+        return {name: value() if callable(value) else value for name, value in both.items()}
+
+    def reset(self) -> None:
+        """Forget all occurrences."""
+        self.occurred = 0
+        self.occurrences = []
+
+    def occur(self, tick: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
+        """Become visible in pass `tick`; equal occurrences of one instant are one."""
+        self.occurred = tick
+        distinct = {argument_key(arguments): arguments for arguments in occurrences}
+        self.occurrences = [distinct[key] for key in sorted(distinct)]
+
+
+Trigger = Event | Condition | Callable[[], bool]
+"""What one can wait for: an event, a condition object, a boolean function (while true)."""
+
+Guard = Condition | Callable[[], bool]
+"""What has to be true at an occurrence of an event for it to count."""
+
+
+def argument_key(arguments: Mapping[str, Any]) -> str:
+    """Return a text that orders occurrences alike in every run."""
+    return repr([(name, stable(arguments[name])) for name in sorted(arguments)])
+
+
+def stable(value: Any) -> Any:
+    """Return an actor's id for an actor, and any other value as it is."""
+    return getattr(value, "id", value)
+
+
+def watch(trigger: Trigger, only_if: Guard | None, context: ExecutionContext) -> Watch:
+    """Start watching: returns a function that says whether it happened by the present pass."""
+    if isinstance(trigger, Event):
+        return watch_event(trigger.meant(), only_if, context)
+    happened = trigger.watch(context) if isinstance(trigger, Condition) else None
+    if happened is None:
+        happened = watch_level(trigger, context)  # type: ignore[arg-type]
+    if only_if is None:
+        return happened
+    first, second = happened, watch_guard(only_if, context)
+    return lambda: all([first(), second()])  # both are asked in every step
+
+
+def watch_guard(guard: Guard, context: ExecutionContext) -> Watch:
+    """Start watching a guard; a function is sampled anew in each snapshot."""
+    if isinstance(guard, Condition):
+        return guard.watch(context)
+    return watch_level(guard, context)
+
+
+def watch_event(event: Event, only_if: Guard | None, context: ExecutionContext) -> Watch:
+    """Watch the occurrences of an event, and its specification if it has one."""
+    emitted = Occurrences(event, only_if, context)
+    if event.trigger is None:
+        return emitted
+    specified = watch(event.trigger, event.only_if, context)
+
+    def happened() -> bool:
+        # Both are asked: edges must be sampled in every step, occurrences used up.
+        came, came_true = emitted(), specified()
+        if came_true and not came and emitted.is_allowed():
+            if event.name:
+                context.trace.event(event.name)
+            return True
+        return came
+
+    return happened
+
+
+class Occurrences:
+    """Watches what is posted: by emit, by a label, from outside. Each occurrence counts once.
+
+    Attributes:
+        matching: Arguments of the occurrences when it was last true, in canonical order.
+    """
+
+    __slots__ = ("_context", "_function", "_holds", "_seen", "event", "matching")
+
+    def __init__(self, event: Event, only_if: Guard | None, context: ExecutionContext) -> None:
+        self.event = event
+        self.matching: list[Mapping[str, Any]] = []
+        self._holds: Watch | None = None
+        self._function: Callable[[], bool] | None = None
+        if isinstance(only_if, Condition):
+            self._holds = only_if.watch(context)
+        else:
+            self._function = only_if
+        self._context = context
+        self._seen = context.tick
+
+    def is_allowed(self) -> bool:
+        """Return whether the guard is true now, for the arguments that the event has."""
+        if self._holds is not None:
+            return self._holds()
+        return self._function is None or evaluate(self._function)
+
+    def __call__(self) -> bool:
+        """Return whether the event occurred since it was last asked."""
+        event = self.event
+        if self._holds is not None:
+            self._holds()  # sampled in every pass, so that an edge is one since the step before
+        if event.occurred <= self._seen:
+            return False
+        self._seen = event.occurred
+        if self._holds is None and self._function is None:
+            self.matching = event.occurrences
+            return True
+        self.matching = []
+        if event.occurred != self._context.tick:
+            return False
+        for arguments in event.occurrences:
+            event.arguments = arguments
+            if self.is_allowed():
+                self.matching.append(arguments)
+        return bool(self.matching)
+
+
+def describe(trigger: Trigger) -> str:
+    """Return a few words for a trigger, where no sidecar map has better ones."""
+    if isinstance(trigger, Event):
+        trigger = trigger.meant()
+        if trigger.name or trigger.trigger is None:
+            return f"@{trigger.name or 'event'}"
+        return describe(trigger.trigger)
+    return trigger.text if isinstance(trigger, Condition) else "condition"

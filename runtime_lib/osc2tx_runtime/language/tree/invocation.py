@@ -1,0 +1,133 @@
+"""The invocation of a scenario by another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.domain.actors import Actor, Environment, Map
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.base import Behaviour, Node
+from osc2tx_runtime.language.tree.compositions import OneOf, Serial
+from osc2tx_runtime.language.tree.limits import Duration
+from osc2tx_runtime.language.tree.parallel import Parallel
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.scenario import Scenario
+
+__all__ = ["Caller", "Invocation", "check_recursion", "invocations", "unique_name"]
+
+ONE_PER_RUN = (Map, Environment)
+
+
+class Invocation(Serial):
+    """Runs the tree of an invoked scenario; one node of the caller's tree.
+
+    What is below belongs to the invoked scenario: its places, labels and events.
+
+    Args:
+        name: Label, or actor and scenario.
+        scenario: The invoked scenario.
+        body: Its tree.
+        duration: Seconds, or (least, most) seconds, that it takes.
+    """
+
+    def __init__(
+        self, name: str, scenario: Scenario, body: Behaviour, duration: Duration | None = None
+    ) -> None:
+        super().__init__(name, body, duration=duration)
+        self.scenario = scenario
+
+
+@dataclass(frozen=True, slots=True)
+class Caller:
+    """Who invokes a scenario, and how.
+
+    Attributes:
+        scenario: The scenario that invokes.
+        path: Path of the invocation: the labels from the scenario that runs down to it.
+        key: Names its draws from the seed.
+        arguments: As given.
+    """
+
+    scenario: Scenario
+    path: str
+    key: str
+    arguments: Mapping[str, Any]
+
+    def cast(self, name: str, declared: Actor) -> Actor:
+        """Return the actor handed in for a declared one; what there is one of is shared.
+
+        Raises:
+            ScenarioError: If an actor of another kind was handed in.
+        """
+        given = self.arguments.get(name)
+        if given is None:
+            if isinstance(declared, ONE_PER_RUN):
+                actors = self.scenario._root.actors.values()
+                return next((actor for actor in actors if type(actor) is type(declared)), declared)
+            return declared
+        if not isinstance(given, type(declared)):
+            what = given.kinds[0] if isinstance(given, Actor) else repr(given)
+            raise ScenarioError(
+                f"{self.path}: {name} must be a {declared.kinds[0]}, not {what}",
+                self.scenario.source,
+            )
+        return given
+
+
+def check_recursion(scenario: Scenario, invoked: type[Scenario]) -> None:
+    """Refuse a scenario that invokes itself, directly or through others.
+
+    Raises:
+        ScenarioError: If it does.
+    """
+    chain = [scenario]
+    while chain[-1]._caller is not None:
+        chain.append(chain[-1]._caller.scenario)
+    if any(type(one) is invoked for one in chain):
+        names = [one.name for one in reversed(chain)] + [invoked.name]
+        raise ScenarioError(f"scenarios invoke themselves: {' -> '.join(names)}", scenario.source)
+
+
+def unique_name(name: str, taken: Mapping[str, object]) -> str:
+    """Return `name`, or `name_2` and so on where that is taken."""
+    number, found = 1, name
+    while found in taken:
+        number += 1
+        found = f"{name}_{number}"
+    return found
+
+
+def invocations(
+    node: Behaviour, race: bool, at_once: bool = True
+) -> Iterator[tuple[Invocation, bool]]:
+    """Yield the invocations in a tree, and whether they surely start with it.
+
+    Args:
+        node: Root of the tree.
+        race: All members of a `one_of` start.
+        at_once: The root does.
+    """
+    if isinstance(node, Invocation):
+        yield node, at_once
+    for child, first in zip(node.children, starts_at_once(node, race), strict=True):
+        yield from invocations(child, race, at_once and first)
+
+
+def starts_at_once(node: Behaviour, race: bool) -> list[bool]:
+    """Return for each member whether it surely starts with the composition."""
+    members = node.children
+    if isinstance(node, Serial):
+        instant = [isinstance(child, Node) and child.instant for child in members]
+        return [all(instant[:index]) for index in range(len(members))]
+    if isinstance(node, Parallel):
+        if node.overlap in ("end", "final") or node.end_to_end is not None:
+            return [False] * len(members)
+        offset = node.start_to_start
+        low = offset[0] if isinstance(offset, tuple) else offset or 0.0
+        return [low == 0 or (low > 0 and index == 0) for index in range(len(members))]
+    if isinstance(node, OneOf):
+        return [race] * len(members)
+    return [len(members) == 1] * len(members)

@@ -1,0 +1,110 @@
+"""The directive `on`: reacts for as long as the behavior beside it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from py_trees.composites import Sequence
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Node, Status, pulse_of
+from osc2tx_runtime.language.tree.conditions import Watch
+from osc2tx_runtime.language.tree.events import (
+    Event,
+    Guard,
+    Occurrences,
+    Trigger,
+    argument_key,
+    describe,
+    watch,
+)
+
+__all__ = ["On"]
+
+NOTHING: Mapping[str, Any] = {}
+
+
+class On(Node, Sequence):
+    """Reacts whenever something happens, for as long as the composition around it runs.
+
+    Stands beside the behavior in a `Parallel`, which it does not keep from ending. At one instant
+    it reacts once to each event, however often that is emitted; events with other arguments are
+    other events, and come one after the other.
+
+    Args:
+        trigger: An event, a condition or a boolean function (once per step while it is true).
+        *reactions: `Emit` and `Call`, in order.
+        condition: With an event: only an occurrence at which this is true counts.
+    """
+
+    open_ended = True
+    service = True
+
+    def __init__(
+        self,
+        trigger: Trigger,
+        *reactions: Behaviour,
+        condition: Guard | None = None,
+    ) -> None:
+        super().__init__(f"on {describe(trigger)}", memory=True, children=reactions)
+        self.trigger = trigger
+        self.condition = condition
+        self._happened: Watch = lambda: False
+        self._pulses: list[Callable[[], Status]] = []
+        self._next = 0  # reaction that comes next
+        self._queue: list[Mapping[str, Any]] = []  # occurrences to react to, the present one first
+        self._step = -1
+        self._heard: set[str] = set()  # what it reacted to in this step
+
+    def setup(self, **kwargs: Any) -> None:
+        """Take the context; find out how to tick the reactions."""
+        super().setup(**kwargs)
+        self._pulses = [pulse_of(reaction) for reaction in self.children]
+
+    def initialise(self) -> None:
+        """Start watching."""
+        self._happened = watch(self.trigger, self.condition, self.context)
+        self._next, self._queue, self._step = 0, [], -1
+
+    def pulse(self) -> Status:
+        """React if it happened."""
+        if self.status is not RUNNING:
+            self._begin()
+        try:
+            if self._happened():  # asked in every pass: what comes in between is used up
+                self._hear()
+            status = self._react()
+        except ScenarioError as error:
+            error.source = error.source or self.source or None
+            raise
+        if status is not RUNNING:
+            self.stop(status)
+        return status
+
+    def _hear(self) -> None:
+        """Queue what was not reacted to in this step."""
+        if self._step != self.context.step:
+            self._step, self._heard = self.context.step, set()
+        watched = self._happened
+        matching = watched.matching if isinstance(watched, Occurrences) else [NOTHING]
+        for arguments in matching:
+            key = argument_key(arguments)
+            if key not in self._heard:
+                self._heard.add(key)
+                self._queue.append(arguments)
+
+    def _react(self) -> Status:
+        """Advance the reactions: RUNNING, or the failure of one."""
+        while self._queue:
+            if self._next == len(self._pulses):
+                self._next = 0
+                self._queue.pop(0)
+                continue
+            if isinstance(self.trigger, Event):  # others look at other occurrences meanwhile
+                self.trigger.meant().arguments = self._queue[0]
+            status = self._pulses[self._next]()
+            if status is not SUCCESS:
+                return status
+            self._next += 1
+        return RUNNING

@@ -1,0 +1,180 @@
+"""The parallel composition, with its overlaps and offsets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from py_trees.common import ParallelPolicy
+from py_trees.composites import Parallel as ParallelComposite
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.slots import place_key
+from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Behaviour, Status
+from osc2tx_runtime.language.tree.compositions import (
+    Composition,
+    Member,
+    is_instant,
+    is_open,
+    is_service,
+    length_of,
+)
+from osc2tx_runtime.language.tree.limits import Duration
+from osc2tx_runtime.language.tree.overlap import Course
+from osc2tx_runtime.language.tree.schedule import (
+    Overlap,
+    Part,
+    Schedule,
+    Span,
+    Unplannable,
+    make_schedule,
+    spans_of,
+)
+
+__all__ = ["Parallel"]
+
+
+class Parallel(Composition, ParallelComposite):
+    """Members at the same time; ends when the last bounded member has ended.
+
+    Bounded are members that end by themselves and take time. Open-ended members end with the
+    last bounded one; without a bounded one they run on. A failing member fails the whole.
+
+    Other overlaps than `start` bound the starts and ends of the other members relative to those
+    of the first, the primary one; see `schedule`. The order of the others has no influence.
+
+    Args:
+        name: Label, or what the composition does.
+        *members: In the order of the source.
+        overlap: How they lie in time; None is `start`, or `any` with a `start_to_start`.
+        duration: Seconds, or (least, most) seconds, that the whole takes.
+        start_to_start: Seconds, or (least, most) seconds, from the start of the first member to
+            that of each other.
+        end_to_end: The same for the ends.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *members: Behaviour,
+        overlap: Overlap | None = None,
+        duration: Duration | None = None,
+        start_to_start: Duration | None = None,
+        end_to_end: Duration | None = None,
+    ) -> None:
+        policy = ParallelPolicy.SuccessOnAll(synchronise=True)
+        super().__init__(name, policy=policy, children=members)
+        self._limit(duration)
+        self.overlap: Overlap = overlap or ("start" if start_to_start is None else "any")
+        self.start_to_start = start_to_start
+        self.end_to_end = end_to_end
+        self._active: list[Member] = []
+        self._bounding: frozenset[Behaviour] = frozenset()
+        self._left = 0
+        self._schedule: Schedule | None = None
+        self._course: Course | None = None
+
+    def setup(self, **kwargs: Any) -> None:
+        """Plan the members, and find those that bound the composition."""
+        super().setup(**kwargs)
+        self._bounding = frozenset(child for child in self._lasting() if not is_open(child))
+        if self.overlap != "start" or self.start_to_start or self.end_to_end is not None:
+            self._schedule = self._plan()
+
+    def initialise(self) -> None:
+        """Start with all members, or as planned."""
+        super().initialise()
+        self._active = list(self._members)
+        self._left = len(self._bounding)
+        if self._schedule is not None:
+            lasting = set(self._lasting())
+            self._active = [member for member in self._members if member[0] not in lasting]
+            timed = [member for member in self._members if member[0] in lasting]
+            self._course = Course(self, timed, self._schedule, f"overlap {self.overlap}")
+
+    def _lasting(self) -> list[Behaviour]:
+        """Return the members the rules of time apply to; zero-time ones and `on` are none."""
+        return [c for c in self.children if not is_instant(c) and not is_service(c)]
+
+    def _plan(self) -> Schedule | None:
+        lasting = self._lasting()
+        if len(lasting) < 2:
+            return None
+        # The order of the secondaries only matters for which of several mistakes is reported.
+        others = sorted(lasting[1:], key=lambda c: place_key(getattr(c, "source", ""), c.name))
+        nodes = [lasting[0], *others]
+        parts = [Part(node.name, length_of(node), is_open(node)) for node in nodes]
+        least = 0 if self._limits is None else self._limits.least
+        try:
+            sts, ete = spans_of(
+                self.overlap, self._span(self.start_to_start), self._span(self.end_to_end)
+            )
+            plan = make_schedule(parts, sts, ete, least)
+        except Unplannable as problem:
+            raise UnsupportedError(
+                f"parallel({self._arguments()}) cannot be scheduled: {problem}",
+                self.source or None,
+            ) from None
+        start_of = dict(zip(nodes, plan.starts, strict=True))
+        starts = tuple(start_of[node] for node in lasting)
+        return Schedule(starts, plan.primary_length, plan.end_to_end, plan.length)
+
+    def _span(self, offset: Duration | None) -> Span | None:
+        if offset is None:
+            return None
+        low, high = offset if isinstance(offset, tuple) else (offset, offset)
+        return Span(self.context.steps(min(low, high)), self.context.steps(max(low, high)))
+
+    def _arguments(self) -> str:
+        texts = [f"overlap: {self.overlap}"]
+        for name in ("start_to_start", "end_to_end"):
+            offset = getattr(self, name)
+            if isinstance(offset, tuple):
+                texts.append(f"{name}: {offset[0]:g} s to {offset[1]:g} s")
+            elif offset is not None:
+                texts.append(f"{name}: {offset:g} s")
+        return ", ".join(texts)
+
+    def _is_open(self) -> bool:
+        # Zero-time members bound nothing: `parallel: drive(); emit e` goes on.
+        lasting = [child for child in self.children if not is_instant(child)]
+        return bool(lasting) and all(is_open(child) for child in lasting)
+
+    def _content_length(self) -> int | None:
+        if self._schedule is not None:
+            return self._schedule.length
+        lengths = [length_of(child) for child in self._lasting() if not is_open(child)]
+        known = [length for length in lengths if length is not None]
+        return max(known, default=0) if len(known) == len(lengths) else None
+
+    def _advance(self) -> Status:
+        running: list[Member] = []
+        failed = False
+        for member in self._active:
+            status = member[1]()
+            if status is RUNNING:
+                running.append(member)
+            elif status is FAILURE:
+                failed = True
+            elif member[0] in self._bounding:
+                self._left -= 1
+        self._active = running
+        if self._course is not None:
+            return self._advance_course(failed)
+        if failed:
+            return FAILURE
+        if not running or (self._bounding and not self._left and not self._instants_run()):
+            return SUCCESS
+        return RUNNING
+
+    def _advance_course(self, failed: bool) -> Status:
+        """Advance the members that the schedule is about."""
+        course = self._course
+        assert course is not None
+        status = course.advance()
+        if failed:
+            return FAILURE
+        return RUNNING if status is SUCCESS and self._instants_run() else status
+
+    def _instants_run(self) -> bool:
+        """Return whether a zero-time member still needs the next pass of this instant."""
+        return any(is_instant(child) for child, _ in self._active)

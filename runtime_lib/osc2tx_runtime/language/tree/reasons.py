@@ -1,0 +1,76 @@
+"""Why a tree ended as it did, in words: which node, where, when, why."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.slots import place_key
+from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, Behaviour, Node
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["failure_reason", "timeout_reason", "with_situation"]
+
+NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
+
+
+def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
+    """Return what failed, where, when and why."""
+    culprits = sorted(failing(root), key=lambda node: place_key(source_of(node), node.name))
+    texts = []
+    for node in culprits:
+        # The losers of a race failed before the race did.
+        at = getattr(node, "failed_at", None)
+        time = context.time if at is None else at
+        why = node.feedback_message or "it gives no reason"
+        texts.append(f"{named(node)} failed at {time:.3f} s: {why}")
+    return "; ".join((*texts, *vain(root)))
+
+
+def vain(root: Behaviour) -> list[str]:
+    """Return a hint for each node that waited for a change to what was so already."""
+    nodes = [node for node in root.iterate() if isinstance(node, Node) and node.waits_in_vain()]
+    nodes.sort(key=lambda node: place_key(source_of(node), node.name))
+    return [
+        f"{named(node)} never happened: its condition held from the start, and only a change counts"
+        for node in nodes
+    ]
+
+
+def failing(node: Behaviour) -> list[Behaviour]:
+    """Return the nodes that a failure comes from."""
+    below = [child for child in node.children if child.status is FAILURE]
+    if node.feedback_message or not below:
+        return [node]
+    return [culprit for child in below for culprit in failing(child)]
+
+
+def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
+    """Return which leaves are still running."""
+    running = [node for node in root.iterate() if node.status is RUNNING and not node.children]
+    leaves = [node for node in running if not getattr(node, "synthetic", False)]
+    leaves.sort(key=lambda node: place_key(source_of(node), node.name))
+    texts = [with_situation(named(leaf), leaf) for leaf in leaves[:NAMED_LEAVES]]
+    if len(leaves) > NAMED_LEAVES:
+        texts.append(f"and {len(leaves) - NAMED_LEAVES} more")
+    running_now = ", ".join(texts) or "nothing"
+    reason = f"not finished at {context.time:g} s; still running: {running_now}"
+    return "; ".join((reason, *vain(root)))
+
+
+def with_situation(text: str, node: Behaviour) -> str:
+    """Return a text about a running node with what there is to say of it."""
+    situation = node.situation() if isinstance(node, Node) else ""
+    return f"{text}, while {situation}" if situation else text
+
+
+def source_of(node: Behaviour) -> str:
+    """Return a node's place; behaviours that are not ours have none."""
+    return str(getattr(node, "source", ""))
+
+
+def named(node: Behaviour) -> str:
+    """Return a node's name, with its place where known."""
+    source = source_of(node)
+    return f"{node.name} ({source})" if source else node.name

@@ -1,0 +1,99 @@
+"""Variables that are sampled at an event: `var x: T = sample(expression, event, default)`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.base import RUNNING, Leaf, Status
+from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
+from osc2tx_runtime.language.tree.events import Event, Guard, Occurrences, Trigger, watch
+
+__all__ = ["MISSING", "Sampled", "Sampling"]
+
+MISSING: Any = object()
+"""Stands for a default that is not there."""
+
+
+class Sampled:
+    """One variable.
+
+    Args:
+        expression: Gives the new value.
+        trigger: When it is sampled.
+        default: Value before the first sample; MISSING for none.
+        condition: With an event: only an occurrence at which this is true counts.
+
+    Attributes:
+        name: Name in the scenario; the scenario fills it in.
+        value: The value that others read in this pass.
+    """
+
+    def __init__(
+        self,
+        expression: Callable[[], Any],
+        trigger: Trigger,
+        default: Any = MISSING,
+        condition: Guard | None = None,
+    ) -> None:
+        self.name = ""
+        self.expression = expression
+        self.trigger = trigger
+        self.condition = condition
+        self.value = default
+
+    def read(self) -> Any:
+        """Return the value.
+
+        Raises:
+            ScenarioError: If there is none yet.
+        """
+        if self.value is MISSING:
+            raise ScenarioError(f"{self.name} is read before it is sampled; give it a default")
+        return self.value
+
+
+class Sampling(Leaf):
+    """Samples the variables of a scenario for as long as that runs.
+
+    A sample of one pass is visible from the next pass on, so no order shows.
+    """
+
+    open_ended = True
+    service = True
+    synthetic = True
+
+    def __init__(self, variables: Sequence[Sampled]) -> None:
+        super().__init__("sample " + ", ".join(variable.name for variable in variables))
+        self._variables = variables
+        self._watches: list[Watch] = []
+        self._sampled: dict[Sampled, int] = {}  # step of the last sample at a condition
+
+    def initialise(self) -> None:
+        """Start watching."""
+        self._watches = [watch(v.trigger, v.condition, self.context) for v in self._variables]
+        self._sampled = {}
+
+    def update(self) -> Status:
+        """Sample what is due."""
+        for variable, happened in zip(self._variables, self._watches, strict=True):
+            if happened():
+                self._sample(variable, happened)
+        return RUNNING
+
+    def _sample(self, variable: Sampled, happened: Watch) -> None:
+        occurrences: Sequence[Mapping[str, Any]] = ()
+        if isinstance(happened, Occurrences):
+            occurrences = happened.matching
+        elif self._sampled.get(variable) == self.context.step:
+            return  # a condition is true in all passes of an instant
+        self._sampled[variable] = self.context.step
+        if occurrences and isinstance(variable.trigger, Event):
+            # Several at one instant have no order: the last by value counts in every run.
+            variable.trigger.meant().arguments = occurrences[-1]
+        try:
+            value = variable.expression()
+        except EVALUATION_ERRORS as error:
+            raise ScenarioError(f"{variable.name} has no value: {error}") from error
+        self.context.assign(variable, value)
