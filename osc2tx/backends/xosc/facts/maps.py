@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal, cast
 
-from osc2tx.backends.xosc.facts.ways import Waypoint
+from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.paths.along import way_through
 from osc2tx_runtime.domain.placing.poses import road_entry
