@@ -21,20 +21,20 @@ from osc2tx.options import XmlOptions
 from osc2tx.support.light_dataclass import dataclass
 
 HANDLERS = (
-    "cycles",
+    "acceleration",
     "environment",
     "gaps",
     "lanes",
-    "lateral",
-    "lights",
+    "lateral_modifiers",
     "movement",
     "paths",
-    "places",
-    "positions",
-    "rates",
-    "signals",
+    "position_actions",
+    "position_modifiers",
     "speed_modifiers",
+    "traffic_light_cycles",
+    "traffic_lights",
     "trailers",
+    "vehicle_lights",
 )
 """Modules of `actions` that register handlers when they are imported."""
 
