@@ -40,7 +40,7 @@ class Parallel(Composition, ParallelComposite):
     last bounded one; without a bounded one they run on. A failing member fails the whole.
 
     Other overlaps than `start` bound the starts and ends of the other members relative to those
-    of the first, the primary one; see `parallel_schedule`. The order of the others has no influence.
+    of the first, the primary one (`parallel_schedule`). The order of the others has no influence.
 
     Args:
         name: Label, or what the composition does.
