@@ -7,15 +7,15 @@ from itertools import pairwise
 from typing import Literal, NamedTuple
 
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.paths.path_values import Path as Way
-from osc2tx_runtime.domain.paths.path_values import Trajectory
-from osc2tx_runtime.domain.paths.paths import (
+from osc2tx_runtime.domain.paths.path_curves import (
     PathError,
     curve_of_path,
     curve_of_trajectory,
     stretch,
 )
-from osc2tx_runtime.domain.values import Pose as WayPose
+from osc2tx_runtime.domain.paths.path_values import Path as Way
+from osc2tx_runtime.domain.paths.path_values import Trajectory
+from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 
 __all__ = ["Waypoint", "drawn"]
 

@@ -9,14 +9,16 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.modifiers.roads import MAP_MODIFIERS, MapModifier
+from osc2tx_runtime.domain.modifiers.map_files import MAP_MODIFIERS, MapModifier
 from osc2tx_runtime.domain.paths.path_values import ConnectPointsBy
 from osc2tx_runtime.domain.paths.path_values import Path as Way
+from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
+from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
-from osc2tx_runtime.domain.routes.made_routes import poses_of_route
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.road_parts import (
+from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -26,8 +28,6 @@ from osc2tx_runtime.domain.routes.road_parts import (
     RoadPart,
     Route,
 )
-from osc2tx_runtime.domain.routes.stretches import Stretch
-from osc2tx_runtime.domain.values import Pose as WayPose
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.tree.parameters import Range
 
