@@ -35,7 +35,7 @@ def make_document(ctx: Context) -> Element:
     end = flattener.run()
     writer = StoryboardWriter(ctx.names, ctx.version)
     end = _end(ctx, end)
-    story = writer.story(f"story_{ctx.scenario.name}", adapted(ctx, flattener.acts, end))
+    story = writer.story("story", adapted(ctx, flattener.acts, end))
     storyboard = element(
         "Storyboard",
         element("Init", element("Actions", *ctx.init_globals, *privates)),
@@ -92,7 +92,7 @@ def _properties(ctx: Context) -> Element | None:
         sampled.append(element("Property", name=f"{item.kind} {item.name}", value=text))
     if ctx.version < "1.2":
         return None
-    source = element("Property", name="source", value=str(ctx.scenario.span))
+    source = element("Property", name="source", value=ctx.scenario.span.source.name)
     return element("Properties", source, *sampled)
 
 

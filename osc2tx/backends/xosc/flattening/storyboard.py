@@ -26,7 +26,6 @@ class Event:
         name: Its name.
         actions: `PrivateAction`, `GlobalAction` or `UserDefinedAction` elements.
         start: When it starts.
-        comment: Where it comes from.
         priority: What it does to running events of its maneuver.
         repeats: How often it may start.
         place: Where the member stands that it belongs to.
@@ -35,7 +34,6 @@ class Event:
     name: str
     actions: tuple[Element, ...]
     start: Flow
-    comment: str | None
     priority: str = "parallel"
     repeats: int | None = None
     place: Span | None = None
@@ -51,13 +49,11 @@ class Act:
         stops: Variables that stop it when they are set.
         around: The act that holds it in the tree; what stops that one stops this one.
         stop: The same as a flow, when all is known.
-        comment: Where it comes from.
         events: Its events by actor; `None` for those without actor.
     """
 
     name: str
     start: Flow
-    comment: str | None = None
     stops: list[str] = field(default_factory=list)
     around: Act | None = None
     stop: Flow = NEVER
@@ -133,7 +129,6 @@ class StoryboardWriter:
             self.trigger("StartTrigger", act.start, f"start_{act.name}"),
             stop,
             name=act.name,
-            comment=act.comment,
         )
 
     def _group(self, act: Act, actor: str | None, events: Sequence[Event]) -> Element:
@@ -163,5 +158,4 @@ class StoryboardWriter:
             name=event.name,
             priority=priority,
             maximumExecutionCount=event.repeats,
-            comment=event.comment,
         )

@@ -30,8 +30,7 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[Act, ...]:
     """
     if not ctx.profile.has_stop:  # the run ends with the last event, so one waits for the end
         name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span
-        comment = ctx.comment(span, "end")
-        acts[-1].add(None, Event(name, (ctx.mark(name),), end, comment, place=span))
+        acts[-1].add(None, Event(name, (ctx.mark(name),), end, place=span))
     for act in acts:
         for event in _events(act):
             for part in (*event.actions, *_conditions(event)):
@@ -119,8 +118,8 @@ class _Watch:
             return known
         ctx = self._ctx
         name = ctx.names.new(f"until_{event.name}")
-        act = Act(ctx.names.new(f"act_{name}"), look, event.comment)
-        act.add(None, Event(name, (ctx.mark(name),), occurs, event.comment, place=event.place))
+        act = Act(ctx.names.new(f"act_{name}"), look)
+        act.add(None, Event(name, (ctx.mark(name),), occurs, place=event.place))
         self._made.append(act)
         made = Test(ctx.variable_is(name, "equalTo", "true"), latched=True)
         return self._marks.setdefault(what, made)
