@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Entry, Grade, LossReport
 from osc2tx.diagnostics import Span
-from osc2tx.ir.text import one_line
+from osc2tx.ir.source_text import one_line
 
 FORMAT = 2
 
