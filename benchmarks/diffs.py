@@ -13,7 +13,7 @@ from statistics import median
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
-from tests.end_to_end.single_edits import EDITS, Cost, costs  # noqa: E402
+from tests.end_to_end.single_edits import EDITS, Cost, costs
 
 
 def main() -> None:

@@ -15,7 +15,8 @@ from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
 from osc2tx.backends.xosc.xml.adapting import adapted
-from osc2tx.backends.xosc.xml.tree import Element, comment_text, element
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.ir.source_text import condensed
 
 DATE = "2000-01-01T00:00:00"
 """The schema asks for a date; a real one would change the file each day."""
@@ -88,7 +89,7 @@ def _properties(ctx: Context) -> Element | None:
     for item in ctx.scenario.coverage:
         note = "runs of the XML sample nothing; the header keeps what was asked for"
         ctx.report.exact(f"{item.kind} {item.name}", item.span, note)
-        text = " ".join(comment_text(item.span.text).split())
+        text = condensed(item.span.text)
         sampled.append(element("Property", name=f"{item.kind} {item.name}", value=text))
     if ctx.version < "1.2":
         return None

@@ -41,7 +41,7 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
     }
     lists: dict[str, Sequence[object]] = {
         "notes": list(notes),
-        "not_exact": [_entry_data(entry, module) for entry in lost],
+        "losses": [_entry_data(entry, module) for entry in lost],
     }
     lines = [f"  {_text(key)}: {_text(value)}" for key, value in head.items()]
     lines += [f"  {_text(key)}: {_list(values)}" for key, values in lists.items()]

@@ -143,13 +143,5 @@ def _ordered_attributes(
     return [(name, given[name]) for name in names if name in given]
 
 
-def comment_text(text: str) -> str:
-    """Return a text as a comment may hold it."""
-    printable = "".join(char if char.isprintable() else " " for char in text)
-    while "--" in printable:
-        printable = printable.replace("--", "- -")
-    return printable + " " if printable.endswith("-") else printable
-
-
 def _impossible(what: str, version: str) -> InternalCompilerError:
     return InternalCompilerError(f"OpenSCENARIO XML {version} has no {what}")
