@@ -36,7 +36,9 @@ def make_document(ctx: Context) -> Element:
     end = flattener.run()
     writer = StoryboardWriter(ctx.names, ctx.version)
     end = _end(ctx, end)
-    story = writer.story("story", adapted(ctx, flattener.acts, end))
+    acts = adapted(ctx, flattener.acts, end)
+    ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}
+    story = writer.story("story", acts)
     storyboard = element(
         "Storyboard",
         element("Init", element("Actions", *ctx.init_globals, *privates)),

@@ -76,6 +76,7 @@ class EventTable:
                 self._ctx.names.new(f"signal_{plain(self._scope.prefix + name)}"),
                 (self._ctx.set_variable(self.variable(name), "true"),),
                 single(at_time(time)),
+                declared.span,
             )
             events.append(event)
             self._ctx.report.exact(f"signal {name}", declared.span, f"at {time:g} s, as given")

@@ -8,7 +8,7 @@ events that concern nobody: marks, and actions on the whole world.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Group, Test
@@ -26,17 +26,17 @@ class Event:
         name: Its name.
         actions: `PrivateAction`, `GlobalAction` or `UserDefinedAction` elements.
         start: When it starts.
+        place: Where the member stands that it belongs to.
         priority: What it does to running events of its maneuver.
         repeats: How often it may start.
-        place: Where the member stands that it belongs to.
     """
 
     name: str
     actions: tuple[Element, ...]
     start: Flow
+    place: Span
     priority: str = "parallel"
     repeats: int | None = None
-    place: Span | None = None
 
 
 @dataclass(slots=True)
@@ -63,6 +63,11 @@ class Act:
         """Return the variables that stop the acts around it."""
         around = self.around
         return [] if around is None else [*around.stops, *around.stops_around()]
+
+    def all_events(self) -> Iterator[Event]:
+        """Yield its events, those of one actor after the other."""
+        for events in self.events.values():
+            yield from events
 
     def add(self, actor: str | None, event: Event) -> None:
         """Add an event."""

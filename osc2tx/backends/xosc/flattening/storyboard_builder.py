@@ -75,8 +75,7 @@ class Loom:
         repeats: int | None = None,
     ) -> Flow:
         """Add an event to the maneuver of an actor; return when it is complete."""
-        self.act.add(actor, Event(name, actions, start, repeats=repeats, place=self.place))
-        self.ctx.origins[name] = self.place
+        self.act.add(actor, Event(name, actions, start, self.place, repeats=repeats))
         return single(state_of("event", name))
 
     def add_signals(self) -> None:
@@ -117,7 +116,8 @@ class Loom:
                 is_outermost = act is self._outermost
                 running = single(state_of("act", act.name, "runningState"))
                 start = RUN_START if is_outermost else running
-                act.add(None, Event(name, (self.ctx.mark(name),), start))
+                actions = (self.ctx.mark(name),)
+                act.add(None, Event(name, actions, start, self.ctx.scenario.span))
             around = dict.fromkeys(act.stops_around())
             for mark in around:  # what is complete because it was stopped must start nothing
                 condition = self.ctx.variable_is(mark, "equalTo", "false")
