@@ -95,7 +95,7 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLightBulb,
     TrafficLightGroup,
 )
-from osc2tx_runtime.domain.values import GeodeticPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.domain.values import GeodeticPoint, Rgb, RoutePoint, XyzPoint
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
@@ -215,6 +215,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "RelativeTrajectoryOdr",
     "RelativeTrajectoryPose3d",
     "RelativeTrajectorySt",
+    "Rgb",
     "RoutePoint",
     "Trajectory",
     "XyzPoint",

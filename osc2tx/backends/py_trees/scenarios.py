@@ -131,7 +131,15 @@ class ScenarioWriter:
             value=self._declared_value(declaration),
             comments=comments(lines),
             blank_before=bool(lines) and not is_first,
+            annotation=self._declared_type(declaration),
         )
+
+    def _declared_type(self, declaration: ir.Declaration) -> PyExpr | None:
+        """Write the type of a value that alone does not show it: Python takes a member for text."""
+        if not isinstance(declaration, ir.Parameter | ir.Variable):
+            return None
+        is_enum = (declaration.type.element or declaration.type).kind is ir.Kind.ENUM
+        return self._types.annotation(declaration.type) if is_enum else None
 
     def _constraints(self) -> tuple[StatementView, ...]:
         """Write what must hold between the values, below them."""

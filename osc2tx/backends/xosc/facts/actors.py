@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.world.acceleration import acceleration_profile
 from osc2tx_runtime.world.catalogue import (
     CATEGORIES,
@@ -26,14 +27,7 @@ from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.longitudinal import speed_profile
 from osc2tx_runtime.world.motion import CRUISE as SPEEDS_AT_START
-from osc2tx_runtime.world.profiles import (
-    Cosine,
-    DynamicProfile,
-    Linear,
-    Profile,
-    Quintic,
-    SCurve,
-)
+from osc2tx_runtime.world.profiles import Cosine, Linear, Profile, Quintic, SCurve
 from osc2tx_runtime.world.towing import DRAWBAR
 
 __all__ = [

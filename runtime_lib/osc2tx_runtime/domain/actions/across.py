@@ -9,6 +9,7 @@ from osc2tx_runtime.domain.modifiers import ChangeLane, Lane, Lateral, MovementM
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course
 from osc2tx_runtime.domain.placing.poses import one_of_kind
 from osc2tx_runtime.domain.shapes import OwnShape
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import Beside, Command, LaneChange, LaneOffset
 from osc2tx_runtime.world.computed import Computed
@@ -21,7 +22,7 @@ from .shifts import check_shift, jump_aside, lanes_wanted, target_of_shift
 from .support import Refused
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.world.profiles import DynamicProfile, Profile
+    from osc2tx_runtime.world.profiles import Profile
 
     from .shaped import ShapedAction
 

@@ -15,12 +15,12 @@ from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePath,
     RelativeTrajectory,
-    RelativeTransform,
     Trajectory,
 )
 from osc2tx_runtime.domain.paths.paths import absolute
 from osc2tx_runtime.domain.placing.poses import one_of_kind
 from osc2tx_runtime.domain.values import Pose
+from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action

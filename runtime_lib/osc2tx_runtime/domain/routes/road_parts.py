@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx_runtime.domain.routes.lane_kinds import Directionality, LaneType, LaneUse
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.route_parts import SAME, PartT, RoadPart, Route
 from osc2tx_runtime.domain.routes.stretches import Stretch
 from osc2tx_runtime.domain.routes.wishes import Wish, fulfils, said
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse
 
 __all__ = [
     "CompoundLane",

@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 NumberT = TypeVar("NumberT", int, float)
-ValueT = TypeVar("ValueT", bool, int, float, str)
+ValueT = TypeVar("ValueT", bound=bool | int | float | str)
 
 INFINITY: Any = math.inf  # a bound of whole numbers as well
 
