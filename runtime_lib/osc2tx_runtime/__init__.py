@@ -100,7 +100,15 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods
-from osc2tx_runtime.language.scenario import Range, Scenario, any_of, at_least, at_most, within
+from osc2tx_runtime.language.scenario import (
+    Range,
+    Scenario,
+    any_of,
+    at_least,
+    at_most,
+    fixed,
+    within,
+)
 from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
@@ -154,6 +162,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "as_type",
     "at_least",
     "at_most",
+    "fixed",
     "inf",
     "within",
     # actors: the cast and its values
