@@ -11,7 +11,7 @@ from osc2tx_runtime.enums import DrivingRule
 from .base import Actor
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle
+    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
 
 __all__ = ["Map"]
 
