@@ -10,7 +10,6 @@ from osc2tx_runtime.enums import SemanticTrafficLightState
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route, SignalPlace, signal_places
 from osc2tx_runtime.opendrive.lane_line import lane_line
 
-from .traffic_light_lamps import Meaning
 from .traffic_light_states import LaneLines, Signals
 
 __all__ = ["StopLine", "StopLines"]

@@ -8,7 +8,7 @@ from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Controller, RoadMap, SignalPlace
 
-from .traffic_light_lamps import BOXES, BulbState, Lamp, Meaning, meaning_of
+from .traffic_light_lamps import BOXES, Lamp, meaning_of
 
 __all__ = ["Signals"]
 

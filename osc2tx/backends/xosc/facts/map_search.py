@@ -10,7 +10,6 @@ from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.modifiers.map_files import MAP_MODIFIERS, MapModifier
-from osc2tx_runtime.domain.paths.path_values import ConnectPointsBy
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
@@ -28,6 +27,7 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import (
     RoadPart,
     Route,
 )
+from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.tree.parameters import Range
 

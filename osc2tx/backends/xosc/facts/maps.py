@@ -17,7 +17,7 @@ from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
 from osc2tx_runtime.world.lane_neighbours import lane_with_number
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, Meaning, lamps_that_mean
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean
 from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places", "roads_of"]

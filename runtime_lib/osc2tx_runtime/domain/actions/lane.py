@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
 from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
+from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.argument_rules import above, at_least, at_most_one

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import TrafficLightController
     from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
     from osc2tx_runtime.domain.signals.traffic_lights import Bulbs
-    from osc2tx_runtime.world.traffic_light_lamps import BulbColor, BulbState, Lamp, Meaning
+    from osc2tx_runtime.world.traffic_light_lamps import Lamp
     from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = ["AllLamps", "OneLamp", "Saying", "SignalAction", "Switch"]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.modifiers import MovementModifier, PhysicalMovement
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.registry import LONGITUDINAL

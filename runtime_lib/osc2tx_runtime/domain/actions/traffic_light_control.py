@@ -19,7 +19,6 @@ from .light_switching import AllLamps, OneLamp, Saying, Switch
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import TrafficLightController
     from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, TrafficLight, TrafficLightGroup
-    from osc2tx_runtime.world.traffic_light_lamps import BulbColor, BulbState, Meaning
     from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = [

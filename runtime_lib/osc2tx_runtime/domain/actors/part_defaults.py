@@ -10,6 +10,12 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver
+from osc2tx_runtime.enums import (
+    HitchType,
+    IntendedInfrastructure,
+    TrafficParticipantRole,
+    TrailerCategory,
+)
 from osc2tx_runtime.world.actor_dimensions import MAX_STEERING, Shape
 from osc2tx_runtime.world.towing import DRAWBAR
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import TypeVar
 
 from osc2tx_runtime.domain.points_and_poses import Point
+from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import UnsupportedError
 
 __all__ = [

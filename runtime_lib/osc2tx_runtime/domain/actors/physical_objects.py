@@ -15,7 +15,13 @@ from osc2tx_runtime.domain.actors.parts import (
     is_open,
 )
 from osc2tx_runtime.domain.measuring.object_measurements import Measures
-from osc2tx_runtime.domain.points_and_poses import Point
+from osc2tx_runtime.domain.points_and_poses import Point, Rgb
+from osc2tx_runtime.enums import (
+    Color,
+    IntendedInfrastructure,
+    TrafficParticipantRole,
+    VehicleCategory,
+)
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.world.actor_dimensions import MODELS, Shape, limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec

@@ -16,7 +16,7 @@ from osc2tx_runtime.domain.actors.part_defaults import (
 from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver, completed
 from osc2tx_runtime.enums import TrailerCategory, VehicleCategory
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.actor_dimensions import MODELS, VEHICLE_CATEGORIES, Shape
+from osc2tx_runtime.world.actor_dimensions import VEHICLE_CATEGORIES, Shape, category_of
 
 from .physical_objects import ParticipantFields, TrafficParticipant
 

@@ -19,15 +19,19 @@ from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
-from osc2tx_runtime.domain.routes.route_coordinates import (
-    RouteType,
-    between_on_crossing,
-    place_in_route,
+from osc2tx_runtime.domain.routes.route_coordinates import between_on_crossing, place_in_route
+from osc2tx_runtime.enums import (
+    DistanceDirection,
+    DistanceMode,
+    OnRouteType,
+    RoadDistanceDirection,
+    RouteDistanceEnum,
 )
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
+from osc2tx_runtime.world.distances import along_lanes as route_between
 from osc2tx_runtime.world.distances import (
     gap_between,
     headway_between,
@@ -37,7 +41,6 @@ from osc2tx_runtime.world.distances import (
     time_to_collision,
     time_to_cover,
 )
-from osc2tx_runtime.world.distances import along_lanes as route_between
 from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.velocities import Acceleration, Velocity

@@ -16,7 +16,7 @@ from .conduct import (
     PhysicalMovement,
     TowTrailer,
 )
-from .lane import ChangeLane, KeepLane, Lane, Lateral, LatMeasure
+from .lane import ChangeLane, KeepLane, Lane, Lateral
 from .map_files import (
     MAP_MODIFIERS,
     CompoundLaneSide,

@@ -16,7 +16,6 @@ from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.parameters import Range
     from osc2tx_runtime.world.function_profiles import Computed
-    from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = [
     "Modifier",

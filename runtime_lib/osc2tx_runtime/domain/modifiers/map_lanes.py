@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.domain.routes.lane_types import Directionality, LaneType, LaneUse, kind_of_lane
+from osc2tx_runtime.domain.routes.lane_types import kind_of_lane
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse, SideLeftRight
 
 from .map_base import Known, MapModifier, Row, fits
 

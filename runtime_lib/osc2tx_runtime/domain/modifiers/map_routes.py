@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.enums import JunctionDirection, LateralOverlapKind, RouteOverlapKind
 from osc2tx_runtime.errors import UnsupportedError
 
 from .map_base import Known, MapModifier, Row, fits

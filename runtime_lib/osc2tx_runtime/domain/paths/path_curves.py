@@ -26,6 +26,7 @@ from osc2tx_runtime.domain.paths.path_values import (
     Trajectory,
 )
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Pose, RoutePoint
+from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.domain.points_and_poses import NetworkPoint, OdrPoint, Pose, RoutePoint
+from osc2tx_runtime.enums import ConnectRoutePoints, PathInterpolation
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.road_network import RoadNetwork

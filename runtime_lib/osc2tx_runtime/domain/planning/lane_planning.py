@@ -23,7 +23,7 @@ from .lateral_targets import check_shift, jump_aside, lanes_wanted, target_of_sh
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actions.modifiable import ShapedAction
-    from osc2tx_runtime.world.profiles import DynamicProfile, Profile
+    from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["beside_command", "lane_command"]
 

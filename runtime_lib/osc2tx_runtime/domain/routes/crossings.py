@@ -9,6 +9,7 @@ from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Route
+from osc2tx_runtime.enums import CrossingElevation, CrossingMarking, CrossingUse
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Crosswalk
 

@@ -31,12 +31,17 @@ from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
+from osc2tx_runtime.enums import (
+    ConnectRoutePoints,
+    PathInterpolation,
+    RelativeTransform,
+    SideLeftRight,
+)
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.measuring.object_measurements import Measures
-    from osc2tx_runtime.domain.modifiers import Side
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["RoadNetwork"]

@@ -12,6 +12,7 @@ from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection
 from osc2tx_runtime.domain.routes.route_axes import axis_lanes
+from osc2tx_runtime.enums import OnRouteType
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, Pose
 from osc2tx_runtime.world.state import ActorState

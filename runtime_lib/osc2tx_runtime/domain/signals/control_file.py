@@ -21,7 +21,6 @@ from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
 from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, Shown, TrafficLightGroup
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.world.traffic_light_lamps import BulbState, Meaning
 
 __all__ = ["read_control_file"]
 

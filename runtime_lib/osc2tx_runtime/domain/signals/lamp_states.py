@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.traffic_light_lamps import (
-    BulbColor,
-    BulbState,
-    Lamp,
-    Meaning,
-    lamps_that_mean,
-)
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean
 
 __all__ = ["Bulbs", "Shown", "TrafficLightBulb", "states_of"]
 

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.signals.lamp_states import Bulbs, Shown, TrafficLightBulb, states_of
+from osc2tx_runtime.enums import SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Signal
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, Meaning, meaning_of
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, meaning_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
