@@ -57,7 +57,7 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTrajectorySt,
     Trajectory,
 )
-from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, Rgb, RoutePoint, XyzPoint
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
