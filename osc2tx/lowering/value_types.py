@@ -15,6 +15,10 @@ PRIMITIVE_KINDS = {
 }
 
 
+BOOL = ir.ValueType(ir.Kind.BOOL, "bool")
+SCENARIO = ir.ValueType(ir.Kind.STRUCT, "scenario")
+
+
 def lower_type(type_: types.Type) -> ir.ValueType:
     """Return the IR's view of a type."""
     match type_:
