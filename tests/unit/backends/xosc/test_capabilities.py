@@ -69,10 +69,10 @@ def test_which_versions_are_exact(path: Path) -> None:
     assert exact == LIMITS.get(path.stem, XML_VERSIONS)
 
 
-@pytest.mark.parametrize("version", XML_VERSIONS)
 @pytest.mark.parametrize("path", SCENARIOS, ids=stem)
-def test_documents_are_sound(path: Path, version: XmlVersion) -> None:
-    for each in written(path, version, allow_approx=True):
-        if each.xml is not None:
-            assert schema_errors(each.xml, version) == []
-            assert story_problems(each.xml) == []
+def test_documents_are_sound(path: Path) -> None:
+    for version in XML_VERSIONS:
+        for each in written(path, version, allow_approx=True):
+            if each.xml is not None:
+                assert schema_errors(each.xml, version) == [], version
+                assert story_problems(each.xml) == [], version
