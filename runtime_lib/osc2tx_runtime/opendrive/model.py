@@ -10,7 +10,7 @@ from .polynomials import ZERO, Piecewise, combine
 
 if TYPE_CHECKING:
     from .geometry import ReferenceLine
-    from .lane_line import LaneLine
+    from .arc_length import LaneLine
 
 __all__ = [
     "DRIVING",
