@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+from osc2tx_runtime.domain.measuring.object_position import MeasuredObject, RoutePosition
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
 from osc2tx_runtime.domain.points_and_poses import (
     OdrPoint,
     Orientation,
@@ -15,9 +15,8 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
-from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.routes.route_coordinates import (
     RouteType,
@@ -32,6 +31,7 @@ from osc2tx_runtime.world.distances import (
     DistanceDirection,
     DistanceMode,
     RoadDirection,
+    along_lanes,
     gap_between,
     headway_between,
     lateral_on_road,
@@ -40,31 +40,15 @@ from osc2tx_runtime.world.distances import (
     time_to_collision,
     time_to_cover,
 )
-from osc2tx_runtime.world.distances import along_lanes as route_between
 from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.velocities import Acceleration, Velocity
 
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.context import ExecutionContext
-
 __all__ = ["Measures", "RouteType"]
 
 
-class Measures:
+class Measures(MeasuredObject):
     """What one can read of a physical object; mixed into the actor classes."""
-
-    id: str
-
-    @property
-    def context(self) -> ExecutionContext:
-        """The run."""
-        raise NotImplementedError
-
-    @property
-    def state(self) -> ActorState:
-        """Snapshot of the present step."""
-        return self.context.world.state(self.id)
 
     # --- fields -------------------------------------------------------------------------------
 
@@ -132,8 +116,8 @@ class Measures:
         """
         shape, other = self.state.shape, reference.state.shape
         if direction == "longitudinal":
-            return Measured(gap_between(-self._along(reference), shape, other))
-        return Measured(side_gap(self._lateral(reference), shape, other))
+            return Measured(gap_between(-self.distance_along(reference), shape, other))
+        return Measured(side_gap(self.distance_across(reference), shape, other))
 
     def time_gap(self, reference: Measures, direction: RoadDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""
@@ -148,7 +132,7 @@ class Measures:
 
     def space_headway(self, reference: Measures) -> float:
         """Distance (m) from front to front; positive if the caller trails."""
-        along = self._along(reference)
+        along = self.distance_along(reference)
         return Measured(-headway_between(-along, self.state.shape, reference.state.shape))
 
     def time_headway(self, reference: Measures) -> float:
@@ -232,7 +216,7 @@ class Measures:
         ahead = direction == "longitudinal"
         if route_type == "on_crossing":
             return between_on_crossing(self.context, here, there, ahead=ahead, mode=mode)
-        distance = (route_between if ahead else lateral_on_road)(road_map, here, there)
+        distance = (along_lanes if ahead else lateral_on_road)(road_map, here, there)
         if distance is None:
             raise ScenarioError(f"no lane leads from {self.id} to the place or back")
         if mode == "reference_points":
@@ -251,24 +235,3 @@ class Measures:
         pose = self.context.world.map.pose(place) if isinstance(place, LanePosition) else place
         state = self._standing_at(Point(pose.x, pose.y, pose.z), pose.h)
         return state._replace(lane_position=place) if isinstance(place, LanePosition) else state
-
-    def _along(self, reference: Measures) -> float:
-        """Route distance (m) to the reference, positive if it is ahead."""
-        world = self.context.world
-        along = route_between(world.map, world.state(self.id), world.state(reference.id))
-        if along is None:
-            raise self._no_way(reference)
-        return along
-
-    def _lateral(self, reference: Measures) -> float:
-        """How far (m) the reference is to the left."""
-        lateral = lateral_on_road(self.context.world.map, self.state, reference.state)
-        if lateral is None:
-            raise self._no_way(reference)
-        return lateral
-
-    def _no_way(self, reference: Measures) -> ScenarioError:
-        return ScenarioError(
-            f"no lane leads from {self.id} to {reference.id} or back, so they have no distance"
-            " along the road"
-        )

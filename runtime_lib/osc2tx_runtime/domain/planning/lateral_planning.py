@@ -15,8 +15,8 @@ from osc2tx_runtime.domain.modifiers import (
     value_of,
 )
 from osc2tx_runtime.domain.modifiers.base import now
-from osc2tx_runtime.domain.paths.path_values import MadeRoute
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.routes.composed_routes import MadeRoute
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Route
 from osc2tx_runtime.language.registry import LATERAL

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.domain.paths.network_paths import path_in_world
-from osc2tx_runtime.domain.paths.path_curves import absolute
+from osc2tx_runtime.domain.paths.path_curves import PathInterpolation
 from osc2tx_runtime.domain.paths.path_values import (
-    ConnectPointsBy,
-    MadeRoute,
     NetworkPath,
     NetworkTrajectory,
     Path,
-    PathInterpolation,
     RelativePath,
     RelativeTrajectory,
     RelativeTransform,
     Trajectory,
 )
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
+from osc2tx_runtime.domain.paths.relative_paths import absolute
 from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,
     OdrPoint,
@@ -29,8 +25,14 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route, route_point_at
+from osc2tx_runtime.domain.routes.composed_routes import ConnectPointsBy, MadeRoute
+from osc2tx_runtime.domain.routes.lane_coordinates import (
+    place_of_odr,
+    place_of_route,
+    route_point_at,
+)
 from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.network_paths import path_in_world
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
@@ -39,10 +41,11 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.measuring.object_measurements import Measures
-    from osc2tx_runtime.domain.modifiers import Side
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["RoadNetwork"]
+
+Side = Literal["left", "right"]
 
 
 class RoadNetwork:
