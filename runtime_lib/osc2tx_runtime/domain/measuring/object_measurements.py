@@ -116,8 +116,8 @@ class Measures(MeasuredObject):
         """
         shape, other = self.state.shape, reference.state.shape
         if direction == "longitudinal":
-            return Measured(gap_between(-self.distance_along(reference), shape, other))
-        return Measured(side_gap(self.distance_across(reference), shape, other))
+            return Measured(gap_between(-self._distance_along(reference), shape, other))
+        return Measured(side_gap(self._distance_across(reference), shape, other))
 
     def time_gap(self, reference: Measures, direction: RoadDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""
@@ -132,7 +132,7 @@ class Measures(MeasuredObject):
 
     def space_headway(self, reference: Measures) -> float:
         """Distance (m) from front to front; positive if the caller trails."""
-        along = self.distance_along(reference)
+        along = self._distance_along(reference)
         return Measured(-headway_between(-along, self.state.shape, reference.state.shape))
 
     def time_headway(self, reference: Measures) -> float:

@@ -31,7 +31,7 @@ class MeasuredObject:
         """Snapshot of the present step."""
         return self.context.world.state(self.id)
 
-    def distance_along(self, reference: MeasuredObject) -> float:
+    def _distance_along(self, reference: MeasuredObject) -> float:
         """Route distance (m) to the reference, positive if it is ahead."""
         world = self.context.world
         along = along_lanes(world.map, world.state(self.id), world.state(reference.id))
@@ -39,7 +39,7 @@ class MeasuredObject:
             raise self._no_way(reference)
         return along
 
-    def distance_across(self, reference: MeasuredObject) -> float:
+    def _distance_across(self, reference: MeasuredObject) -> float:
         """How far (m) the reference is to the left."""
         lateral = lateral_on_road(self.context.world.map, self.state, reference.state)
         if lateral is None:
@@ -63,11 +63,11 @@ class RoutePosition:
 
     def ahead_of(self, reference: MeasuredObject) -> float:
         """How far (m) it is ahead of another object along the road; negative if behind."""
-        return Measured(-self._object.distance_along(reference))
+        return Measured(-self._object._distance_along(reference))
 
     def behind(self, reference: MeasuredObject) -> float:
         """How far (m) it is behind another object along the road; negative if ahead."""
-        return Measured(self._object.distance_along(reference))
+        return Measured(self._object._distance_along(reference))
 
     @property
     def x(self) -> float:
