@@ -20,7 +20,7 @@ from osc2tx_runtime.domain.actions.combinations import (
     SORTS,
     STARTING,
 )
-from osc2tx_runtime.domain.actions.shaped import ShapedAction
+from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MAP_MODIFIERS, MODIFIERS, Modifier

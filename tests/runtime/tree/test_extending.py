@@ -12,6 +12,8 @@ from typing import Any
 
 import pytest
 
+from tests.processes import HANGING
+
 ROOT = Path(__file__).parents[3]
 DOCUMENT = ROOT / "docs/extending.md"
 
@@ -57,7 +59,7 @@ def run(folder: Path, body: str, *, actions: str | None = None) -> Any:
         [sys.executable, str(script), "--trace", str(folder / "t.jsonl")],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=HANGING,
         env={**os.environ, "PYTHONPATH": path},
         check=False,
     )
@@ -90,8 +92,8 @@ def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
     done = run(tmp_path, body)
     assert done.returncode == 5
     assert done.stderr == (
-        "slow.osc: error: ego.change_speed(target=5.0) (slow.osc) and ego.creep() (slow.osc) control"
-        " the longitudinal slot of ego at the same time; let them run one after the other"
+        "slow.osc: error: ego.change_speed(target=5.0) (slow.osc) and ego.creep() (slow.osc)"
+        " control the longitudinal slot of ego at the same time; let them run one after the other"
         " (at 0.000 s)\n"
     )
 

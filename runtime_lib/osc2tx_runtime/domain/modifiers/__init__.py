@@ -16,9 +16,8 @@ from .conduct import (
     PhysicalMovement,
     TowTrailer,
 )
-from .lanes import ChangeLane, KeepLane, Lane, Lateral, LatMeasure
-from .places import Distance, KeepPosition, Location, Position
-from .roads import (
+from .lane import ChangeLane, KeepLane, Lane, Lateral, LatMeasure
+from .map_files import (
     MAP_MODIFIERS,
     CompoundLaneSide,
     CrossingConnects,
@@ -34,8 +33,9 @@ from .roads import (
     SetTrafficLightsControlFile,
     StartLane,
 )
-from .speeds import Acceleration, ChangeSpeed, KeepSpeed, Speed
-from .turns import Orient, Yaw
+from .orientation import Orient, Yaw
+from .position import Distance, KeepPosition, Location, Position
+from .speed import Acceleration, ChangeSpeed, KeepSpeed, Speed
 
 acceleration = Acceleration
 along = Along

@@ -18,7 +18,7 @@ from osc2tx_runtime.domain.modifiers import (
     TowTrailer,
     Yaw,
 )
-from osc2tx_runtime.domain.placing.poses import one_of_kind
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.errors import PlacementError
 
 __all__ = ["PLACEMENT_MODIFIERS", "Start", "couple", "cycle_of"]
