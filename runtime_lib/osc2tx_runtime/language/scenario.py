@@ -165,6 +165,7 @@ class Scenario(ScenarioValues):
         *,
         actor: Actor | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour: ...
     @overload
@@ -176,6 +177,7 @@ class Scenario(ScenarioValues):
         *,
         actor: Actor | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour: ...
     def invoke(
@@ -184,6 +186,7 @@ class Scenario(ScenarioValues):
         *label_and_scenario: Any,
         actor: Actor | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour:
         """Invoke another scenario: `self.invoke("p1", Approach, actor=self.ego, lead=self.car1)`.
@@ -196,6 +199,8 @@ class Scenario(ScenarioValues):
                 `@label.end`, for settings (`--set label.gap=12`) and in the trace.
             actor: Its `actor`, for a scenario of an actor.
             duration: Seconds, or (least, most) seconds, that it takes.
+            known_as: Its name in settings and in the trace if it has no label; else that of the
+                scenario, numbered in the order of the calls.
             **arguments: Its parameters (a range is drawn from) and actors.
 
         Raises:
@@ -205,7 +210,7 @@ class Scenario(ScenarioValues):
         check_recursion(self, scenario)
         given = arguments if actor is None else {"actor": actor, **arguments}
         short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
-        name = unique_name(label or short, self._invoked)
+        name = unique_name(label or known_as or short, self._invoked)
         path = f"{self._path}.{name}" if self._path else name
         key = label or draw_key(self, scenario, actor, arguments)
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
@@ -262,7 +267,7 @@ class Scenario(ScenarioValues):
                 sorted(self.actors.items(), key=lambda item: item[0].rpartition(".")[0])
             )
             self.placements[self._own_placements :] = invoked_placements(self, tree)
-            number_nodes(tree, self.actors.values())
+            number_nodes(self, tree)
             check_settings(self)
         return tree
 
