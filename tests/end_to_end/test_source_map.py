@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from osc2tx.backends.py_trees import emit
 from osc2tx.cli.module_loading import scenarios_of_file
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
-from tests.end_to_end.harness import REPOSITORY as ROOT
+from tests.end_to_end.harness import SCENARIOS, compile_scenario
 
-MODULES = sorted((ROOT / "generated").rglob("*.py"))
+FILES = sorted(SCENARIOS.rglob("*.osc"))
+OTHER = emit(compile_scenario(SCENARIOS / "follow_leader.osc")).source_map
 LINE = re.compile(r"(?<=\.osc):\d+")
 
 
@@ -43,35 +44,38 @@ def trace(scenario: type[Scenario]) -> list[dict[str, Any]]:
     return lines
 
 
-def garbled(path: Path) -> Mapping[str, str]:
+def broken_maps(source_map: str) -> Mapping[str, str]:
     """Return contents of maps: nothing readable, other lines, one of another module."""
-    own = json.loads(path.with_suffix(".map.json").read_text(encoding="utf-8"))
+    own = json.loads(source_map)
     for entry in own["scenarios"].values():
         for key in ("constraints", "placements", "nodes"):
             entry[key] = [1000 - line for line in entry[key]]
         entry["names"] = entry["draws"] = ["x"] * 20
-    other = ROOT / "generated" / "follow_leader.map.json"
     return {
         "not JSON": "{",
         "a list": "[1, 2]",
         "other lines": json.dumps(own),
-        "of another module": other.read_text(encoding="utf-8"),
+        "of another module": OTHER,
     }
 
 
-@pytest.mark.parametrize("path", MODULES, ids=[path.stem for path in MODULES])
-def test_the_map_changes_lines_alone(path: Path, tmp_path: Path) -> None:
-    copy = Path(shutil.copy(path, tmp_path))
-    sidecar = copy.with_suffix(".map.json")
+@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+def test_the_map_changes_lines_alone(file: Path, tmp_path: Path) -> None:
+    module = emit(compile_scenario(file))
+    path = tmp_path / f"{module.stem}.py"
+    path.write_text(module.python, encoding="utf-8")
     expected = traces(path)
-    assert traces(copy) == expected, "without a map"
-    for what, text in garbled(path).items():
-        sidecar.write_text(text, encoding="utf-8")
-        assert traces(copy) == expected, what
+    for what, text in {"its own": module.source_map, **broken_maps(module.source_map)}.items():
+        path.with_suffix(".map.json").write_text(text, encoding="utf-8")
+        assert traces(path) == expected, what
 
 
-def test_lines_come_from_the_map() -> None:
-    with scenarios_of_file(ROOT / "generated" / "cut_in.py", "cut_in_with_map") as scenarios:
+def test_lines_come_from_the_map(tmp_path: Path) -> None:
+    module = emit(compile_scenario(SCENARIOS / "cut_in.osc"))
+    path = tmp_path / "cut_in.py"
+    path.write_text(module.python, encoding="utf-8")
+    path.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")
+    with scenarios_of_file(path, "cut_in_with_map") as scenarios:
         result = run_scenario(scenarios["cut_in"], RunSettings(max_time=0.1))
     sources = [json.loads(line).get("source", "") for line in result.trace_lines]
-    assert any(LINE.search(source) for source in sources)
+    assert "cut_in.osc:19" in sources
