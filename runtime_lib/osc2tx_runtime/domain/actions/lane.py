@@ -96,7 +96,7 @@ class _OnLane(ShapedAction):
         return None
 
 
-@action("vehicle", "change_lane", slots=(LATERAL,))
+@action("vehicle", "change_lane", slots=(LATERAL,), needs=("lanes",))
 class ChangeLane(_OnLane):
     """End in another lane, aligned with it.
 
@@ -186,7 +186,7 @@ class ChangeLane(_OnLane):
         return 1 if self.drawn_side(count) == "left" else -1
 
 
-@action("vehicle", "follow_lane", slots=(LATERAL,), ends="open")
+@action("vehicle", "follow_lane", slots=(LATERAL,), ends="open", needs=("lanes",))
 class FollowLane(_OnLane):
     """Stay in a lane.
 

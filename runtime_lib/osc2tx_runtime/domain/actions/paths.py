@@ -138,7 +138,7 @@ class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
         return Trajectory(points, relative.time_stamps, relative.interpolation)
 
 
-@action("movable_object", "follow_path", slots=(LATERAL,))
+@action("movable_object", "follow_path", slots=(LATERAL,), places=True)
 class FollowPath(_OnPath):
     """Follow a path as the limits of the actor allow.
 
@@ -157,14 +157,14 @@ class FollowPath(_OnPath):
     replays = False
 
 
-@action("movable_object", "replay_path", slots=(LATERAL,))
+@action("movable_object", "replay_path", slots=(LATERAL,), places=True)
 class ReplayPath(_OnPath):
     """Be on a path exactly, whatever the limits; arguments as of `follow_path`."""
 
     replays = True
 
 
-@action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL))
+@action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
 class FollowTrajectory(_OnTrajectory):
     """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
 
@@ -183,7 +183,7 @@ class FollowTrajectory(_OnTrajectory):
     replays = False
 
 
-@action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL))
+@action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
 class ReplayTrajectory(_OnTrajectory):
     """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`."""
 

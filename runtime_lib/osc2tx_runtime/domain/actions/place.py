@@ -28,7 +28,9 @@ PLACES = ("position", "route_point", "odr_point", "with")
 Target = Point | RoutePoint | OdrPoint
 
 
-@action("movable_object", "assign_position", slots=(LONGITUDINAL, LATERAL))
+@action(
+    "movable_object", "assign_position", slots=(LONGITUDINAL, LATERAL), places=True, paces=False
+)
 class AssignPosition(OneStepAction):
     """Be somewhere else at the next step; the speed stays.
 

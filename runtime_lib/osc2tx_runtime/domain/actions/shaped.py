@@ -56,13 +56,11 @@ class ShapedAction(MotionAction):
 
     Attributes:
         movable: The actor.
-        moves_itself: Whether its slots are its own, or those that modifiers speak of.
         commands_speed: Whether it has a command of its own where it controls the speed.
         stands: Whether it goes nowhere, so that all its modifiers are about where it is.
         own: Slots that the action controls itself.
     """
 
-    moves_itself: ClassVar[bool] = True
     commands_speed: ClassVar[bool] = True
     stands: ClassVar[bool] = False
 
@@ -88,7 +86,7 @@ class ShapedAction(MotionAction):
     @cached_property
     def own(self) -> tuple[str, ...]:
         """Slots that the action controls itself; read when it is complete."""
-        return self.slots if self.moves_itself else ()
+        return self.slots
 
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
