@@ -1,7 +1,6 @@
 """Golden files of the stages after the front end.
 
-Each case is a folder with `input.osc` and `expected/`; found by walking, so a folder without
-expected files, or with surplus ones, fails.
+Each case is a folder with `input.osc` and `expected/`, found by walking.
 """
 
 from collections.abc import Callable

@@ -1,16 +1,16 @@
-"""Golden documents: each `xosc/NAME.osc` is one construct, `NAME.xosc` what becomes of it in 1.3.
+"""Golden documents: each `xosc/NAME/input.osc` is one construct, `expected/` what becomes of it.
 
-Beside it stand the loss report and, for open ranges, the document with their values. `versions.txt`
-says for all cases which versions can say them, and what the others lack. A first line
-`# osc2tx: …` of a case names options: `one_of=first`, `profile=esmini`, `signal=go@1s`,
-`allow_approx`.
+`scenario.xosc` is the document in 1.3, if there is one, `parameters.xosc` the one with the values
+of open ranges, `report.json` the loss report. `versions.txt` says which versions can say it, and
+what the others lack. A first line `# osc2tx: …` of a case names options: `one_of=first`,
+`profile=esmini`, `signal=go@1s`, `allow_approx`.
 """
 
 import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -23,9 +23,7 @@ from osc2tx.options import XML_VERSIONS, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems, untraced
 
 HERE = Path(__file__).parent / "xosc"
-CASES = sorted(HERE.glob("*.osc"))
-SUFFIXES = (".osc", ".xosc", ".params.xosc", ".report.json")
-OVERVIEW = HERE / "versions.txt"
+CASES = sorted(path.parent for path in HERE.glob("*/input.osc"))
 MARK = "# osc2tx: "
 Golden = Callable[[str, Path], None]
 
@@ -44,63 +42,55 @@ def given(text: str) -> GivenOptions:
 
 
 @cache
-def written(path: Path, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
+def written(case: Path, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
     """Return the document of the last scenario of a case."""
+    path = case / "input.osc"
     options = given(path.read_text(encoding="utf-8"))
     asked = GivenOptions(
         target="xosc", xml_version=version, allow_approx=allow_approx or None
     ).over(options)
-    compilation = Compilation(path, path.name, asked.complete())
+    compilation = Compilation(path, f"{case.name}.osc", asked.complete())
     assert compilation.ir is not None, compilation.diagnostics
     return compilation.xml[-1]
 
 
-def overview() -> Iterator[str]:
-    """Yield for each case which versions can say it, and the first reason of each other one."""
-    for case in CASES:
-        yield case.stem
-        for version in XML_VERSIONS:
-            found = written(case, version)
-            if found.xml is not None:
-                yield f"  {version}  exact"
-                continue
-            obstacle = found.report.obstacles[0]
-            yield f"  {version}  {obstacle.grade.value}: {obstacle.message}"
+def verdict(case: Path, version: XmlVersion) -> str:
+    """Return whether a version can say a case, and if not, the first reason."""
+    found = written(case, version)
+    if found.xml is not None:
+        return "exact"
+    obstacle = found.report.obstacles[0]
+    return f"{obstacle.grade.value}: {obstacle.message}"
 
 
-def name(path: Path) -> str:
-    return path.stem
+def name(case: Path) -> str:
+    return case.name
 
 
 def test_there_are_cases() -> None:
     assert len(CASES) >= 40
 
 
-def test_no_golden_is_left_over() -> None:
-    stems = {case.stem for case in CASES}
-    files = [path for path in HERE.iterdir() if path != OVERVIEW]
-    assert all(path.name.endswith(SUFFIXES) for path in files)
-    assert {path.name.partition(".")[0] for path in files} == stems
-
-
 @pytest.mark.parametrize("case", CASES, ids=name)
 def test_the_document(case: Path, golden: Golden) -> None:
     found = written(case, "1.3")
     texts = {
-        ".xosc": found.xml,
-        ".params.xosc": found.parameters,
-        ".report.json": found.report_json,
+        "scenario.xosc": found.xml,
+        "parameters.xosc": found.parameters,
+        "report.json": found.report_json,
     }
-    for suffix, text in texts.items():
-        expected = case.with_suffix(suffix)
+    for file, text in texts.items():
+        expected = case / "expected" / file
         if text is None:
             assert not expected.exists(), f"{expected} is left over"
         else:
             golden(text, expected)
 
 
-def test_which_version_can_say_what(golden: Golden) -> None:
-    golden("\n".join(overview()) + "\n", OVERVIEW)
+@pytest.mark.parametrize("case", CASES, ids=name)
+def test_which_version_can_say_it(case: Path, golden: Golden) -> None:
+    lines = [f"{version}  {verdict(case, version)}\n" for version in XML_VERSIONS]
+    golden("".join(lines), case / "expected" / "versions.txt")
 
 
 @pytest.mark.parametrize("version", XML_VERSIONS)
@@ -134,7 +124,7 @@ def test_the_same_bytes_in_every_process() -> None:
         "import sys, hashlib; from tests.golden.test_xosc import CASES, written\n"
         "for case in CASES:\n"
         "    made = written(case, '1.3', allow_approx=True)\n"
-        "    print(case.stem, hashlib.sha256(repr((made.xml, made.parameters, made.report_json))"
+        "    print(case.name, hashlib.sha256(repr((made.xml, made.parameters, made.report_json))"
         ".encode()).hexdigest())\n"
     )
     root = Path(__file__).parents[2]
@@ -156,7 +146,7 @@ def test_the_same_bytes_in_every_process() -> None:
 @pytest.mark.parametrize("case", CASES, ids=name)
 def test_reports_say_where(case: Path) -> None:
     """Every entry stands in the source, and only exact ones need no reason."""
-    lines = case.read_text(encoding="utf-8").splitlines()
+    lines = (case / "input.osc").read_text(encoding="utf-8").splitlines()
     report = json.loads(written(case, "1.3").report_json)
     for entry in report["constructs"]:
         assert 1 <= entry["line"] <= entry["end_line"] <= len(lines)
