@@ -19,6 +19,7 @@ from osc2tx_rules.arguments import (
     violations,
 )
 from osc2tx_rules.combinations import (
+    LATERAL_SPEED,
     Call,
     Clash,
     ModifierRules,
@@ -30,6 +31,7 @@ from osc2tx_rules.combinations import (
 )
 
 __all__ = [
+    "LATERAL_SPEED",
     "Call",
     "Clash",
     "Given",

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
+from pkgutil import iter_modules
 
 from osc2tx import ir
+from osc2tx.backends.xosc import actions
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
 from osc2tx.backends.xosc.facts.runs import read_signal, read_spawn
@@ -20,26 +22,8 @@ from osc2tx.backends.xosc.xml.tree import Element, serialize
 from osc2tx.options import XmlOptions
 from osc2tx.support.light_dataclass import dataclass
 
-HANDLERS = (
-    "cycles",
-    "environment",
-    "gaps",
-    "lanes",
-    "lateral",
-    "lights",
-    "movement",
-    "paths",
-    "places",
-    "positions",
-    "rates",
-    "signals",
-    "speed_modifiers",
-    "trailers",
-)
-"""Modules of `actions` that register handlers when they are imported."""
-
-for _module in HANDLERS:
-    import_module(f"{__package__}.actions.{_module}")
+for _module in iter_modules(actions.__path__):  # they register the forms that they write
+    import_module(f"{actions.__name__}.{_module.name}")
 
 
 @dataclass(frozen=True, slots=True)

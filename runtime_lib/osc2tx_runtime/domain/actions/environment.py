@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
+from osc2tx_rules import at_least_one
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.language.action import Action, ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.language.tree.base import Status
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Literal, Unpack
 
+from osc2tx_rules import above, at_least, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import above, at_least, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, action
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.language.tree.limits import Duration

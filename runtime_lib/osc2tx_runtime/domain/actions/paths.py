@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
+from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.paths.path_values import (
@@ -22,7 +23,6 @@ from osc2tx_runtime.domain.paths.paths import absolute
 from osc2tx_runtime.domain.placing.poses import one_of_kind
 from osc2tx_runtime.domain.values import Pose
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Command
 

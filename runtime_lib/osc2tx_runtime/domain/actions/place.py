@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
+from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime.domain.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.placing.places import Placer
@@ -13,7 +14,6 @@ from osc2tx_runtime.domain.placing.spots import Spot
 from osc2tx_runtime.domain.routes.routes import place_of_route
 from osc2tx_runtime.domain.values import OdrPoint, Orientation, Point, RoutePoint
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.attitude import Tilt
 

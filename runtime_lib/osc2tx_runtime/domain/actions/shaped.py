@@ -14,10 +14,8 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import (
     Along,
-    AlongTrajectory,
     AvoidCollisions,
     Distance,
-    KeepPosition,
     Lane,
     Lateral,
     Modifier,
@@ -33,8 +31,8 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import Careful, Command
 
 from .beginning import PlaceWatch, hold_or_jump
-from .checks import check_modifiers, check_options
-from .groups import AT_START, LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
+from .checks import check_modifiers, check_options, is_start
+from .groups import PATH_SHAPERS
 from .phases import phase_of
 from .sides import follow_reference, side_command
 from .speeds import speed_command
@@ -91,20 +89,12 @@ class ShapedAction(MotionAction):
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
         """The modifiers but those that only speak of the start."""
-        return tuple(
-            m
-            for m in self.modifiers
-            if getattr(m, "at", "all") != "start" or not isinstance(m, AT_START)
-        )
+        return tuple(m for m in self.modifiers if not is_start(m))
 
     @cached_property
     def has_goal(self) -> bool:
         """True if a modifier says what is to be reached."""
-        return any(
-            isinstance(modifier, (Distance, *PATH_SHAPERS))
-            or getattr(modifier, "at", "all") == "end"
-            for modifier in self.modifiers
-        )
+        return any(m.facts.bounds or getattr(m, "at", "all") == "end" for m in self.modifiers)
 
     @cached_property
     def follows_path(self) -> bool:
@@ -113,9 +103,7 @@ class ShapedAction(MotionAction):
 
     def takes(self, modifier: Modifier) -> bool:
         """Whether the action can carry out a modifier."""
-        if getattr(modifier, "at", "all") == "start" and isinstance(modifier, AT_START):
-            return True
-        return isinstance(modifier, self.accepts)
+        return is_start(modifier) or isinstance(modifier, self.accepts)
 
     def speaks_of(self, slot: str) -> bool:
         """Whether a modifier says something about a slot."""
@@ -133,22 +121,13 @@ class ShapedAction(MotionAction):
                 return (LATERAL,)
             case Along(shape=shape) if shape is not None:
                 return (LONGITUDINAL, LATERAL)
-            case Distance(shape=shape) if shape is not None:
-                return (LONGITUDINAL,)
-            case AlongTrajectory() | KeepPosition():
-                return (LONGITUDINAL, LATERAL)
             case AvoidCollisions(avoid=False):
                 return ()
-            case Distance():
-                timed = self.duration is not None or self.end_is_known
-                return (LONGITUDINAL,) if timed else ()
-            case Along():
-                return (LATERAL,)
+            case Distance(shape=None) if self.duration is None and not self.end_is_known:
+                return ()
             case Orient(yaw=None) if self.movable.lane_bound:
                 return ()
-        if isinstance(modifier, SPEED_SHAPERS):
-            return (LONGITUDINAL,)
-        return (LATERAL,) if isinstance(modifier, (*LANE_SHAPERS, *TURN_SHAPERS)) else ()
+        return modifier.facts.slots
 
     # --- how it runs --------------------------------------------------------------------------
 

@@ -7,10 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeVar
 
+from osc2tx_rules import Rule
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.argument_rules import Rule, check_arguments
+from osc2tx_runtime.language.argument_rules import check_arguments
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+
+from .facts import ModifierFacts
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.parameters import Range
@@ -123,11 +126,13 @@ class Modifier:
 
     Attributes:
         name: Name in the DSL.
+        facts: What is stated of it at its registration.
         rules: Which parameters go together; the compiler knows them as well.
         shaped_by: The base of shapes that give the course of its value; None: there are none.
     """
 
     name: ClassVar[str] = ""
+    facts: ClassVar[ModifierFacts] = ModifierFacts()
     rules: ClassVar[tuple[Rule, ...]] = ()
     shaped_by: ClassVar[type[AnyShape] | None] = None
 

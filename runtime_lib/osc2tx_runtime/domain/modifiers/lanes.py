@@ -6,10 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from osc2tx_rules import Sort, at_least, at_least_one, at_most_one
 from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
-from osc2tx_runtime.language.argument_rules import at_least, at_least_one, at_most_one
+from osc2tx_runtime.language.registry import LATERAL
 
 from .base import Modifier, MovementModifier, Side, Value, now, wanted
+from .facts import LANE, SIDE
+from .registry import modifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
@@ -32,6 +35,15 @@ _EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left
 __all__ = ["ChangeLane", "KeepLane", "Lane", "LatMeasure", "Lateral"]
 
 
+@modifier(
+    "lane",
+    slots=(LATERAL,),
+    topics=(LANE,),
+    lanes_only=True,
+    placement=True,
+    places=True,
+    needs=("lanes",),
+)
 @dataclass(frozen=True, slots=True)
 class Lane(MovementModifier):
     """A lane.
@@ -45,10 +57,9 @@ class Lane(MovementModifier):
         shape: Course on the way there: of the place left of the centre of the lane.
     """
 
-    name = "lane"
     shaped_by = AnyLateralShape
     rules = (
-        at_most_one("same_as", "side_of"),
+        at_most_one("same_as", "side_of", "from_"),
         at_least_one("side", when=["side_of"]),
         at_least(1, "lane", unless=["side_of"]),  # the outermost one is 1
         at_least(0, "lane", when=["side_of"]),
@@ -71,6 +82,16 @@ class Lane(MovementModifier):
         return self.same_as or self.side_of
 
 
+@modifier(
+    "lateral",
+    slots=(LATERAL,),
+    topics=(SIDE,),
+    sorts=(Sort("place beside an actor", given=("side_of",), excludes=(LANE,)),),
+    lanes_only=True,
+    placement=True,
+    places=True,
+    needs=("lanes",),
+)
 @dataclass(frozen=True, slots=True)
 class Lateral(MovementModifier):
     """Place across the lane, or beside another actor.
@@ -85,7 +106,6 @@ class Lateral(MovementModifier):
         shape: Course of the distance, and its value if none is given here.
     """
 
-    name = "lateral"
     shaped_by = AnyLateralShape
     rules = (
         at_most_one("distance", "distance_range"),
@@ -132,6 +152,14 @@ class Lateral(MovementModifier):
         return left + _EDGE[other] * other_width - _EDGE[own] * own_width
 
 
+@modifier(
+    "change_lane",
+    slots=(LATERAL,),
+    topics=(LANE,),
+    no_start="cannot change the lane at the start",
+    lanes_only=True,
+    needs=("lanes",),
+)
 @dataclass(frozen=True, slots=True)
 class ChangeLane(MovementModifier):
     """Lanes to the side of the lane at the start of the action.
@@ -142,7 +170,6 @@ class ChangeLane(MovementModifier):
         shape: As of `lane`.
     """
 
-    name = "change_lane"
     shaped_by = AnyLateralShape
     lane: int | Callable[[], int] = 1
     side: Side | None = None
@@ -154,8 +181,7 @@ class ChangeLane(MovementModifier):
         return int(now(self.lane))
 
 
+@modifier("keep_lane", slots=(LATERAL,), topics=(LANE,), lanes_only=True, needs=("lanes",))
 @dataclass(frozen=True, slots=True)
 class KeepLane(Modifier):
     """The lane at the start of the action."""
-
-    name = "keep_lane"
