@@ -28,7 +28,7 @@ from osc2tx_runtime.domain.modifiers import lane, position, speed
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Wait, elapsed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
-from osc2tx_runtime.world.catalogue import limits_of, shape_of
+from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
 
 DT = 0.05  # s, 20 Hz

@@ -66,7 +66,7 @@ def assert_build_fresh(
     """
     __tracebackhide__ = True
     from osc2tx.building.build import BuildOptions, build
-    from osc2tx.compilation.reports import settle_all
+    from osc2tx.compilation.file_reports import settle_all
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics import Severity
 
@@ -182,7 +182,7 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
 @contextmanager
 def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.building.jobs import compile_all
-    from osc2tx.cli.loading import scenarios_of_file, scenarios_of_module
+    from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
     from osc2tx.compilation.inputs import find_inputs
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all

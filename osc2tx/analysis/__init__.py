@@ -4,16 +4,17 @@ Input: a `SemanticModel` without errors; only the user's files are looked at. Ou
 and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` runs the parts:
 
 1. Constraints. `collect` gathers what constrains each type and its invocations, names made definite
-   by `locate`; `overrides` drops the defaults that are replaced; `tape` flattens expressions;
-   `solver` propagates `domains` to a fixed point by `forward` and `backward` over `arithmetic`.
-   The result is the `ConstraintAnalysis` in `constraints`; `report_constraints` reports conflicts.
-2. Liveness. `ending` finds what never ends by itself, `usage` what is used; `liveness`, `usage`,
-   `recursion` and `conditions` report.
+   by `parameter_lookup`; `constraint_overrides` drops the defaults that are replaced;
+   `operation_list` flattens expressions; `solver` propagates `domains` to a fixed point by
+   `forward` and `backward` over `interval_arithmetic`. The result is the `ConstraintAnalysis` in
+   `constraints`; `report_constraints` reports conflicts.
+2. Liveness. `termination` finds what never ends by itself, `usage` what is used; `liveness`,
+   `usage`, `recursive_scenarios` and `constant_conditions` report.
 3. Levels. `levels` says for each scenario whether it is abstract, logical or concrete, with what is
-   open; `cast` judges its actors, `format` writes values in the units of the source.
+   open; `cast_checks` judges its actors, `value_text` writes values in the units of the source.
 
 Facts about the standard library that are not in its declarations are tables in `library_facts`.
-`trees` walks syntax trees.
+`tree_walk` walks syntax trees.
 
 Invariants: a contradiction that is reported is one; what cannot be known when compiling counts as
 unknown; nothing recurses along chains of expressions or members.

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from osc2tx.analysis.conditions import report_conditions
+from osc2tx.analysis.constant_conditions import report_conditions
 from osc2tx.analysis.constraints import ConstraintAnalysis, analyse_constraints
-from osc2tx.analysis.ending import find_endings
 from osc2tx.analysis.levels import ScenarioLevel, find_levels
 from osc2tx.analysis.liveness import report_liveness
-from osc2tx.analysis.recursion import report_recursion
+from osc2tx.analysis.recursive_scenarios import report_recursion
 from osc2tx.analysis.report_constraints import report_constraints
+from osc2tx.analysis.termination import find_endings
 from osc2tx.analysis.usage import find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.options import OneOfPolicy

@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import reduce
 from typing import TypeAlias
 
-from osc2tx.analysis import arithmetic
+from osc2tx.analysis import interval_arithmetic as arithmetic
 from osc2tx.analysis.domains import (
     FALSE,
     TRUE,
@@ -24,7 +24,7 @@ from osc2tx.analysis.domains import (
     is_void,
 )
 from osc2tx.analysis.forward import negated, range_between
-from osc2tx.analysis.tape import Operation
+from osc2tx.analysis.operation_list import Operation
 
 Narrowings: TypeAlias = Iterator[tuple[int, Domain]]
 

@@ -11,10 +11,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
-from osc2tx.analysis.locate import Place
+from osc2tx.analysis.operation_list import Key, Tape, TapeWriter
+from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.analysis.specialisation import Special
-from osc2tx.analysis.tape import Key, Tape, TapeWriter
-from osc2tx.analysis.trees import do_members
+from osc2tx.analysis.tree_walk import do_members
 from osc2tx.diagnostics import Span
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym

@@ -20,9 +20,10 @@ from dataclasses import field, replace
 from enum import Enum
 
 from osc2tx.analysis.collect import Collector, Constraint, Entry
+from osc2tx.analysis.constraint_overrides import InForce, apply_overrides
 from osc2tx.analysis.domains import Choice, Domain, Interval, Value, close, is_void
-from osc2tx.analysis.locate import name_of
-from osc2tx.analysis.overrides import InForce, apply_overrides
+from osc2tx.analysis.operation_list import Key, domain_of_type
+from osc2tx.analysis.parameter_lookup import name_of
 from osc2tx.analysis.solver import smallest_conflict, solve
 from osc2tx.analysis.specialisation import (
     Condition,
@@ -32,7 +33,6 @@ from osc2tx.analysis.specialisation import (
     specialised,
     types_below,
 )
-from osc2tx.analysis.tape import Key, domain_of_type
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx.analysis import arithmetic
+from osc2tx.analysis import interval_arithmetic as arithmetic
 from osc2tx.analysis.domains import (
     ANY_BOOL,
     FALSE,
@@ -19,7 +19,7 @@ from osc2tx.analysis.domains import (
     is_disjoint,
     is_void,
 )
-from osc2tx.analysis.tape import Operation
+from osc2tx.analysis.operation_list import Operation
 
 
 def evaluate(operation: Operation, operands: Sequence[Domain]) -> Domain:

@@ -10,15 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import Enum
 
-from osc2tx.analysis.cast import openings_of_cast
+from osc2tx.analysis.cast_checks import openings_of_cast
 from osc2tx.analysis.constraints import ConstraintAnalysis, State
-from osc2tx.analysis.ending import Endings
-from osc2tx.analysis.format import format_free, format_range
 from osc2tx.analysis.library_facts import LOOSE_OVERLAPS, RELATIONS
 from osc2tx.analysis.liveness import keyword_span
-from osc2tx.analysis.locate import is_of_scope, name_of
-from osc2tx.analysis.tape import Key
-from osc2tx.analysis.trees import do_directives, do_members
+from osc2tx.analysis.operation_list import Key
+from osc2tx.analysis.parameter_lookup import is_of_scope, name_of
+from osc2tx.analysis.termination import Endings
+from osc2tx.analysis.tree_walk import do_directives, do_members
+from osc2tx.analysis.value_text import format_free, format_range
 from osc2tx.diagnostics import Span
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel, types

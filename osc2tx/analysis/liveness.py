@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from osc2tx.analysis.ending import Endings
-from osc2tx.analysis.trees import do_directives, do_members
+from osc2tx.analysis.termination import Endings
+from osc2tx.analysis.tree_walk import do_directives, do_members
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym

@@ -8,9 +8,9 @@ from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.constraints import ConstraintAnalysis, TypeConstraints, analyse_globals
 from osc2tx.analysis.domains import Interval
 from osc2tx.analysis.forward import exact_result
-from osc2tx.analysis.locate import name_of
+from osc2tx.analysis.operation_list import Operation
+from osc2tx.analysis.parameter_lookup import name_of
 from osc2tx.analysis.solver import values_on
-from osc2tx.analysis.tape import Operation
 from osc2tx.analysis.usage import Usage
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics import SemanticModel

@@ -20,8 +20,8 @@ from osc2tx.analysis.domains import (
     intersect,
 )
 from osc2tx.analysis.forward import evaluate
-from osc2tx.analysis.order import disorder
-from osc2tx.analysis.tape import Key, Tape
+from osc2tx.analysis.operation_list import Key, Tape
+from osc2tx.analysis.order_constraints import disorder
 from osc2tx.support.light_dataclass import dataclass
 
 PASSES = 40  # how often a constraint is visited on average, at most

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from osc2tx.analysis.domains import Choice, Domain, Value
-from osc2tx.analysis.tape import Key
+from osc2tx.analysis.operation_list import Key
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes

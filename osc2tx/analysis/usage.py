@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 
 from osc2tx.analysis.library_facts import is_library_actor
-from osc2tx.analysis.trees import children_of, do_directives, nodes_below
+from osc2tx.analysis.tree_walk import children_of, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym

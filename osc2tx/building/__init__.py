@@ -4,9 +4,9 @@ Every source file that declares a scenario gives `NAME.py` and its map `NAME.map
 of the sources is mirrored. A file with errors does not stop the others. Outputs appear whole or
 not at all, and those that are up to date are not touched.
 
-`build` is the way through: `jobs` says what there is to compile, `memory` knows the `results` of
-earlier builds that still hold (`fingerprint` is what they hold for), `workers` make the others,
+`build` is the way through: `jobs` says what there is to compile, `result_cache` knows the `results`
+of earlier builds that still hold (`fingerprint` is what they hold for), `workers` make the others,
 `plan` compares what the sources make with what the `manifest` and the folder say, and `write`
-brings the folder up to date. `diff` and `revision` show changes instead; `watch` builds again
-when a source changes.
+brings the folder up to date. `diff` and `revision` show changes instead; `watch` builds again when
+a source changes.
 """

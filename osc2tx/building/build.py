@@ -7,7 +7,6 @@ from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
 from osc2tx.building.manifest import MANIFEST_NAME, Manifest, read_manifest
-from osc2tx.building.memory import Memory
 from osc2tx.building.plan import (
     PROTECTED,
     Folder,
@@ -17,6 +16,7 @@ from osc2tx.building.plan import (
     find_orphans,
     place_outputs,
 )
+from osc2tx.building.result_cache import Memory
 from osc2tx.building.results import FileResult
 from osc2tx.building.workers import compile_jobs
 from osc2tx.building.write import Update, update_folder

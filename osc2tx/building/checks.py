@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx.building.jobs import Job
-from osc2tx.building.memory import Memory
+from osc2tx.building.result_cache import Memory
 from osc2tx.building.results import FileResult, check_job
 
 

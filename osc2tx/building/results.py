@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.jobs import Job, find_bug
-from osc2tx.compilation.reports import LossEntry
+from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.support.light_dataclass import dataclass

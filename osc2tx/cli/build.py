@@ -12,7 +12,7 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
-from osc2tx.cli.differences import print_diff, read_text
+from osc2tx.cli.diff_output import print_diff, read_text
 from osc2tx.cli.options import compile_options, target_options
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, found, report_options

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 from click.shell_completion import CompletionItem
 
-from osc2tx.diagnostics.lookup import find_code, meant_code
+from osc2tx.diagnostics.code_lookup import find_code, meant_code
 from osc2tx.diagnostics.render import render_explanation
 
 

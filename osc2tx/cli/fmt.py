@@ -8,7 +8,7 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.write import replace_file
-from osc2tx.cli.differences import print_diff
+from osc2tx.cli.diff_output import print_diff
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, report_options
 from osc2tx.compilation.driver import Compilation

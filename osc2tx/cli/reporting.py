@@ -18,7 +18,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import click
 
 from osc2tx import __version__
-from osc2tx.compilation.reports import Reported, settle_all
+from osc2tx.compilation.file_reports import Reported, settle_all
 from osc2tx.diagnostics.report import Report, make_report
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]

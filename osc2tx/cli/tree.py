@@ -7,13 +7,13 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.loading import scenarios_of_module
+from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, complain, report_options
 from osc2tx.cli.run import choose_scenario
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
-from osc2tx_runtime.report.tree import tree_svg, tree_text
+from osc2tx_runtime.report.tree_pictures import tree_svg, tree_text
 
 _FORMS = {"text": tree_text, "svg": tree_svg}
 

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from osc2tx.compilation.file_reports import LossEntry, settle_all
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
 from osc2tx.compilation.products import DUMPS, Output, files_of_module, files_of_xml
-from osc2tx.compilation.reports import LossEntry, settle_all
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.options import CompileOptions, ProductName

@@ -14,7 +14,7 @@ from osc2tx.config.settings import (
     TABLES,
     Setting,
 )
-from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean
 
 
 def read_folder(folder: Path) -> Config | None:

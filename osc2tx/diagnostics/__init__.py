@@ -3,11 +3,10 @@
 A diagnostic is data (code, severity, message, spans, help); a stage puts it into a
 `DiagnosticSink` and goes on. Rendering is a separate matter.
 
-Modules, in reading order: `source` (texts and spans), `model` (the diagnostic itself),
-`codes` (the registry of codes), `explanations` and `lookup` (what there is to say about a code),
-`sink` (collecting and ordering), `suppressions` (comments that keep warnings back), `report` (all
-that a run has to say), `render` (its forms for people and programs). `nearest` is for "did you
-mean".
+Modules, in reading order: `source` (texts and spans), `model` (the diagnostic itself), `codes` (the
+registry of codes), `explanations` and `code_lookup` (what there is to say about a code), `sink`
+(collecting and ordering), `suppressions` (comments that keep warnings back), `report` (all that a
+run has to say), `render` (its forms for people and programs). `suggestions` is for "did you mean".
 """
 
 from osc2tx.diagnostics.codes import CODES, Code

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from osc2tx.formatter.gaps import Comment, Gap, read_gap
+from osc2tx.formatter.token_gaps import Comment, Gap, read_gap
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, NEWLINE, TokenTable
 
 _LAYOUT = frozenset({INDENT, DEDENT, NEWLINE, EOF})

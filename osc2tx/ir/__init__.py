@@ -35,6 +35,7 @@ from osc2tx.ir.behaviors import (
 from osc2tx.ir.constants import constant
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.dump import dump_ir
+from osc2tx.ir.expression_text import show, show_arguments
 from osc2tx.ir.expressions import (
     Argument,
     Attribute,
@@ -93,7 +94,6 @@ from osc2tx.ir.operations import (
     TypeTest,
 )
 from osc2tx.ir.rewrite import rewrite
-from osc2tx.ir.show import show, show_arguments
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 

@@ -30,6 +30,7 @@ from osc2tx.ir.behaviors import (
     Wait,
 )
 from osc2tx.ir.coverage import Coverage
+from osc2tx.ir.expression_text import show, show_arguments
 from osc2tx.ir.expressions import (
     Expression,
 )
@@ -46,7 +47,6 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
-from osc2tx.ir.show import show, show_arguments
 
 INDENT = "  "
 

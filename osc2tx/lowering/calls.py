@@ -11,12 +11,12 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.lowering.composed import is_composed
+from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext, Receiver
 from osc2tx.lowering.expressions import lower_arguments, lower_expression
 from osc2tx.lowering.external import lower_external
-from osc2tx.lowering.overriding import dispatched, overriding_methods
-from osc2tx.lowering.shapes import is_left_open
+from osc2tx.lowering.method_overriding import dispatched, overriding_methods
+from osc2tx.lowering.shape_arguments import is_left_open
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types

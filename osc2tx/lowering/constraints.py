@@ -15,14 +15,14 @@ from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
 from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.domains import TRUE, Choice, Domain, hull
+from osc2tx.analysis.operation_list import Key, domain_of_type
 from osc2tx.analysis.solver import values_on
-from osc2tx.analysis.tape import Key, domain_of_type
-from osc2tx.lowering.composed import Composed, is_composed
+from osc2tx.lowering.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
-from osc2tx.lowering.domains import DomainWriter, all_values, as_type, written_domain
 from osc2tx.lowering.equations import solve_for
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, asks_the_map
+from osc2tx.lowering.parameter_domains import DomainWriter, all_values, as_type, written_domain
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.support.light_dataclass import dataclass

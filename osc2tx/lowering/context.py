@@ -8,8 +8,8 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
-from osc2tx.analysis.locate import Place
-from osc2tx.analysis.tape import Key
+from osc2tx.analysis.operation_list import Key
+from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import (

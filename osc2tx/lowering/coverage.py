@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
-from osc2tx.lowering.composed import Composed
+from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.triggers import declares_event

@@ -8,15 +8,15 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.calls import lower_method
-from osc2tx.lowering.composed import Composed
+from osc2tx.lowering.carla_paths import is_path, path_declarations, path_members
+from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
-from osc2tx.lowering.domains import all_values
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.lists import lower_list
+from osc2tx.lowering.list_constraints import lower_list
 from osc2tx.lowering.map_fields import asks_the_map
 from osc2tx.lowering.objects import ObjectLowering, lineage
-from osc2tx.lowering.paths import is_path, path_declarations, path_members
+from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.triggers import event_parameter, lower_trigger
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.analysis.collect import Constraint
-from osc2tx.analysis.tape import Key
-from osc2tx.analysis.trees import nodes_below
+from osc2tx.analysis.operation_list import Key
+from osc2tx.analysis.tree_walk import nodes_below
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.value_types import lower_type

@@ -89,7 +89,7 @@ def _lower_beyond(
 ) -> ir.Expression | None:
     """Lower what is made of expressions itself: modules that import this one."""
     from osc2tx.lowering.calls import lower_call
-    from osc2tx.lowering.casts import lower_cast, lower_type_test
+    from osc2tx.lowering.type_conversions import lower_cast, lower_type_test
 
     match node:
         case ast.Call():

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.analysis.tape import Key
-from osc2tx.ir.text import statement_name
-from osc2tx.lowering.composed import Composed, has_behavior, is_composed
+from osc2tx.analysis.operation_list import Key
+from osc2tx.ir.source_text import statement_name
+from osc2tx.lowering.carla_paths import start_on_path
+from osc2tx.lowering.composed_behaviors import Composed, has_behavior, is_composed
 from osc2tx.lowering.constraints import ConstraintLowering, Instance, Setting
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_arguments, lower_expression
 from osc2tx.lowering.modifiers import draw_ranges, is_override
-from osc2tx.lowering.names import invocation_name
-from osc2tx.lowering.own_actions import default_arguments, is_own
-from osc2tx.lowering.own_modifiers import ModifierLowering
-from osc2tx.lowering.paths import start_on_path
+from osc2tx.lowering.node_names import invocation_name
 from osc2tx.lowering.triggers import lower_until
+from osc2tx.lowering.user_actions import default_arguments, is_own
+from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.model import Binding

@@ -5,15 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.analysis.locate import name_of
-from osc2tx.analysis.tape import Key
+from osc2tx.analysis.operation_list import Key
+from osc2tx.analysis.parameter_lookup import name_of
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.domains import all_values
-from osc2tx.lowering.elements import fixed_elements
+from osc2tx.lowering.list_element_constraints import fixed_elements
 from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, asks_the_map, is_wish
-from osc2tx.lowering.own_fields import (
+from osc2tx.lowering.parameter_domains import all_values
+from osc2tx.lowering.references import member_of
+from osc2tx.lowering.user_fields import (
     TypeSymbol,
     class_default,
     is_plain,
@@ -21,7 +22,6 @@ from osc2tx.lowering.own_fields import (
     own_fields,
     own_lineage,
 )
-from osc2tx.lowering.references import member_of
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types

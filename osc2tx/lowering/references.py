@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.analysis.tape import Key
+from osc2tx.analysis.operation_list import Key
 from osc2tx.diagnostics import Span
-from osc2tx.lowering.composed import is_composed
+from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.global_names import global_name
 from osc2tx.lowering.map_fields import says_the_map

@@ -8,34 +8,34 @@ from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.lowering.behaviors import BehaviorLowering, boundary_of
-from osc2tx.lowering.composed import Composed, lineage_of
+from osc2tx.lowering.carla_paths import is_path_member
+from osc2tx.lowering.composed_behaviors import Composed, lineage_of
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.coverage import lower_coverage
+from osc2tx.lowering.declaration_order import in_order_of_use
 from osc2tx.lowering.declarations import DeclarationLowering
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.modifiers import is_override
-from osc2tx.lowering.objects import lineage
-from osc2tx.lowering.ordering import in_order_of_use
-from osc2tx.lowering.overrides import lower_overrides
-from osc2tx.lowering.overriding import object_types
-from osc2tx.lowering.own_fields import (
-    class_default,
-    mentioned_fields,
-    own_fields,
-    own_lineage,
-)
-from osc2tx.lowering.own_modifiers import ModifierLowering
-from osc2tx.lowering.own_types import lower_types
-from osc2tx.lowering.paths import is_path_member
-from osc2tx.lowering.placement import (
+from osc2tx.lowering.initial_placement import (
     MAP_MEMBERS,
     PLACING,
     PLACING_MEMBERS,
     PlacementLowering,
     merged,
 )
-from osc2tx.lowering.without_effect import report_without_effect
+from osc2tx.lowering.method_overriding import object_types
+from osc2tx.lowering.modifiers import is_override
+from osc2tx.lowering.objects import lineage
+from osc2tx.lowering.override_modifiers import lower_overrides
+from osc2tx.lowering.unsupported_members import report_without_effect
+from osc2tx.lowering.user_fields import (
+    class_default,
+    mentioned_fields,
+    own_fields,
+    own_lineage,
+)
+from osc2tx.lowering.user_modifiers import ModifierLowering
+from osc2tx.lowering.user_types import lower_types
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym

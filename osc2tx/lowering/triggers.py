@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.lowering.composed import is_composed
+from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.value_types import lower_type

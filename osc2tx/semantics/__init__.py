@@ -11,14 +11,14 @@ Order of events, with the modules that do the work; `builder` runs them:
    (`dialects`); programs are layered on them (`scope`). A program with extensions gets a library of
    its own, so that they stay its own.
 2. Definition pass (`collect`, `members`): a symbol for everything that is declared.
-3. Resolution pass, first half (`resolve`): exports (`exports`), actors and bases
-   (`resolve_types`, `inheritance`), physical types and units (`physical`), extensions
-   (`extensions`), enum values (`enums`), signatures.
+3. Resolution pass, first half (`resolve`): exports (`exports`), actors and bases (`resolve_types`,
+   `inheritance`), physical types and units (`physical`), extensions (`extensions`), enum values
+   (`enums`), signatures.
 4. Resolution pass, second half (`check`): bodies. Statements: `behaviors`, `modifiers`, `events`,
-   `constraints`, `conditions`, `coverage` (with `coverage_items` and `slices`). Expressions: the
-   package `expressions`. Arguments: `binding`, `exclusive`. Names: `lookup`, `builtins`,
-   `unimported`. Types: `assign`, `conversions`. All share a `Resolution` (`resolution`) and get the
-   place they look from as an `Environment`.
+   `constraints`, `inheritance_conditions`, `coverage` (with `coverage_items` and
+   `coverage_slices`). Expressions: the package `expressions`. Arguments: `binding`, `exclusive`.
+   Names: `member_lookup`, `builtins`, `unimported`. Types: `assignability`, `conversions`. All
+   share a `Resolution` (`resolution`) and get the place they look from as an `Environment`.
 
 `units` converts authored values to SI, for the next stage.
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
-from osc2tx.diagnostics.nearest import did_you_mean
-from osc2tx.semantics.assign import check_duration, check_value
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.semantics.assignability import check_duration, check_value
 from osc2tx.semantics.binding import bind_behavior, bind_call, misplaced_of, type_arguments
 from osc2tx.semantics.builtins import COMPOSITION, COMPOSITION_FIELDS, DIRECTIVE
 from osc2tx.semantics.constraints import check_keep, check_remove_default

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from itertools import dropwhile
 
 from osc2tx.diagnostics import Span
-from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import parameter_alias, standard_parameter, write_instead
-from osc2tx.semantics.assign import check_value
+from osc2tx.semantics.assignability import check_value
 from osc2tx.semantics.builtins import DURATION
 from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.exclusive import check_exclusive
-from osc2tx.semantics.lookup import parameters_of
+from osc2tx.semantics.member_lookup import parameters_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose

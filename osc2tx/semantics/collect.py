@@ -12,7 +12,7 @@ from typing import assert_never
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.members import Basics, make_field, members_of
-from osc2tx.semantics.repeats import Repeats
+from osc2tx.semantics.redeclarations import Repeats
 from osc2tx.semantics.scope import NULL, Context, NamedSymbol, Scope
 from osc2tx.semantics.symbols import (
     ActionSymbol,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from osc2tx.semantics.assign import check_condition
+from osc2tx.semantics.assignability import check_condition
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.symbols import EnumMemberSymbol, FieldSymbol, ParameterSymbol
 from osc2tx.semantics.types import BOOL

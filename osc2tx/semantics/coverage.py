@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from osc2tx.diagnostics.nearest import did_you_mean
-from osc2tx.semantics.assign import check_condition, check_value
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.semantics.assignability import check_condition, check_value
 from osc2tx.semantics.constraints import paths_of, root_of
 from osc2tx.semantics.conversions import dimension_of
 from osc2tx.semantics.coverage_items import (
@@ -15,9 +15,9 @@ from osc2tx.semantics.coverage_items import (
     items_of,
     text_of,
 )
+from osc2tx.semantics.coverage_slices import check_slices
 from osc2tx.semantics.events import resolve_event_path
 from osc2tx.semantics.resolution import Environment, Resolution
-from osc2tx.semantics.slices import check_slices
 from osc2tx.semantics.symbols import EnumMemberSymbol, ParameterSymbol
 from osc2tx.semantics.types import (
     ERROR,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve_types import resolve_type_name
 from osc2tx.semantics.scope import Context

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from osc2tx.diagnostics.nearest import did_you_mean
-from osc2tx.semantics.assign import check_condition, check_duration, check_value
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.semantics.assignability import check_condition, check_duration, check_value
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.expressions.access import resolve_member
-from osc2tx.semantics.lookup import lookup_value, member_names
+from osc2tx.semantics.member_lookup import lookup_value, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.symbols import EventSymbol, ParameterSymbol, Symbol
 from osc2tx.semantics.types import EVENT, OBJECT

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.builtins import COMPOSITION
 from osc2tx.semantics.members import members_of
 from osc2tx.semantics.resolution import Resolution

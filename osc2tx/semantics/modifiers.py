@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx.semantics.binding import bind_behavior, type_arguments
 from osc2tx.semantics.builtins import OVERRIDE
 from osc2tx.semantics.expressions.methods import call_by_statement
-from osc2tx.semantics.foreign import advise
+from osc2tx.semantics.other_dialects import advise
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
 from osc2tx.semantics.scope import CallableBehavior, is_subtype

@@ -14,7 +14,7 @@ from osc2tx.semantics.enums import resolve_enum_values
 from osc2tx.semantics.exports import resolve_exports
 from osc2tx.semantics.extensions import apply_extension
 from osc2tx.semantics.inheritance import check_inheritance
-from osc2tx.semantics.lookup import find_member
+from osc2tx.semantics.member_lookup import find_member
 from osc2tx.semantics.physical import check_physical_types, resolve_unit
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.resolve_types import (

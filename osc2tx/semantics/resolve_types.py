@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar, assert_never
 
-from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import (
     behavior_alias,
     standard_behavior,
@@ -13,7 +13,7 @@ from osc2tx.semantics.aliases import (
     write_instead,
 )
 from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS, TYPE_ALIASES
-from osc2tx.semantics.foreign import advise
+from osc2tx.semantics.other_dialects import advise
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype, supertypes
 from osc2tx.semantics.symbols import (

@@ -8,11 +8,11 @@ Stages, in order:
 2. `TokenSource` (`token_source`, with `patterns`, `identifiers`, `keywords`, `lexical_errors`):
    text to a `TokenTable` (`tokens`): tokens with INDENT, DEDENT and NEWLINE, keywords decided by
    place, comments apart.
-3. `parse_tokens` (`parser`, `token_stream`, `syntax_errors`, `remedies`): tokens to the tree of the
-   generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
+3. `parse_tokens` (`parser`, `token_stream`, `syntax_errors`, `common_mistakes`): tokens to the tree
+   of the generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
 4. `ASTTransformer` (`ast_transformer`, `ast_builder`, `literals`): tree to AST (`ast`).
 
-`dump_ast` (`dump`) prints an AST as text; `packed` turns one into plain data and back.
+`dump_ast` (`dump`) prints an AST as text; `packed_ast` turns one into plain data and back.
 
 Invariants: no input raises or recurses without bound; one mistake gives one message and costs one
 statement; every stage is linear in the size of the text; only this package imports antlr4, and no

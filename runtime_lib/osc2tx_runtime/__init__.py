@@ -36,14 +36,6 @@ from osc2tx_runtime.domain.actors.parts import (
     HitchCoupler,
     HitchReceiver,
 )
-from osc2tx_runtime.domain.measuring.motions import (
-    Acceleration,
-    OrientationAcceleration,
-    OrientationRate,
-    TranslationalAcceleration,
-    TranslationalVelocity,
-    Velocity,
-)
 from osc2tx_runtime.domain.measuring.weather import (
     Air,
     CelestialLightSource,
@@ -65,8 +57,9 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTrajectorySt,
     Trajectory,
 )
+from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, RoutePoint, XyzPoint
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
-from osc2tx_runtime.domain.routes.road_parts import (
+from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -88,14 +81,13 @@ from osc2tx_runtime.domain.shapes import (
     CommonSpeedShape,
     OwnShape,
 )
-from osc2tx_runtime.domain.signals.stop_line_parts import TrafficLightStopLine
-from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
+from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
     TrafficLightGroup,
 )
-from osc2tx_runtime.domain.values import GeodeticPoint, RoutePoint, XyzPoint
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
@@ -124,6 +116,14 @@ from osc2tx_runtime.language.tree.coverage import Unit
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.world.velocities import (
+    Acceleration,
+    OrientationAcceleration,
+    OrientationRate,
+    TranslationalAcceleration,
+    TranslationalVelocity,
+    Velocity,
+)
 
 API_LEVEL = 1
 """Of the names and signatures below; a generated module asks for the level it was made for."""

@@ -29,7 +29,7 @@ MAY_IMPORT = {
     "backends": {"backends", "ir"} | LEAVES,
     "formatter": {"formatter", "syntax"} | LEAVES,
     # the shell around the stages
-    "config": {"config", "options", "diagnostics.nearest", "support"},
+    "config": {"config", "options", "diagnostics.suggestions", "support"},
     "compilation": {"syntax", "semantics", "analysis", "lowering", "ir", "backends", "formatter"}
     | {"compilation"}
     | LEAVES,

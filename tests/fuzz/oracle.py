@@ -11,7 +11,7 @@ from pathlib import Path
 from traceback import extract_tb, format_exception
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule
-from osc2tx.cli.loading import scenarios_of_module
+from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all

@@ -29,7 +29,7 @@ from osc2tx.backends.py_trees.view import (
     MethodView,
     StatementView,
 )
-from osc2tx.ir.text import condensed, shorten
+from osc2tx.ir.source_text import condensed, shorten
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.

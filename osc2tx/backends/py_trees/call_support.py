@@ -10,7 +10,7 @@ from osc2tx.backends.py_trees.combinations import CombinationCheck
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.runtime_api import RuntimeSupport
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.diagnostics.nearest import nearest
+from osc2tx.diagnostics.suggestions import nearest
 
 # Names that constructors of actions take for themselves.
 ACTION_KEYWORDS = frozenset({"actor", "label", "self"})

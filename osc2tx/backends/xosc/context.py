@@ -8,9 +8,9 @@ from pathlib import Path
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.found import Stretch
+from osc2tx.backends.xosc.facts.map_search import Stretch
 from osc2tx.backends.xosc.facts.maps import Roads, map_places, roads_of
-from osc2tx.backends.xosc.logical.choosing import NOTHING_OPEN, Choosing
+from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState

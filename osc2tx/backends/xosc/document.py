@@ -9,7 +9,7 @@ from osc2tx.backends.xosc.actions.environment import initial_environment
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects
-from osc2tx.backends.xosc.entities.placement import initial_actions
+from osc2tx.backends.xosc.entities.init_actions import initial_actions
 from osc2tx.backends.xosc.facts.maps import DEFAULT_MAP
 from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter

@@ -11,11 +11,11 @@ from osc2tx import ir
 from osc2tx.backends.xosc import actions
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
-from osc2tx.backends.xosc.facts.runs import read_signal, read_spawn
-from osc2tx.backends.xosc.logical.choosing import Choosing
+from osc2tx.backends.xosc.facts.run_options import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
-from osc2tx.backends.xosc.logical.reporting import report_parameters
+from osc2tx.backends.xosc.logical.parameter_choices import Choosing
+from osc2tx.backends.xosc.logical.parameter_report import report_parameters
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, serialize

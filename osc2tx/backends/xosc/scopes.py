@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.values.own_types import OwnTypes
+from osc2tx.backends.xosc.values.user_types import OwnTypes
 from osc2tx.backends.xosc.xml.names import Names
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.nearest import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import member_alias, standard_member, write_instead
 from osc2tx.semantics.binding import find_parameter
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.expressions.names import value_type
-from osc2tx.semantics.lookup import find_member, member_names
+from osc2tx.semantics.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import resolve_type
 from osc2tx.semantics.scope import supertypes

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from osc2tx.diagnostics.nearest import did_you_mean
-from osc2tx.semantics.assign import check_condition
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.semantics.assignability import check_condition
 from osc2tx.semantics.binding import bind_call, type_arguments
 from osc2tx.semantics.builtins import (
     LIST_METHODS,
@@ -15,7 +15,7 @@ from osc2tx.semantics.builtins import (
 )
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
-from osc2tx.semantics.lookup import find_member, lookup_value, visible_names
+from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import type_of_symbol

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from osc2tx.semantics.assign import check_condition, check_fits
+from osc2tx.semantics.assignability import check_condition, check_fits
 from osc2tx.semantics.conversions import (
     are_related,
     common_type,
     dimension_of,
     is_numeric,
 )
-from osc2tx.semantics.lookup import lookup_value
+from osc2tx.semantics.member_lookup import lookup_value
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
     BOOL,

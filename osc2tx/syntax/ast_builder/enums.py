@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx.syntax import ast
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Tree
-from osc2tx.syntax.ast_builder.places import Place
+from osc2tx.syntax.ast_builder.statement_contexts import Place
 from osc2tx.syntax.ast_builder.statements import Head, HeadFields, StatementBuilder
 from osc2tx.syntax.tokens import Comment
 

@@ -8,7 +8,7 @@ from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Tree
 from osc2tx.syntax.ast_builder.events import EventBuilder
-from osc2tx.syntax.ast_builder.places import Place
+from osc2tx.syntax.ast_builder.statement_contexts import Place
 from osc2tx.syntax.ast_builder.statements import Head
 
 _ASSIGN, _COLON, _LPAREN = (t.PUNCTUATION[text] for text in ["=", ":", "("])

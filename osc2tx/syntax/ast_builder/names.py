@@ -16,7 +16,7 @@ from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Tree
 from osc2tx.syntax.ast_builder.enums import PRIMITIVES
 from osc2tx.syntax.ast_builder.members import MemberBuilder
-from osc2tx.syntax.ast_builder.places import Place
+from osc2tx.syntax.ast_builder.statement_contexts import Place
 from osc2tx.syntax.ast_builder.statements import Head
 from osc2tx.syntax.syntax_errors import describe_token, shortened
 

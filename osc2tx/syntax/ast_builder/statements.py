@@ -13,7 +13,7 @@ from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Tree
 from osc2tx.syntax.ast_builder.comments import CommentCursor
 from osc2tx.syntax.ast_builder.expressions import ExpressionBuilder
-from osc2tx.syntax.ast_builder.places import ALLOWED, Place, help_for
+from osc2tx.syntax.ast_builder.statement_contexts import ALLOWED, Place, help_for
 from osc2tx.syntax.tokens import Comment, TokenTable
 
 Handler = Callable[[Any, Tree, "Head", Place], ast.Statement | None]

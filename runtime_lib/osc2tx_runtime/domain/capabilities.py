@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, get_args, get_type_hints
 
 from osc2tx_rules import Rule
-from osc2tx_runtime.domain.actions.shaped import ShapedAction
-from osc2tx_runtime.domain.actions.support import OneStepAction
+from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+from osc2tx_runtime.domain.actions.motion_action import OneStepAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier

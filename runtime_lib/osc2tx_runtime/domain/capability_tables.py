@@ -28,14 +28,6 @@ from osc2tx_runtime.domain.actors.parts import (
     HitchCoupler,
     HitchReceiver,
 )
-from osc2tx_runtime.domain.measuring.motions import (
-    Acceleration,
-    OrientationAcceleration,
-    OrientationRate,
-    TranslationalAcceleration,
-    TranslationalVelocity,
-    Velocity,
-)
 from osc2tx_runtime.domain.measuring.weather import (
     Air,
     CelestialLightSource,
@@ -57,9 +49,11 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTrajectorySt,
     Trajectory,
 )
+from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, OdrPoint, RoutePoint, XyzPoint
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
+from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 from osc2tx_runtime.domain.routes.road_network import RoadNetwork
-from osc2tx_runtime.domain.routes.road_parts import (
+from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -69,7 +63,6 @@ from osc2tx_runtime.domain.routes.road_parts import (
     RoadPath,
     Route,
 )
-from osc2tx_runtime.domain.routes.route_position import RoutePosition
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
     AnyLateralShape,
@@ -82,14 +75,21 @@ from osc2tx_runtime.domain.shapes import (
     CommonShape,
     CommonSpeedShape,
 )
-from osc2tx_runtime.domain.signals.stop_line_parts import TrafficLightStopLine
-from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
+from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
     TrafficLightGroup,
 )
-from osc2tx_runtime.domain.values import GeodeticPoint, OdrPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.world.velocities import (
+    Acceleration,
+    OrientationAcceleration,
+    OrientationRate,
+    TranslationalAcceleration,
+    TranslationalVelocity,
+    Velocity,
+)
 
 __all__ = ["FIELDS", "MANDATORY", "METHODS", "OBJECTS", "UNKNOWN"]
 

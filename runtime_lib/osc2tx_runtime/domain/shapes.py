@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
-from osc2tx_runtime.world.computed import Computed
+from osc2tx_runtime.world.function_profiles import Computed
 from osc2tx_runtime.world.profiles import (
     QUINTIC_PEAK,
     Cosine,

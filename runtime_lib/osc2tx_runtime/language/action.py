@@ -15,7 +15,7 @@ from osc2tx_runtime.errors import (
 )
 from osc2tx_runtime.language.registry import Method
 from osc2tx_runtime.language.tree.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
-from osc2tx_runtime.language.tree.limits import Duration, Limits
+from osc2tx_runtime.language.tree.duration_limits import Duration, Limits
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Actor

@@ -22,7 +22,7 @@ from osc2tx_runtime.running.trace import TraceWriter
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Actor
-    from osc2tx_runtime.domain.routes.stretches import Stretch
+    from osc2tx_runtime.domain.routes.map_segments import Stretch
     from osc2tx_runtime.language.action import Action
     from osc2tx_runtime.language.tree.events import Event
     from osc2tx_runtime.language.tree.variables import Sampled

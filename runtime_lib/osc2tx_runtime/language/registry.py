@@ -191,7 +191,7 @@ class MethodRegistry:
         found = self.find(kinds, name)
 
         def create(*args: Any, **kwargs: Any) -> Action:
-            from osc2tx_runtime.language.refused import RefusedAction  # it needs this module
+            from osc2tx_runtime.language.refused_action import RefusedAction  # it needs this module
 
             try:
                 if found is None:

@@ -9,11 +9,12 @@ from osc2tx_runtime.domain.actors import Actor, Map
 from osc2tx_runtime.domain.modifiers import SetMapFile
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.members import check_arguments, check_settings, name_members
 from osc2tx_runtime.language.placement import Placement
+from osc2tx_runtime.language.scenario_members import check_arguments, check_settings, name_members
 from osc2tx_runtime.language.scenario_values import ScenarioValues
 from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements
 from osc2tx_runtime.language.tree.base import Behaviour
+from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, argument_key
 from osc2tx_runtime.language.tree.invocation import (
     Caller,
@@ -21,7 +22,6 @@ from osc2tx_runtime.language.tree.invocation import (
     check_recursion,
     unique_name,
 )
-from osc2tx_runtime.language.tree.limits import Duration
 from osc2tx_runtime.language.tree.override import Mode
 from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, within
 from osc2tx_runtime.language.tree.variables import MISSING, Sampled

@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar, Unpack, overload
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
-from osc2tx_runtime.running.external import external_function
 from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.running.sidecar import SourceMap
 

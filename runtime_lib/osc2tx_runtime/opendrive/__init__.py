@@ -6,7 +6,7 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
 * `xml_reader`, `reader`, `signal_reader`, `crosswalks`: text to roads, checked, or a `MapError`.
 * `polynomials`, `geometry`, `model`: what a road is made of.
 * `lane_table`: lanes by id; `network`: which follows which; `lane_line`: arc length along one.
-* `motion`: moving along lanes; `routes`: distances over the lane graph.
+* `lane_advance`: moving along lanes; `lane_distances`: distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `projection`: back to a lane; `geodesy`: from the globe.
 * `outlines`: drawing and default start places; `signal_places`: where signals hold;
   `signals`, `errors`: value types.
@@ -20,6 +20,7 @@ from __future__ import annotations
 from .crosswalks import Crosswalk
 from .errors import MapError
 from .geodesy import GeoReference, GeoReferenceError, TransverseMercator
+from .lane_distances import Route
 from .model import (
     DRIVING,
     Advance,
@@ -34,7 +35,6 @@ from .model import (
     Road,
 )
 from .road_map import RoadMap, read_map, read_map_text
-from .routes import Route
 from .signal_places import SignalPlace, signal_places
 from .signals import Controller, Signal, SignalReference
 

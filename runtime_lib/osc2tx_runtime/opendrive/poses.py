@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from .lane_advance import wrap
 from .model import Lane, Pose, Road
-from .motion import wrap
 
 __all__ = ["lane_pose", "surface_pose"]
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .lane_advance import lane_heading, wrap
 from .model import Lane, LanePosition, Road
-from .motion import lane_heading, wrap
 
 __all__ = [
     "Projection",

@@ -9,6 +9,8 @@ from types import MappingProxyType
 from typing import Literal
 
 from .crosswalks import Crosswalk
+from .lane_advance import Forks, advance
+from .lane_distances import LaneGroups, Route, passable
 from .lane_line import lane_line
 from .lane_table import LaneTable
 from .model import (
@@ -22,13 +24,11 @@ from .model import (
     Pose,
     Road,
 )
-from .motion import Forks, advance
 from .network import connect_lanes, linked_ends
 from .outlines import lane_outlines, spawn_points
 from .poses import lane_pose, surface_pose
 from .projection import Projection, RoadIndex, lane_at, place_score, position_of, project
 from .reader import MapContent, read_content, read_content_text
-from .routes import LaneGroups, Route, passable
 from .signals import Controller, Signal
 
 __all__ = ["RoadMap", "read_map", "read_map_text"]

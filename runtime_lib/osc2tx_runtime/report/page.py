@@ -11,10 +11,10 @@ from pathlib import Path
 from string import Template
 from typing import Protocol
 
-from .lanes import OutlineSource, nearby_crosswalks, nearby_lanes
-from .run import read_run
+from .json_values import Json
+from .nearby_lanes import OutlineSource, nearby_crosswalks, nearby_lanes
 from .surroundings import SignalSource
-from .values import Json
+from .trace_reader import read_run
 
 __all__ = ["render_report", "write_report"]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from .values import Json, number, short, text
+from .json_values import Json, number, short, text
 
 __all__ = ["SignalShape", "SignalSource", "Surroundings"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .values import Json, number, short, text
+from .json_values import Json, number, short, text
 
 __all__ = ["MAX_SAMPLES", "Track"]
 

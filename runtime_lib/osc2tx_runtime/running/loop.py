@@ -17,7 +17,7 @@ from osc2tx_runtime.language.tree.base import (
     pulse_of,
 )
 from osc2tx_runtime.language.tree.events import Event
-from osc2tx_runtime.language.tree.reasons import failure_reason, timeout_reason
+from osc2tx_runtime.language.tree.failure_reasons import failure_reason, timeout_reason
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext

@@ -114,7 +114,7 @@ def make_context(scenario: Scenario, world: World, keep_trace: bool) -> Executio
 def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
     """Put the actors where the scenario wants them."""
     from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
-    from osc2tx_runtime.domain.routes.globe import check_globe
+    from osc2tx_runtime.domain.routes.geodetic_points import check_globe
 
     for actor in scenario.actors.values():
         actor.bind(context)

@@ -2,10 +2,10 @@
 
 Input: placed actors and one command per actor and slot. Output: states, collisions. Begin at
 `protocol` (what every world offers); `embedded` is the world that needs no simulator. Then, in
-order of control flow: `commands`, `motion` (what an actor is asked for) and `moving` (one actor
-over one step) with `longitudinal` and `lateral` (commands at work) on the closed forms of
-`profiles` and the courses of `computed`, `attitude`, `collision`, `distances`; `state` and
-`catalogue` are plain values.
+order of control flow: `commands`, `actor_motion` (the commands of one actor) and `actor_step` (one
+actor over one step) with `longitudinal` and `lateral` (commands at work) on the closed forms of
+`profiles` and `function_profiles`, `attitude`, `collision`, `distances`; `state` and
+`actor_dimensions` are plain values.
 
 Invariants: fixed step, sequences and ordered dicts only, no clock, no random numbers. Commands
 given at step k act from k to k+1; everything one can read is the state of step k.
@@ -13,7 +13,7 @@ given at step k act from k to k+1; everything one can read is the state of step 
 
 from __future__ import annotations
 
-from .catalogue import Limits, Shape
+from .actor_dimensions import Limits, Shape
 from .commands import Command
 from .embedded import EmbeddedWorld
 from .protocol import ActorSpec, LightState, Progress, World

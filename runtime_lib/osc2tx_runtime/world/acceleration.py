@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .catalogue import COMFORT, Limits
+from .actor_dimensions import COMFORT, Limits
 from .commands import AccelerationChange
 from .profiles import Linear, Profile, Quintic
 from .protocol import PENDING, REACHED, Progress
-from .senses import Senses
 from .state import ActorState
+from .step_inputs import Senses
 
 __all__ = ["AccelerationRun", "ConstantAcceleration", "acceleration_profile"]
 

@@ -7,7 +7,7 @@ one (or None) comes. Worlds that cannot pursue a command say so in `World.capabi
 from __future__ import annotations
 
 from .command import Command
-from .side_commands import (
+from .lateral_commands import (
     Beside,
     FollowCourse,
     FollowRoute,
@@ -21,7 +21,7 @@ from .side_commands import (
     Slant,
     Turn,
 )
-from .speed_commands import (
+from .longitudinal_commands import (
     Accelerate,
     AccelerationChange,
     Arrive,

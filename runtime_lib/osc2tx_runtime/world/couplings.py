@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from osc2tx_runtime.opendrive import RoadMap
 
-from .motion import Body
+from .actor_motion import Body
 from .state import ActorState
 from .towing import drawn
 

@@ -12,7 +12,7 @@ from typing import Literal
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 
-from .catalogue import Shape
+from .actor_dimensions import Shape
 from .collision import Box, box_of, contact_interval
 from .state import ActorState
 

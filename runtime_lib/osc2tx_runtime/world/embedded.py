@@ -7,18 +7,19 @@ from collections.abc import Mapping, Sequence
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
+from .actor_dimensions import Limits
+from .actor_motion import Body
 from .attitude import LEVEL, Tilt
-from .catalogue import Limits
 from .commands import Command, Standstill
 from .contacts import Contacts
 from .couplings import Couplings
 from .distances import along_lanes, lateral_on_road
-from .environment import Lights, Surroundings
 from .features import FEATURES
 from .friction import grip
+from .friction_circle import Wheels
 from .kinematics import Kinematics, Track
-from .motion import Body
 from .obstacles import nearest_ahead
+from .projected_motion import projected
 from .protocol import (
     LONGITUDINAL,
     ActorSpec,
@@ -26,13 +27,12 @@ from .protocol import (
     LightState,
     Progress,
 )
-from .signals import Signals
-from .sky import Sky
 from .state import ActorState
-from .stop_lines import StopLine, StopLines
-from .tracking import projected
-from .wheels import Wheels
-from .wishes import Wish
+from .state_changes import Wish
+from .stop_lines_ahead import StopLine, StopLines
+from .sun_and_moon import Sky
+from .traffic_light_states import Signals
+from .weather_effects import Lights, Surroundings
 
 __all__ = ["EmbeddedWorld"]
 

@@ -16,7 +16,7 @@ import math
 from collections.abc import Mapping
 from typing import Literal
 
-from .catalogue import RATE_CAP, Limits
+from .actor_dimensions import RATE_CAP, Limits
 
 __all__ = [
     "ADHESION",

@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import NamedTuple
 
-from osc2tx_runtime.domain.measuring.measured import Measured
-from osc2tx_runtime.domain.measuring.motions import (
+from osc2tx_runtime.world.measured import Measured
+from osc2tx_runtime.world.velocities import (
     Acceleration,
     OrientationAcceleration,
     OrientationRate,

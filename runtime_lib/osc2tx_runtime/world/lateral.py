@@ -14,8 +14,7 @@ from typing import Protocol
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
-from .beside import BesideRun, SidewaysRun
-from .catalogue import Limits
+from .actor_dimensions import Limits
 from .commands import (
     Beside,
     Command,
@@ -26,12 +25,13 @@ from .commands import (
     Sideways,
     Slant,
 )
-from .lanes import neighbouring, offset_from
+from .lane_neighbours import neighbouring, offset_from
+from .lateral_feedback import BesideRun, SidewaysRun
 from .lateral_limits import HEADING_LIMIT, SIDEWAYS
 from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
 from .protocol import PENDING, REACHED, Progress
-from .senses import Senses
 from .state import ActorState
+from .step_inputs import Senses
 
 __all__ = [
     "HEADING_LIMIT",

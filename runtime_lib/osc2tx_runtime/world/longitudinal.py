@@ -8,8 +8,9 @@ from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import Route
 
 from .acceleration import AccelerationRun, ConstantAcceleration
-from .catalogue import COMFORT, GENTLE, TYRES, Limits
-from .caution import Cautious, Hold
+from .actor_dimensions import COMFORT, GENTLE, TYRES, Limits
+from .arrival_schedule import Schedule, towards
+from .collision_avoidance import Cautious, Hold
 from .commands import (
     Accelerate,
     AccelerationChange,
@@ -25,13 +26,12 @@ from .commands import (
     SpeedChange,
     Standstill,
 )
-from .covering import CoverRun, GapCourseRun
-from .gaps import ArrivalRun, GapRun
+from .gap_control import ArrivalRun, GapRun
+from .position_control import CoverRun, GapCourseRun
 from .profiles import COSINE_PEAK, Cosine, Linear, Profile, SCurve, cosine_duration
 from .protocol import PENDING, REACHED, Progress
-from .schedule import Schedule, towards
-from .senses import Senses
 from .state import ActorState
+from .step_inputs import Senses
 
 __all__ = [
     "Longitudinal",

@@ -8,13 +8,13 @@ from typing import Literal, Protocol
 
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
+from .actor_dimensions import Limits, Shape
 from .attitude import LEVEL, Tilt
-from .catalogue import Limits, Shape
 from .commands import Command
 from .kinematics import Kinematics
-from .signals import Signals
-from .sky import Sky
 from .state import ActorState
+from .sun_and_moon import Sky
+from .traffic_light_states import Signals
 
 __all__ = [
     "FOG_LIGHT_RANGE",

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from osc2tx_runtime.opendrive import Route
 
-from .catalogue import COMFORT, Limits
-from .senses import Senses
+from .actor_dimensions import COMFORT, Limits
 from .state import ActorState
-from .stop_lines import StopLine
+from .step_inputs import Senses
+from .stop_lines_ahead import StopLine
 
 __all__ = ["RedLights"]
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from osc2tx_runtime.opendrive import LanePosition
 
-from .catalogue import Shape
+from .actor_dimensions import Shape
 
 __all__ = ["ActorState"]
 

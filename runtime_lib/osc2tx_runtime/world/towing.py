@@ -12,7 +12,7 @@ import math
 
 from osc2tx_runtime.opendrive import Pose
 
-from .catalogue import Shape
+from .actor_dimensions import Shape
 from .curve import turn_between
 from .state import ActorState
 

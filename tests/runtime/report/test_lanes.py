@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from osc2tx_runtime.report.lanes import nearby_crosswalks, nearby_lanes
+from osc2tx_runtime.report.nearby_lanes import nearby_crosswalks, nearby_lanes
 from tests.runtime.report.conftest import Zebra
 
 

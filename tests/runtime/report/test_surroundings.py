@@ -4,7 +4,7 @@ import json
 import re
 
 from osc2tx_runtime.report.page import render_report
-from osc2tx_runtime.report.run import read_run
+from osc2tx_runtime.report.trace_reader import read_run
 from tests.runtime.report.conftest import FakeMap, Post, TraceMaker, highway
 
 

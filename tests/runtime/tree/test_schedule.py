@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.language.tree import Parallel
-from osc2tx_runtime.language.tree.schedule import (
+from osc2tx_runtime.language.tree.parallel_schedule import (
     FREE,
     SPANS,
     Overlap,

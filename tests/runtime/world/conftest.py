@@ -13,7 +13,7 @@ import osc2tx_runtime
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
-from osc2tx_runtime.world.catalogue import limits_of, shape_of
+from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 
 MAPS = Path(osc2tx_runtime.__file__).parent / "maps"
 

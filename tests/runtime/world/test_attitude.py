@@ -32,7 +32,7 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.domain.values import Orientation
+from osc2tx_runtime.domain.points_and_poses import Orientation
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.attitude import tilt_on
 

@@ -18,7 +18,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorState, EmbeddedWorld
-from osc2tx_runtime.world.catalogue import Shape
+from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.collision import box_of, swept_contacts
 from osc2tx_runtime.world.distances import object_distance, time_to_collision
 

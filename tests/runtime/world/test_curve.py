@@ -6,9 +6,14 @@ import math
 
 import pytest
 
+from osc2tx_runtime.domain.paths.path_curves import (
+    PathError,
+    curve_of_path,
+    curve_of_trajectory,
+    stretch,
+)
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
-from osc2tx_runtime.domain.paths.paths import PathError, curve_of_path, curve_of_trajectory, stretch
-from osc2tx_runtime.domain.values import Pose
+from osc2tx_runtime.domain.points_and_poses import Pose
 
 
 def test_a_polyline_is_as_long_as_its_pieces() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
-from osc2tx_runtime.world.catalogue import Shape
+from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.collision import box_of, contact_interval, overlapping, swept_contacts
 from osc2tx_runtime.world.distances import (
     along_lanes,

@@ -21,8 +21,8 @@ from osc2tx_runtime.domain.modifiers import (
     yaw,
 )
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePathSt, Trajectory
-from osc2tx_runtime.domain.routes.road_parts import Lane, Stretch
-from osc2tx_runtime.domain.values import RoutePoint
+from osc2tx_runtime.domain.points_and_poses import RoutePoint
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -34,7 +34,7 @@ from osc2tx_runtime.domain.modifiers import (
     start_lane,
 )
 from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
-from osc2tx_runtime.domain.routes.road_parts import RoadPart
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.opendrive import RoadMap
 
 Load = Callable[[str], RoadMap]

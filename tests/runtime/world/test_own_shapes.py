@@ -20,6 +20,7 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
     yaw,
 )
+from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
     AnyLateralShape,
@@ -31,7 +32,6 @@ from osc2tx_runtime.domain.shapes import (
     CommonSpeedShape,
     OwnShape,
 )
-from osc2tx_runtime.domain.values import Point
 from osc2tx_runtime.errors import ScenarioError
 from tests.runtime.world.two_cars import TwoCars, scenario
 

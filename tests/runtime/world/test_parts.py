@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     Vehicle,
 )
 from osc2tx_runtime.domain.actors import Actor
-from osc2tx_runtime.domain.values import Orientation
+from osc2tx_runtime.domain.points_and_poses import Orientation
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world import EmbeddedWorld

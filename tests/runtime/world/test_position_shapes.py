@@ -20,6 +20,7 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
 )
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
+from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.domain.shapes import (
     AnyPositionShape,
     AnySpeedShape,
@@ -27,7 +28,6 @@ from osc2tx_runtime.domain.shapes import (
     CommonSpeedShape,
     OwnShape,
 )
-from osc2tx_runtime.domain.values import Point
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from tests.runtime.world.two_cars import TwoCars, scenario
 

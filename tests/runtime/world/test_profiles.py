@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from osc2tx_runtime.world.catalogue import Limits
+from osc2tx_runtime.world.actor_dimensions import Limits
 from osc2tx_runtime.world.commands import SpeedChange
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
 from osc2tx_runtime.world.profiles import (

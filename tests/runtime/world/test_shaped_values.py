@@ -31,7 +31,7 @@ from osc2tx_runtime.domain.modifiers import (
     yaw,
 )
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.routes.road_parts import Lane, Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
 from osc2tx_runtime.domain.shapes import (
     CommonAccelerationShape,
     CommonLateralShape,

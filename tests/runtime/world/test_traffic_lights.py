@@ -23,7 +23,13 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.world.lamps import BOXES, MEANINGS, Lamp, lamps_that_mean, meaning_of
+from osc2tx_runtime.world.traffic_light_lamps import (
+    BOXES,
+    MEANINGS,
+    Lamp,
+    lamps_that_mean,
+    meaning_of,
+)
 
 RED = ["is_on", "is_off", "is_off"]
 YELLOW = ["is_off", "is_on", "is_off"]

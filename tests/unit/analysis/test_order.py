@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from osc2tx.analysis.domains import ANY_BOOL, ANY_INT
-from osc2tx.analysis.order import disorder
+from osc2tx.analysis.operation_list import Key, Operation, Tape
+from osc2tx.analysis.order_constraints import disorder
 from osc2tx.analysis.solver import solve
-from osc2tx.analysis.tape import Key, Operation, Tape
 from osc2tx.diagnostics import SourceFile, Span
 from osc2tx.semantics.symbols import FieldSymbol
 

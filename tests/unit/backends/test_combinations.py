@@ -11,7 +11,7 @@ from osc2tx.backends.py_trees.runtime_api import runtime_support
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx_runtime import Vehicle
 from osc2tx_runtime.domain import modifiers as runtime
-from osc2tx_runtime.domain.actions.checks import check_modifiers
+from osc2tx_runtime.domain.actions.modifier_checks import check_modifiers
 from osc2tx_runtime.domain.actions.movement import Drive
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.shapes import CommonPositionShape

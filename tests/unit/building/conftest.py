@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.building import memory
+from osc2tx.building import result_cache
 from tests.unit.building.projects import Project
 
 
@@ -19,7 +19,7 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
         patch.delenv("OSC2TX_NO_CACHE", raising=False)
         for name in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
             patch.setenv(name, str(folder))
-        patch.setattr(memory, "tool_stamp", lambda: "this osc2tx")
+        patch.setattr(result_cache, "tool_stamp", lambda: "this osc2tx")
         yield folder
 
 

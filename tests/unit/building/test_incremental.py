@@ -95,11 +95,11 @@ def test_options_count(project: Project, compiled: list[str]) -> None:
 def test_osc2tx_itself_counts(
     project: Project, compiled: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from osc2tx.building import memory
+    from osc2tx.building import result_cache
 
     project.drive("a.osc")
     project.build()
-    monkeypatch.setattr(memory, "tool_stamp", lambda: "another")
+    monkeypatch.setattr(result_cache, "tool_stamp", lambda: "another")
     assert rebuilt(project, compiled) == ["a.osc"]
 
 
@@ -142,7 +142,7 @@ def test_without_cache_all_is_compiled(
 
 
 def test_remembered_reports_are_those_of_the_first_time(project: Project) -> None:
-    from osc2tx.compilation.reports import settle_all
+    from osc2tx.compilation.file_reports import settle_all
 
     library = "import osc.standard\nscenario base:\n  do serial:\n    wait @gone\n"
     write(project.sources / "lib.osc", library)

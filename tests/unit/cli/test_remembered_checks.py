@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.building import checks, fingerprint, memory
+from osc2tx.building import checks, fingerprint, result_cache
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, check_job
 from osc2tx.compilation.driver import Compilation
@@ -36,7 +36,7 @@ def shell(
     monkeypatch.delenv("OSC2TX_NO_CACHE", raising=False)
     for name in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
         monkeypatch.setenv(name, str(tmp_path / ".cache"))
-    monkeypatch.setattr(memory, "tool_stamp", lambda: "this osc2tx")
+    monkeypatch.setattr(result_cache, "tool_stamp", lambda: "this osc2tx")
     return Shell(capsys, tmp_path)
 
 
@@ -173,7 +173,7 @@ def test_nothing_is_kept_once_osc2tx_itself_has_changed(
     shell: Shell, checked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(fingerprint, "_STARTED", 0)
-    monkeypatch.setattr(memory, "tool_stamp", fingerprint.tool_stamp)
+    monkeypatch.setattr(result_cache, "tool_stamp", fingerprint.tool_stamp)
     shell.drive("a.osc")
     shell("check", "a.osc")
     shell("check", "a.osc")

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.compilation.driver import Compilation
-from osc2tx.compilation.reports import settle_all
+from osc2tx.compilation.file_reports import settle_all
 from osc2tx.diagnostics import Diagnostic
 from osc2tx.options import CompileOptions
 

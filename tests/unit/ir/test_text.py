@@ -2,7 +2,7 @@
 
 import pytest
 
-from osc2tx.ir.text import MAX_LENGTH, condensed, shorten
+from osc2tx.ir.source_text import MAX_LENGTH, condensed, shorten
 
 
 @pytest.mark.parametrize(

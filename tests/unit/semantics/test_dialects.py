@@ -24,7 +24,7 @@ from osc2tx.semantics.dialects import (
     UNIT_ALIASES,
 )
 from osc2tx.semantics.library import shared_library
-from osc2tx.semantics.lookup import member_names
+from osc2tx.semantics.member_lookup import member_names
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,

@@ -18,7 +18,7 @@ from osc2tx.semantics.builder import DiagnosticSink
 from osc2tx.stdlib import DOMAIN, TYPES, library_source, parse_library_file, snapshot
 from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
 from osc2tx.syntax import ast, dump_ast, parse
-from osc2tx.syntax.packed import PackingError, pack, unpack
+from osc2tx.syntax.packed_ast import PackingError, pack, unpack
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENARIOS = sorted(ROOT.glob("scenarios/*.osc")) + sorted(

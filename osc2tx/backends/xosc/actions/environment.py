@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.clock import environments, time_of_day
+from osc2tx.backends.xosc.actions.date_and_time import environments, time_of_day
 from osc2tx.backends.xosc.actions.leaf import Arguments
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
-from osc2tx.backends.xosc.flattening.neighbours import is_first, runs_beside
-from osc2tx.backends.xosc.flattening.shape import actors_of
+from osc2tx.backends.xosc.flattening.adjacent_members import is_first, runs_beside
+from osc2tx.backends.xosc.flattening.tree_queries import actors_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, commented, element
 

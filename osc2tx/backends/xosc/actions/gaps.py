@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.apply_modifiers import modified
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.modify import modified
 from osc2tx.backends.xosc.actions.registry import action
-from osc2tx.backends.xosc.actions.speeds import longitudinal
+from osc2tx.backends.xosc.actions.speed_changes import longitudinal
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.flattening.neighbours import predecessor
+from osc2tx.backends.xosc.flattening.adjacent_members import predecessor
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element, element

@@ -6,13 +6,13 @@ import math
 from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.apply_modifiers import modified
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.modify import modified
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.entities.searched import stretch_of
+from osc2tx.backends.xosc.entities.declared_roads import stretch_of
 from osc2tx.backends.xosc.facts.actors import Linear, Profile, course_of_shift
-from osc2tx.backends.xosc.facts.found import Stretch
+from osc2tx.backends.xosc.facts.map_search import Stretch
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known

@@ -6,12 +6,12 @@ and the like add theirs in files of their own (`registry`).
 
 from __future__ import annotations
 
+from osc2tx.backends.xosc.actions.apply_modifiers import modified
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, Performance
-from osc2tx.backends.xosc.actions.modify import modified
 from osc2tx.backends.xosc.actions.registry import action
+from osc2tx.backends.xosc.actions.speed_changes import change_speed, hold_speed, jump_to
 from osc2tx.backends.xosc.actions.speed_modifiers import time_to_cover
-from osc2tx.backends.xosc.actions.speeds import change_speed, hold_speed, jump_to
-from osc2tx.backends.xosc.actions.walking import stand, walk_on
+from osc2tx.backends.xosc.actions.walkers import stand, walk_on
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 

@@ -8,16 +8,16 @@ from dataclasses import replace
 from itertools import pairwise
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.apply_modifiers import modified
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.modify import modified
-from osc2tx.backends.xosc.actions.points import Line, at_place, line_of, relative_line
 from osc2tx.backends.xosc.actions.registry import action, modifier
+from osc2tx.backends.xosc.actions.routes import assign_route, line_of_way
 from osc2tx.backends.xosc.actions.speed_modifiers import may_jump
-from osc2tx.backends.xosc.actions.ways import assign_route, line_of_way
-from osc2tx.backends.xosc.entities.searched import stretch_of
-from osc2tx.backends.xosc.facts.found import Stretch, crossing_of
+from osc2tx.backends.xosc.actions.xml_positions import Line, at_place, line_of, relative_line
+from osc2tx.backends.xosc.entities.declared_roads import stretch_of
+from osc2tx.backends.xosc.facts.curves import Waypoint, drawn
+from osc2tx.backends.xosc.facts.map_search import Stretch, crossing_of
 from osc2tx.backends.xosc.facts.maps import Pose
-from osc2tx.backends.xosc.facts.ways import Waypoint, drawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named

@@ -6,11 +6,16 @@ from dataclasses import replace
 from math import inf
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.acceleration import shape_of
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Course, Leaf
-from osc2tx.backends.xosc.actions.own_shapes import own_shape, speed_by
-from osc2tx.backends.xosc.actions.rates import shape_of
 from osc2tx.backends.xosc.actions.registry import modifier
-from osc2tx.backends.xosc.actions.speeds import change_speed, jump_to, longitudinal, speed_action
+from osc2tx.backends.xosc.actions.speed_changes import (
+    change_speed,
+    jump_to,
+    longitudinal,
+    speed_action,
+)
+from osc2tx.backends.xosc.actions.user_shapes import own_shape, speed_by
 from osc2tx.backends.xosc.facts.actors import COMFORT
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known

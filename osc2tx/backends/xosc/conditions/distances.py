@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
-from osc2tx.backends.xosc.conditions.measured import MIRRORED, Comparison, Groups, of_entity
+from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.standing import standing_heading
+from osc2tx.backends.xosc.entities.stationary_actors import standing_heading
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 

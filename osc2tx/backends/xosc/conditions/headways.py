@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
 from osc2tx.backends.xosc.conditions.distances import overhang
-from osc2tx.backends.xosc.conditions.measured import MIRRORED, Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.tree import Element, element

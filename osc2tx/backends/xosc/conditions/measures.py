@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, Measure, of_entity
 from osc2tx.backends.xosc.conditions.distances import (
     ahead_of,
     behind,
@@ -17,7 +18,6 @@ from osc2tx.backends.xosc.conditions.distances import (
     space_headway,
 )
 from osc2tx.backends.xosc.conditions.headways import time_gap, time_headway, time_to_collision
-from osc2tx.backends.xosc.conditions.measured import Comparison, Groups, Measure, of_entity
 from osc2tx.backends.xosc.conditions.point_distances import (
     distance_to_road_point,
     distance_to_xyz,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.points import spot_of
-from osc2tx.backends.xosc.conditions.measured import Comparison, Groups, of_entity
+from osc2tx.backends.xosc.actions.xml_positions import spot_of
+from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.tree import element

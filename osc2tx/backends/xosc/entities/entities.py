@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from osc2tx.backends.xosc.actions.models import check_model
+from osc2tx.backends.xosc.actions.behavioral_models import check_model
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.axles import axles
 from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember, Choice

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.world.acceleration import acceleration_profile
-from osc2tx_runtime.world.catalogue import (
+from osc2tx_runtime.world.actor_dimensions import (
     CATEGORIES,
     COMFORT,
     GENTLE,
@@ -20,12 +20,11 @@ from osc2tx_runtime.world.catalogue import (
     limits_of,
     shape_of,
 )
+from osc2tx_runtime.world.actor_motion import CRUISE as SPEEDS_AT_START
 from osc2tx_runtime.world.commands import AccelerationChange, SpeedChange
-from osc2tx_runtime.world.environment import Surroundings
 from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.longitudinal import speed_profile
-from osc2tx_runtime.world.motion import CRUISE as SPEEDS_AT_START
 from osc2tx_runtime.world.profiles import (
     Cosine,
     DynamicProfile,
@@ -35,6 +34,7 @@ from osc2tx_runtime.world.profiles import (
     SCurve,
 )
 from osc2tx_runtime.world.towing import DRAWBAR
+from osc2tx_runtime.world.weather_effects import Surroundings
 
 __all__ = [
     "ADHESION",

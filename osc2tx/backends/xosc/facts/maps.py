@@ -7,17 +7,17 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal, cast
 
-from osc2tx.backends.xosc.facts.ways import Waypoint
+from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.paths.along import way_through
-from osc2tx_runtime.domain.placing.poses import road_entry
+from osc2tx_runtime.domain.paths.road_paths import way_through
+from osc2tx_runtime.domain.placing.pose_resolution import road_entry
 from osc2tx_runtime.domain.routes.map_search import DEFAULT_MAP, SUFFIXES, find_map
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
-from osc2tx_runtime.world.lamps import Lamp, Meaning, lamps_that_mean
-from osc2tx_runtime.world.lanes import lane_with_number
-from osc2tx_runtime.world.signals import Signals
+from osc2tx_runtime.world.lane_neighbours import lane_with_number
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, Meaning, lamps_that_mean
+from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places", "roads_of"]
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.models import no_model
-from osc2tx.backends.xosc.actions.own import command_of
+from osc2tx.backends.xosc.actions.behavioral_models import no_model
+from osc2tx.backends.xosc.actions.user_actions import command_of
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow
-from osc2tx.backends.xosc.flattening.loom import Loom, one_line
-from osc2tx.backends.xosc.flattening.payloads import carried
+from osc2tx.backends.xosc.flattening.event_parameters import carried
 from osc2tx.backends.xosc.flattening.periods import MANY_TIMES, react_periodically
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, one_line
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import element

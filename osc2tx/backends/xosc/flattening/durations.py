@@ -12,8 +12,8 @@ from typing import Literal, TypeAlias
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.flattening.directives import VERDICT
-from osc2tx.backends.xosc.flattening.loom import Loom, construct_of, one_line
-from osc2tx.backends.xosc.flattening.overlaps import length_of
+from osc2tx.backends.xosc.flattening.parallel_overlaps import length_of
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, construct_of, one_line
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.names import plain

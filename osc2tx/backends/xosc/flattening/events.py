@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
+from osc2tx.backends.xosc.conditions.early_triggers import early_triggers, triggers_of
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import Flow, Test, at_time, single
-from osc2tx.backends.xosc.conditions.watching import early_triggers, triggers_of
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts.runs import read_signal
+from osc2tx.backends.xosc.facts.run_options import read_signal
 from osc2tx.backends.xosc.flattening.storyboard import Event
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.scopes import Scope

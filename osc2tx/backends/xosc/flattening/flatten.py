@@ -14,15 +14,15 @@ from typing import assert_never
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, chosen, single, state_of
 from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.flattening.action_endings import settle
 from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.durations import Role, over
 from osc2tx.backends.xosc.flattening.leaves import invoke
-from osc2tx.backends.xosc.flattening.loom import RUN_START, Loom, construct_of
-from osc2tx.backends.xosc.flattening.overlaps import starts_of
-from osc2tx.backends.xosc.flattening.overrides import unless_active
-from osc2tx.backends.xosc.flattening.settling import settle
-from osc2tx.backends.xosc.flattening.shape import is_instant, is_single, is_timed
+from osc2tx.backends.xosc.flattening.overridden_members import unless_active
+from osc2tx.backends.xosc.flattening.parallel_overlaps import starts_of
 from osc2tx.backends.xosc.flattening.storyboard import Act
+from osc2tx.backends.xosc.flattening.storyboard_builder import RUN_START, Loom, construct_of
+from osc2tx.backends.xosc.flattening.tree_queries import is_instant, is_single, is_timed
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.backends.xosc.xml.names import plain

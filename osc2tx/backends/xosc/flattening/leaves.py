@@ -7,14 +7,19 @@ from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
-from osc2tx.backends.xosc.actions.lights import followed_lights
-from osc2tx.backends.xosc.actions.own import own_action
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, OF_THE_RUNTIME
+from osc2tx.backends.xosc.actions.user_actions import own_action
+from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
-from osc2tx.backends.xosc.flattening.loom import RUN_START, Loom, construct_of, one_line
-from osc2tx.backends.xosc.flattening.neighbours import is_first
-from osc2tx.backends.xosc.flattening.settling import take
-from osc2tx.backends.xosc.flattening.shape import OPEN_GLOBALS
+from osc2tx.backends.xosc.flattening.action_endings import take
+from osc2tx.backends.xosc.flattening.adjacent_members import is_first
+from osc2tx.backends.xosc.flattening.storyboard_builder import (
+    RUN_START,
+    Loom,
+    construct_of,
+    one_line,
+)
+from osc2tx.backends.xosc.flattening.tree_queries import OPEN_GLOBALS
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element, commented

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import Flow, Test, single, state_of
-from osc2tx.backends.xosc.flattening.loom import Loom, one_line
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, one_line
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element
 

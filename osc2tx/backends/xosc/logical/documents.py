@@ -15,10 +15,10 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.logical.choosing import Choosing
 from osc2tx.backends.xosc.logical.columns import MOST_COLUMNS, Column, columns_of, with_columns
 from osc2tx.backends.xosc.logical.comparison import Place, differences
 from osc2tx.backends.xosc.logical.distributions import needs_table, single, table
+from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameters import (
     INSIDE,
     OpenParameter,

@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, key_of, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.values.symbols import Symbol
+from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
 from osc2tx.backends.xosc.xml.names import Names, plain
 from osc2tx.backends.xosc.xml.tree import Element, element, text_of
 from osc2tx.diagnostics import Span

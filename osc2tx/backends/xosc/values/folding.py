@@ -13,8 +13,8 @@ from copy import copy
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Bounds, Constant, Made, Member, Named
-from osc2tx.backends.xosc.values.own_types import OwnTypes
-from osc2tx.backends.xosc.values.symbols import Symbol
+from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
+from osc2tx.backends.xosc.values.user_types import OwnTypes
 
 MAKERS = frozenset(
     {

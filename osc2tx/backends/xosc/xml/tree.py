@@ -13,7 +13,7 @@ from typing import TypeAlias
 from lxml import etree
 
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.symbols import Symbol
+from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
 from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, ElementType, element_type, literals
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion

@@ -1,43 +1,43 @@
 """The actions of the domain model; importing this package registers them.
 
-Each module holds the classes of one subject: `movement` (drive, walk, move with their modifiers:
-`combinations` and `checks`; along the road `speeds`, `position_courses`; across it `sides`,
-`across`, `lateral_speeds`; `turning`), `speed`, `rates` (acceleration), `lane`, `gap`, `paths`,
-`position`, `place`, `trailers`, `lights`, `environment`, `traffic_lights` and `cycles` (with
-`switching`). An action reads the snapshot when it starts, hands one command per slot to the world,
-and ends when the world reports the goal.
+Each module holds the classes of one subject: `movement` (drive, walk, move with their modifiers),
+`speed`, `acceleration`, `lane`, `gaps_and_headways`, `path_following`, `change_position`,
+`assign_pose`, `trailers`, `lights`, `environment_actions`, `traffic_light_control` and
+`play_cycles` (with `light_switching`). `combinations` and `modifier_checks` say which modifiers go
+together. An action reads the snapshot when it starts, hands one command per slot to the world (what
+modifiers ask for is worked out in `planning`), and ends when the world reports the goal.
 """
 
 from __future__ import annotations
 
 from . import (
-    cycles,
-    environment,
-    gap,
+    acceleration,
+    assign_pose,
+    change_position,
+    environment_actions,
+    gaps_and_headways,
     lane,
     lights,
     movement,
-    paths,
-    place,
-    position,
-    rates,
+    path_following,
+    play_cycles,
     speed,
-    traffic_lights,
+    traffic_light_control,
     trailers,
 )
 
 __all__ = [
-    "cycles",
-    "environment",
-    "gap",
+    "acceleration",
+    "assign_pose",
+    "change_position",
+    "environment_actions",
+    "gaps_and_headways",
     "lane",
     "lights",
     "movement",
-    "paths",
-    "place",
-    "position",
-    "rates",
+    "path_following",
+    "play_cycles",
     "speed",
-    "traffic_lights",
+    "traffic_light_control",
     "trailers",
 ]

@@ -8,26 +8,26 @@ from typing import TYPE_CHECKING, ClassVar, Literal, Unpack
 from osc2tx_rules import above, at_least, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
+from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, action
 from osc2tx_runtime.language.tree.base import Status
-from osc2tx_runtime.language.tree.limits import Duration
+from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import LaneChange
-from osc2tx_runtime.world.lanes import lanes_to_left, neighbouring, offset_from
+from osc2tx_runtime.world.lane_neighbours import lanes_to_left, neighbouring, offset_from
 from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.profiles import DynamicProfile
 
-from .groups import SPEED_FREE
-from .rated import check_profile, peak_of
-from .shaped import ShapedAction
-from .shifts import check_shift, jump_aside, lanes_to
-from .support import Refused
+from .modifiable import ShapedAction
+from .modifier_groups import SPEED_FREE
+from .motion_action import Refused
+from .profiled_change import check_profile, peak_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
-    from osc2tx_runtime.domain.routes.road_parts import Lane
+    from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
     from osc2tx_runtime.language.tree.parameters import Range
 
 __all__ = ["SIDES", "ChangeLane", "FollowLane", "LaneSide"]

@@ -11,7 +11,7 @@ from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.protocol import LightMode
 
-from .support import note_lights
+from .motion_action import note_lights
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle

@@ -16,8 +16,8 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.language.registry import action
 
-from .groups import LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
-from .shaped import ShapedAction
+from .modifiable import ShapedAction
+from .modifier_groups import LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
 
 __all__ = ["Drive", "Move", "Walk"]
 

@@ -12,10 +12,10 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import SpeedChange, Standstill
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
 
-from .groups import PLACES, SIDE_FREE
-from .rated import RatedChange
-from .shaped import ShapedAction
-from .support import OneStepAction, Refused
+from .modifiable import ShapedAction
+from .modifier_groups import PLACES, SIDE_FREE
+from .motion_action import OneStepAction, Refused
+from .profiled_change import RatedChange
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject

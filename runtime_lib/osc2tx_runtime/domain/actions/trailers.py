@@ -9,7 +9,7 @@ from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
 
-from .support import OneStepAction, Refused
+from .motion_action import OneStepAction, Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Trailer, Vehicle

@@ -8,14 +8,13 @@ it in the registry.
 from __future__ import annotations
 
 from osc2tx_runtime.domain.measuring.weather import CelestialLightSource
-from osc2tx_runtime.domain.routes.route_position import RoutePosition
-from osc2tx_runtime.domain.values import OdrPoint, Orientation, Point, Pose
+from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, Pose
+from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 
 from .base import Actor
-from .controllers import TrafficLightController
 from .environment import Environment
 from .map import Map
-from .objects import (
+from .physical_objects import (
     Animal,
     MovableObject,
     Person,
@@ -23,6 +22,7 @@ from .objects import (
     StationaryObject,
     TrafficParticipant,
 )
+from .traffic_light_controller import TrafficLightController
 from .vehicles import Trailer, Vehicle
 
 __all__ = [

@@ -15,7 +15,7 @@ from osc2tx_runtime.domain.measuring.weather import (
     weather_of,
 )
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.sky import Sky
+from osc2tx_runtime.world.sun_and_moon import Sky
 
 from .base import Actor
 

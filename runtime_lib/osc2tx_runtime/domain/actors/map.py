@@ -10,7 +10,7 @@ from osc2tx_runtime.domain.routes.road_network import RoadNetwork
 from .base import Actor
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle
+    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
 
 __all__ = ["Map"]
 

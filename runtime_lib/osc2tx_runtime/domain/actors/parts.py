@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from typing import TypeVar
 
-from osc2tx_runtime.domain.values import Point
+from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.errors import UnsupportedError
 
 __all__ = [

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Unpack
 
-from osc2tx_runtime.domain.actors.known_parts import (
+from osc2tx_runtime.domain.actors.part_defaults import (
     known_axles,
     known_coupler,
     known_receiver,
@@ -15,9 +15,9 @@ from osc2tx_runtime.domain.actors.known_parts import (
 )
 from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver, completed
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.catalogue import MODELS, VEHICLE_CATEGORIES, Shape
+from osc2tx_runtime.world.actor_dimensions import MODELS, VEHICLE_CATEGORIES, Shape
 
-from .objects import ParticipantFields, TrafficParticipant
+from .physical_objects import ParticipantFields, TrafficParticipant
 
 __all__ = ["Trailer", "Vehicle", "VehicleFields"]
 

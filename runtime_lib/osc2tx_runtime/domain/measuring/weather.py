@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from osc2tx_runtime.domain.measuring.measured import Measured
+from osc2tx_runtime.world.measured import Measured
 
 __all__ = [
     "Air",

@@ -14,13 +14,13 @@ from .base import Side as Side
 from .base import Value as Value
 from .base import value_of as value_of
 from .conduct import *  # noqa: F403
-from .lanes import *  # noqa: F403
+from .lane import *  # noqa: F403
 from .map_base import MapModifier as MapModifier
 from .map_crossings import *  # noqa: F403
 from .map_lanes import *  # noqa: F403
 from .map_routes import *  # noqa: F403
-from .places import *  # noqa: F403
+from .position import *  # noqa: F403
 from .registry import MODIFIERS as MODIFIERS
-from .roads import *  # noqa: F403
-from .speeds import *  # noqa: F403
-from .turns import *  # noqa: F403
+from .map_files import *  # noqa: F403
+from .speed import *  # noqa: F403
+from .orientation import *  # noqa: F403

@@ -17,7 +17,7 @@ from .facts import ModifierFacts
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.parameters import Range
-    from osc2tx_runtime.world.computed import Computed
+    from osc2tx_runtime.world.function_profiles import Computed
     from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = [

@@ -17,7 +17,7 @@ from .registry import modifier
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Trailer
     from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
-    from osc2tx_runtime.domain.routes.road_parts import RoadPath, Route
+    from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPath, Route
 
 __all__ = [
     "Along",

@@ -9,9 +9,9 @@ from typing import ClassVar
 
 from osc2tx_runtime.domain.routes.crossing_lines import laid
 from osc2tx_runtime.domain.routes.crossings import Crossing
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.domain.routes.road_parts import RoadPart
-from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import ScenarioError
 
 from .map_base import Known, MapModifier, Row, fits

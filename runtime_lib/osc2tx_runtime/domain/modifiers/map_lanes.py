@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.domain.routes.lane_kinds import Directionality, LaneType, LaneUse, kind_of_lane
+from osc2tx_runtime.domain.routes.lane_types import Directionality, LaneType, LaneUse, kind_of_lane
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.domain.routes.road_parts import RoadPart
-from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
 from .base import Side
 from .map_base import Known, MapModifier, Row, fits

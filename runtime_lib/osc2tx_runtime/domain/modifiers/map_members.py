@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.domain.routes.road_parts import RoadPart
-from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
 from .map_base import Known, MapModifier, Row, fits
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.domain.routes.road_parts import RoadPath
-from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPath
 
 from .map_base import Known, MapModifier, Row
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.domain.routes.road_parts import RoadPart
-from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import UnsupportedError
 
 from .map_base import Known, MapModifier, Row, fits

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from osc2tx_runtime.domain.values import NetworkPoint, OdrPoint, Pose, RoutePoint
+from osc2tx_runtime.domain.points_and_poses import NetworkPoint, OdrPoint, Pose, RoutePoint
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.road_network import RoadNetwork
-    from osc2tx_runtime.domain.routes.road_parts import Route
+    from osc2tx_runtime.domain.routes.roads_and_lanes import Route
     from osc2tx_runtime.world.curve import Curve
 
 __all__ = [
@@ -64,7 +64,9 @@ class Path:
             PathError: There are not two different points.
         """
         if not self._curve:
-            from osc2tx_runtime.domain.paths.paths import curve_of_path  # which knows this class
+            from osc2tx_runtime.domain.paths.path_curves import (
+                curve_of_path,  # which knows this class
+            )
 
             self._curve.append(curve_of_path(self.in_world()))
         return self._curve[0]
@@ -142,7 +144,7 @@ class MadeRoute(NetworkPath):
 
 @dataclass(frozen=True, slots=True)
 class RelativePath:
-    """A way relative to an object; see `relative_to` in `paths` for the frames."""
+    """A way relative to an object; see `relative_to` in `path_curves` for the frames."""
 
     points: Sequence[PathPoint]
     interpolation: PathInterpolation = "straight_line"

@@ -10,14 +10,14 @@ from osc2tx_runtime.domain.modifiers import (
     MapModifier,
     SetTrafficLightsControlFile,
 )
-from osc2tx_runtime.domain.placing.places import Placer
-from osc2tx_runtime.domain.placing.spots import Spot
+from osc2tx_runtime.domain.placing.initial_state import Spot
+from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of
 from osc2tx_runtime.domain.routes.crossings import Crossing
 from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
-from osc2tx_runtime.domain.routes.road_parts import RoadPart
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
-from osc2tx_runtime.domain.signals.stop_line_parts import TrafficLightStopLine
+from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
 from osc2tx_runtime.errors import InputError, PlacementError, ScenarioError, SettingsError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
 from osc2tx_runtime.world.collision import Box, box_of, overlapping

@@ -11,7 +11,7 @@ from osc2tx_runtime.domain.modifiers import (
     Position,
     TowTrailer,
 )
-from osc2tx_runtime.domain.placing.poses import one_of_kind
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.errors import PlacementError
 
 __all__ = ["Start", "couple", "cycle_of"]

@@ -8,8 +8,8 @@ from dataclasses import replace
 from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple
 
-from osc2tx_runtime.domain.routes.lane_kinds import LANE_TYPES
-from osc2tx_runtime.domain.routes.stretches import CrossingLine, Stretch
+from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
+from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
 from osc2tx_runtime.opendrive import Crosswalk, LanePosition, Pose
 
 if TYPE_CHECKING:

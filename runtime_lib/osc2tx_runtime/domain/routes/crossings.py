@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
+from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.domain.routes.road_parts import Lane, Route
-from osc2tx_runtime.domain.routes.stretches import CrossingLine, Stretch
-from osc2tx_runtime.domain.routes.wishes import Wish, fulfils, said
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Crosswalk
 

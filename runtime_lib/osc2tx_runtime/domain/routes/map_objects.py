@@ -8,7 +8,7 @@ from osc2tx_runtime.errors import ScenarioError
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
-    from osc2tx_runtime.world.signals import Signals
+    from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = ["MapObject"]
 

@@ -11,13 +11,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from osc2tx_runtime.domain.modifiers.map_crossings import implied
+from osc2tx_runtime.domain.modifiers.map_files import MapModifier
 from osc2tx_runtime.domain.modifiers.map_members import listed_members
 from osc2tx_runtime.domain.modifiers.map_paths import differences
-from osc2tx_runtime.domain.modifiers.roads import MapModifier
 from osc2tx_runtime.domain.routes.crossings import Crossing
+from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.road_parts import RoadPart, RoadPath
-from osc2tx_runtime.domain.routes.stretches import Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart, RoadPath
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import RoadMap
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from functools import cached_property, lru_cache
 
 from osc2tx_runtime.domain.routes.crossing_lines import on_crosswalk
-from osc2tx_runtime.domain.routes.lane_kinds import LaneKind, kind_of_lane
-from osc2tx_runtime.domain.routes.passages import Passage, arms_of, passages_of
-from osc2tx_runtime.domain.routes.stretches import PartKind, Stretch
+from osc2tx_runtime.domain.routes.junction_passages import Passage, arms_of, passages_of
+from osc2tx_runtime.domain.routes.lane_types import LaneKind, kind_of_lane
+from osc2tx_runtime.domain.routes.map_segments import PartKind, Stretch
 from osc2tx_runtime.opendrive import DRIVING, Lane, LaneKey, LanePosition, RoadMap
 from osc2tx_runtime.opendrive.lane_line import lane_line
 

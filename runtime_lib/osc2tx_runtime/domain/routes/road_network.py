@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.paths.in_world import path_in_world
+from osc2tx_runtime.domain.paths.network_paths import path_in_world
+from osc2tx_runtime.domain.paths.path_curves import absolute
 from osc2tx_runtime.domain.paths.path_values import (
     ConnectPointsBy,
     MadeRoute,
@@ -18,14 +19,8 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTransform,
     Trajectory,
 )
-from osc2tx_runtime.domain.paths.paths import absolute
-from osc2tx_runtime.domain.placing.poses import place_of_odr
-from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.road_parts import Junction, PartT, Road, Route
-from osc2tx_runtime.domain.routes.routes import place_of_route, route_point_at
-from osc2tx_runtime.domain.routes.stretches import Stretch
-from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
-from osc2tx_runtime.domain.values import (
+from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
+from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,
     OdrPoint,
     Point,
@@ -34,11 +29,16 @@ from osc2tx_runtime.domain.values import (
     RoutePoint,
     XyzPoint,
 )
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route, route_point_at
+from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
+from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.measuring.measures import Measures
+    from osc2tx_runtime.domain.measuring.object_measurements import Measures
     from osc2tx_runtime.domain.modifiers import Side
     from osc2tx_runtime.language.context import ExecutionContext
 

@@ -17,10 +17,10 @@ from pathlib import Path
 from typing import Any, get_args
 
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
-from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle, TrafficLightPhase
+from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, Shown, TrafficLightGroup
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.world.lamps import BulbState, Meaning
+from osc2tx_runtime.world.traffic_light_lamps import BulbState, Meaning
 
 __all__ = ["read_control_file"]
 

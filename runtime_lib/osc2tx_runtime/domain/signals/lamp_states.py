@@ -6,7 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.lamps import BulbColor, BulbState, Lamp, Meaning, lamps_that_mean
+from osc2tx_runtime.world.traffic_light_lamps import (
+    BulbColor,
+    BulbState,
+    Lamp,
+    Meaning,
+    lamps_that_mean,
+)
 
 __all__ = ["Bulbs", "Shown", "TrafficLightBulb", "states_of"]
 

@@ -10,17 +10,17 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.signals.lamp_states import Bulbs, Shown, TrafficLightBulb, states_of
-from osc2tx_runtime.domain.values import Pose
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Signal
-from osc2tx_runtime.world.lamps import Lamp, Meaning, meaning_of
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, Meaning, meaning_of
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.signals.traffic_cycles import TrafficLightCycle
+    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
     from osc2tx_runtime.language.context import ExecutionContext
-    from osc2tx_runtime.world.signals import Signals
+    from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = [
     "Bulbs",

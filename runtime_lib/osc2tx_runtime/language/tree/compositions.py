@@ -21,7 +21,7 @@ from osc2tx_runtime.language.tree.base import (
     Status,
     pulse_of,
 )
-from osc2tx_runtime.language.tree.limits import Duration, Limits
+from osc2tx_runtime.language.tree.duration_limits import Duration, Limits
 
 __all__ = ["Composition", "OneOf", "Serial"]
 

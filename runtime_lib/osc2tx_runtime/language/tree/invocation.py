@@ -10,7 +10,7 @@ from osc2tx_runtime.domain.actors import Actor, Environment, Map
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import Behaviour, Node
 from osc2tx_runtime.language.tree.compositions import OneOf, Serial
-from osc2tx_runtime.language.tree.limits import Duration
+from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parallel import Parallel
 
 if TYPE_CHECKING:

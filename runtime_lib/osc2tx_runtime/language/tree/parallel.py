@@ -18,9 +18,9 @@ from osc2tx_runtime.language.tree.compositions import (
     is_service,
     length_of,
 )
-from osc2tx_runtime.language.tree.limits import Duration
-from osc2tx_runtime.language.tree.overlap import Course
-from osc2tx_runtime.language.tree.schedule import (
+from osc2tx_runtime.language.tree.duration_limits import Duration
+from osc2tx_runtime.language.tree.parallel_execution import Course
+from osc2tx_runtime.language.tree.parallel_schedule import (
     Overlap,
     Part,
     Schedule,
@@ -40,7 +40,7 @@ class Parallel(Composition, ParallelComposite):
     last bounded one; without a bounded one they run on. A failing member fails the whole.
 
     Other overlaps than `start` bound the starts and ends of the other members relative to those
-    of the first, the primary one; see `schedule`. The order of the others has no influence.
+    of the first, the primary one (`parallel_schedule`). The order of the others has no influence.
 
     Args:
         name: Label, or what the composition does.

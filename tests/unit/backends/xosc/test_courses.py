@@ -2,10 +2,10 @@
 
 import pytest
 
-from osc2tx.backends.xosc.actions.places import Arrival
-from osc2tx.backends.xosc.actions.rates import Ramp
+from osc2tx.backends.xosc.actions.acceleration import Ramp
+from osc2tx.backends.xosc.actions.position_modifiers import Arrival
 from osc2tx.backends.xosc.facts.actors import Linear, Quintic
-from osc2tx.backends.xosc.facts.ways import Waypoint, drawn
+from osc2tx.backends.xosc.facts.curves import Waypoint, drawn
 from osc2tx.backends.xosc.report import Inexpressible
 
 

@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc.logical.comparison import evaluated
-from osc2tx.backends.xosc.values.symbols import LONGEST, Symbol
+from osc2tx.backends.xosc.values.symbolic_numbers import LONGEST, Symbol
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlVersion
 from tests.unit.backends.xosc.checks import schema_errors, story_problems

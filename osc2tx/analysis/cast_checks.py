@@ -1,0 +1,172 @@
+"""What the cast of a scenario lacks: a map, places and speeds to start with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import field
+
+from osc2tx.analysis.applied_modifiers import library_modifiers
+from osc2tx.analysis.constraints import ConstraintAnalysis, State
+from osc2tx.analysis.library_facts import (
+    PACING_MODIFIERS,
+    PLACING_ACTIONS,
+    PLACING_MODIFIERS,
+    UNPACED_ACTIONS,
+    is_instant,
+    is_library_actor,
+)
+from osc2tx.analysis.tree_walk import do_directives, do_members
+from osc2tx.diagnostics import Span
+from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.scope import supertypes
+from osc2tx.support.light_dataclass import dataclass
+from osc2tx.syntax import ast
+
+
+@dataclass(slots=True, eq=False)
+class _Part:
+    """What an actor does first.
+
+    Attributes:
+        has_place: Whether something says where it starts.
+        has_pace: Whether something says how fast.
+        is_settled: Whether the first action that takes time has been seen.
+    """
+
+    has_place: bool = False
+    has_pace: bool = False
+    is_settled: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class _Cast:
+    parts: dict[sym.FieldSymbol, _Part] = field(default_factory=dict)
+    maps: list[sym.FieldSymbol] = field(default_factory=list)
+
+
+def openings_of_cast(
+    model: SemanticModel, scenario: sym.ScenarioSymbol, constraints: ConstraintAnalysis
+) -> Iterator[tuple[str, Span]]:
+    """Yield what is open about the actors of a scenario."""
+    if scenario.actor is not None:
+        yield f"the {scenario.actor.name} that does it", scenario.node.name.span
+    cast = _find_cast(scenario)
+    for ancestor in supertypes(scenario):
+        for statement in ancestor.statements:
+            if isinstance(statement, ast.ModifierApplication):
+                for modifier in library_modifiers(model, statement):
+                    _look_at_modifier(model, cast, statement.actor, modifier)
+    for directive in do_directives(scenario):
+        for member in do_members(directive.member):
+            if isinstance(member, ast.Invocation):
+                _look_at_invocation(model, cast, member)
+    if cast.parts and not any(_has_file(scenario, m, constraints) for m in cast.maps):
+        yield "map file", scenario.node.name.span
+    for actor, part in cast.parts.items():
+        if not part.has_place and not _has_pose(scenario, actor, constraints):
+            yield f"place of {actor.name}", actor.span
+        if not part.has_pace and part.is_settled:
+            yield f"speed of {actor.name}", actor.span
+
+
+def _find_cast(scenario: sym.ScenarioSymbol) -> _Cast:
+    cast = _Cast()
+    for ancestor in reversed(list(supertypes(scenario))):
+        for member in ancestor.members.values():
+            if not isinstance(member, sym.FieldSymbol):
+                continue
+            if not isinstance(member.type, types.ActorType):
+                continue
+            actor = member.type.symbol
+            if is_library_actor(actor, "map"):
+                cast.maps.append(member)
+            elif is_library_actor(actor, "physical_object"):
+                cast.parts[member] = _Part(
+                    has_pace=not is_library_actor(actor, "movable_object"),
+                )
+    return cast
+
+
+def _part_of(model: SemanticModel, cast: _Cast, actor: ast.Expression | None) -> _Part | None:
+    symbol = model.symbol_of(actor) if actor is not None else None
+    return cast.parts.get(symbol) if isinstance(symbol, sym.FieldSymbol) else None
+
+
+def _look_at_modifier(
+    model: SemanticModel,
+    cast: _Cast,
+    actor: ast.Expression | None,
+    node: ast.ModifierApplication,
+) -> None:
+    part = _part_of(model, cast, actor)
+    binding = model.bindings.get(node)
+    if part is None or binding is None or part.is_settled:
+        return
+    at = next((value for p, value in binding.arguments if p.name == "at"), None)
+    if at is not None and at.span.text.rpartition("!")[2] == "end":
+        part.has_pace |= node.modifier.text in PACING_MODIFIERS
+        return
+    part.has_place |= node.modifier.text in PLACING_MODIFIERS
+    part.has_pace |= node.modifier.text in PACING_MODIFIERS
+
+
+def _look_at_invocation(model: SemanticModel, cast: _Cast, node: ast.Invocation) -> None:
+    binding = model.bindings.get(node)
+    if binding is None:
+        return
+    callee = binding.callee
+    if not isinstance(callee, sym.ActionSymbol) or callee.origin == "user":
+        for _, value in binding.arguments:  # what it does with its actors is told there
+            _settle(_part_of(model, cast, value))
+        _settle(_part_of(model, cast, node.actor))
+        return
+    for member in node.with_members:
+        if isinstance(member, ast.ModifierApplication):
+            for modifier in library_modifiers(model, member):
+                whose = member.actor if member.actor is not None else node.actor
+                _look_at_modifier(model, cast, whose, modifier)
+    part = _part_of(model, cast, node.actor)
+    if part is None or part.is_settled:
+        return
+    part.has_place |= callee.name in PLACING_ACTIONS
+    if is_instant(callee):
+        part.has_pace |= callee.name == "assign_speed"
+    else:
+        part.has_pace |= callee.name not in UNPACED_ACTIONS
+        part.is_settled = True
+
+
+def _settle(part: _Part | None) -> None:
+    if part is not None:
+        part.has_place = part.has_pace = part.is_settled = True
+
+
+def _has_file(
+    scenario: sym.ScenarioSymbol, map_: sym.FieldSymbol, constraints: ConstraintAnalysis
+) -> bool:
+    """Whether something says which road network it is."""
+    found = constraints.types[scenario]
+    for key in found.by_key:
+        match key:
+            case (root, sym.FieldSymbol(name="map_file") as file) if root is map_:
+                return found.parameter(key, file.type).state is not State.FREE
+            case _:
+                continue
+    return any(
+        isinstance(statement, ast.ModifierApplication)
+        and statement.modifier.text == "set_map_file"
+        and statement.actor is not None
+        and statement.actor.span.text == map_.name
+        for ancestor in supertypes(scenario)
+        for statement in ancestor.statements
+    )
+
+
+def _has_pose(
+    scenario: sym.ScenarioSymbol, actor: sym.FieldSymbol, constraints: ConstraintAnalysis
+) -> bool:
+    return any(
+        key[0] is actor and len(key) > 1 and getattr(key[1], "name", "") in ("pose", "position")
+        for key in constraints.types[scenario].by_key
+    )

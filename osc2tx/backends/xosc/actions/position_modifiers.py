@@ -1,0 +1,180 @@
+"""Modifiers of the place along the road (§8.9.8, §8.9.12)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.gaps import Gap, hold
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
+from osc2tx.backends.xosc.actions.registry import modifier
+from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
+from osc2tx.backends.xosc.actions.xml_positions import REACHED, at_place, spot_of
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.actors import Linear
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import LONGITUDINAL, known
+from osc2tx.backends.xosc.xml.tree import element
+
+STEADY = frozenset({"change_lane", "drive", "follow_lane", "keep_speed", "move"})
+"""Actions that leave the speed as it is, if no modifier says otherwise."""
+
+
+@modifier("position")
+def _position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    if "at_point" in arguments:
+        return _at_point(leaf, call, arguments)
+    ahead, behind = arguments.entity("ahead_of"), arguments.entity("behind")
+    reference = ahead or behind
+    if reference is None:
+        along = _size(arguments, "distance")
+        if along is None:
+            raise Inexpressible("it says no distance", call.span)
+        return _along_road(leaf, call, along)
+    for name in ("movement_mode", "track"):
+        if name in arguments and arguments.member(name, "") not in ("other", "actual"):
+            raise Inexpressible(f"`{name}` has no counterpart", call.span)
+    distance, time = (_size(arguments, name) for name in ("distance", "time"))
+    if distance is None and time is None:
+        raise Inexpressible("it says neither a distance nor a time", call.span)
+    size = distance if distance is not None else time
+    assert size is not None
+    side = "ahead" if ahead is not None else "behind"
+    if size < 0.0:
+        size, side = -size, "behind" if side == "ahead" else "ahead"
+    gap = Gap(reference, side, size, is_time=distance is None, is_headway=False)
+    if call.at == "end":
+        return (_in_time(leaf, call, gap),)
+    return (_held(leaf, gap, keeps=True),)
+
+
+def _size(arguments: Arguments, name: str) -> float | None:
+    given = arguments.number(name)
+    return arguments.number(f"{name}_range") if given is None else given
+
+
+def _held(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
+    distance, time = (None, gap.size) if gap.is_time else (gap.size, None)
+    return hold(leaf, gap, distance, time, freespace=False, keeps=keeps)
+
+
+def _at_point(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    """End an invocation at a point that the way leads to."""
+    spot = spot_of(leaf.ctx, arguments.get("at_point"))
+    arguments.get("project_on_route")
+    if call.at != "end" or leaf.duration is not None:
+        raise Inexpressible("a point that is not the end of the way", call.span)
+    leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
+    leaf.reached = (leaf.on_me(at_place(leaf.ctx, spot.element)),)
+    return ()
+
+
+def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Change, ...]:
+    """End an invocation so far (m) along the road; it keeps its lane until then."""
+    lane, roads = leaf.state.lane, leaf.ctx.roads
+    if call.at != "end" or leaf.duration is not None:
+        raise Inexpressible("a distance from the start of the road that is not the end of the way")
+    if lane is None or roads is None:
+        raise Inexpressible("which road it is on is only known during the run", call.span)
+    place = roads.from_entry(lane, distance)
+    if place is None:
+        raise Inexpressible(f"the road ends before {distance:g} m", call.span)
+    leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
+    there = element(
+        "LanePosition",
+        roadId=place.road,
+        laneId=place.lane,
+        s=round(place.s, 6),
+        offset=round(place.offset, 6) or None,
+    )
+    leaf.reached = (leaf.on_me(at_place(leaf.ctx, there)),)
+    return ()
+
+
+# --- to be somewhere in time --------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Arrival:
+    """The speed with the least effort that covers a way in a time, with a free speed at the end.
+
+    The acceleration falls evenly to zero: a(t) = 3 m (T - t) / T^3 for what is missing, m.
+
+    Attributes:
+        start: m/s.
+        missing: Metres that the speed at the start would not cover.
+        duration: Seconds.
+    """
+
+    start: float
+    missing: float
+    duration: float
+
+    def value(self, t: float) -> float:
+        """Return the speed (m/s) after some seconds."""
+        share = t / self.duration
+        return self.start + 3.0 * self.missing / self.duration * share * (1.0 - 0.5 * share)
+
+
+def _in_time(leaf: Leaf, call: ir.ModifierCall, gap: Gap) -> Change:
+    """Return the change of the speed that leads to a place beside another actor in time."""
+    ctx, speed = leaf.ctx, leaf.state.speed
+    apart = ctx.init_gaps.get((leaf.member.name, gap.reference.name)) if leaf.is_start else None
+    theirs = steady_speed(leaf, gap.reference)
+    is_known = speed is not None and speed.is_known and apart is not None and theirs is not None
+    if not (is_known and leaf.duration is not None and not gap.is_time):
+        ctx.report.approximate(
+            f"modifier {call.name}",
+            call.span,
+            "where both are by then is only known during the run",
+            "the place is reached, but when is up to the tool",
+        )
+        return _held(leaf, gap, keeps=False)
+    assert speed is not None and apart is not None and theirs is not None
+    time = leaf.duration
+    assert time is not None
+    way = apart + (gap.size if gap.side == "ahead" else -gap.size)
+    arrival = Arrival(speed.low, way + (theirs - speed.low) * time, time)
+    can_draw = ctx.can(PROFILE_ACTION, "1.2")
+    # Without courses of the speed an even change leads to the same place in the same time.
+    end = arrival.value(time) if can_draw else speed.low + 2.0 * arrival.missing / time
+    if end < 0.0:
+        raise Inexpressible("it would have to go backwards", call.span)
+    after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
+    during = replace(after, speed=speed.over(known(end)))
+    leaf.course = arrival if can_draw else Linear(speed.low, end, time)
+    action = (
+        through_points(arrival) if can_draw else speed_action(round(end, 9), "linear", "time", time)
+    )
+    return Change(LONGITUDINAL, (action,), time, during, after)
+
+
+def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
+    """Return the speed (m/s) that an actor has all the time; `None` if it may change."""
+    start = leaf.ctx.at_start[actor.name].speed
+    if start is None or not start.is_known:
+        return None
+    for node in ir.walk_behaviors(leaf.ctx.scenario.body):
+        if isinstance(node, ir.InvokeScenario):
+            return None
+        if not isinstance(node, ir.Invoke) or not isinstance(node.actor, ir.FieldRef):
+            continue
+        if node.actor.name == actor.actor.name and not _leaves_speed(leaf, node, start.low):
+            return None
+    return start.low
+
+
+def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
+    if node.action not in STEADY:
+        return False
+    for call in node.modifiers:
+        if call.name in ("keep_speed", "keep_lane", "lane", "lateral", "change_lane"):
+            continue
+        if call.name != "speed":
+            return False
+        arguments = Arguments(leaf.ctx, call.arguments, call)
+        if any(name in arguments for name in ("faster_than", "slower_than", "same_as")):
+            return False
+        if arguments.number("speed") != speed:
+            return False
+    return True

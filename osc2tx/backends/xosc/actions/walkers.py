@@ -1,0 +1,127 @@
+"""Walkers off the lanes: straight on along their heading, as trajectories.
+
+Tools move a pedestrian along the lane when they are told a speed, whatever its heading; only a
+trajectory takes it across the road.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.speed_changes import jump_to
+from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
+from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import WAY, known
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+SAMPLES = 20
+"""Vertices of a change of the speed."""
+
+LONG = 3600.0
+"""Seconds of the last stretch of a trajectory; something else ends it."""
+
+PIECES = 64
+"""Pieces of a change of the speed for the sum of its way."""
+
+
+def walk_on(leaf: Leaf, target: float | None) -> Change:
+    """Return the walk straight on at a speed (m/s), or at the present one."""
+    state = leaf.state
+    if state.speed is None or not state.speed.is_known or state.pose is None:
+        raise Inexpressible("where and how fast it walks is not known", leaf.node.span)
+    start = state.speed.low
+    goal = start if target is None else target
+    course = course_of_speed(start, goal, "none", None, None, leaf.limits)
+    action = _trajectory(leaf, state.pose, course, LONG)
+    during = replace(state, speed=state.speed.over(known(goal)), pose=None)
+    if leaf.duration is None:
+        return Change(WAY, (action,), None, during, during)
+    pose = _ahead(state.pose, _covered(course, leaf.duration))
+    after = replace(state, speed=known(course.value(leaf.duration)), pose=pose)
+    return Change(WAY, (action,), leaf.duration, during, after)
+
+
+def stand(leaf: Leaf) -> Change:
+    """Return the stop of a walker."""
+    state = leaf.state
+    if state.pose is None or state.speed is None or not state.speed.is_known:
+        change = jump_to(leaf, 0.0)
+        fastest = 3.0 if state.speed is None else state.speed.high
+        way = fastest * fastest / (2.0 * leaf.limits.deceleration)
+        leaf.ctx.report.approximate(
+            f"action {leaf.node.action}",
+            leaf.node.span,
+            "where it stops is only known during the run, so it stops at once",
+            f"it stands at most {way:.2g} m before the place where it would have stopped",
+        )
+        return change
+    course = course_of_speed(state.speed.low, 0.0, "asap", None, None, leaf.limits)
+    action = _trajectory(leaf, state.pose, course, LONG)
+    pose = _ahead(state.pose, _covered(course, course.duration))
+    after = replace(state, speed=known(0.0), pose=pose)
+    return Change(WAY, (action,), course.duration, replace(after, pose=None), after)
+
+
+def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Element:
+    """Return the action; its last stretch is long, for whoever is not stopped goes on."""
+    times = [0.0]
+    if course.duration > 0.0:
+        times += [course.duration * index / SAMPLES for index in range(1, SAMPLES + 1)]
+    times.append(times[-1] + length)
+    vertices = []
+    for time in times:
+        place = _ahead(start, _covered(course, time))
+        position = element(
+            "WorldPosition",
+            x=round(place.x, 6),
+            y=round(place.y, 6),
+            z=place.z,
+            h=round(place.h, 9),
+        )
+        vertices.append(element("Vertex", element("Position", position), time=round(time, 6)))
+    trajectory = element(
+        "Trajectory",
+        element("Shape", element("Polyline", *vertices)),
+        name=leaf.ctx.names.new(f"way_{leaf.event}"),
+        closed=False,
+    )
+    return element(
+        "PrivateAction",
+        element(
+            "RoutingAction",
+            element(
+                "FollowTrajectoryAction",
+                _reference(leaf, trajectory),
+                element(
+                    "TimeReference",
+                    element("Timing", domainAbsoluteRelative="relative", scale=1.0, offset=0.0),
+                ),
+                element("TrajectoryFollowingMode", followingMode="position"),
+            ),
+        ),
+    )
+
+
+def _reference(leaf: Leaf, trajectory: Element) -> Element:
+    return trajectory if leaf.ctx.version == "1.0" else element("TrajectoryRef", trajectory)
+
+
+def _ahead(pose: Pose, way: float) -> Pose:
+    """Return the pose so far (m) straight on."""
+    x, y = pose.x + way * math.cos(pose.h), pose.y + way * math.sin(pose.h)
+    return Pose(x, y, pose.z, pose.h)
+
+
+def _covered(course: Profile, time: float) -> float:
+    """Return the way (m) covered after a time: Simpson's rule, then the speed at the end."""
+    changing = min(time, course.duration)
+    step = changing / PIECES
+    way = (time - changing) * course.value(course.duration)
+    for index in range(PIECES):
+        left, right = index * step, (index + 1) * step
+        middle = 0.5 * (left + right)
+        way += (course.value(left) + 4.0 * course.value(middle) + course.value(right)) / 6.0 * step
+    return way

@@ -1,0 +1,82 @@
+"""Which triggers are surely looked at before what they wait for can occur.
+
+They may ask whether the event has occurred; the others have to look for the edge, so that they do
+not see an occurrence from before they began. In a tool an edge is lost where both fall into one
+step, so it is not asked for without need.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx import ir
+from osc2tx.backends.xosc.flattening.tree_queries import is_instant
+
+Path = tuple[tuple[ir.Behavior, int], ...]
+"""Compositions from the outside to a member, with the index of the next one in it."""
+
+
+def early_triggers(body: ir.Behavior) -> frozenset[int]:
+    """Return the ids of the triggers that begin before what they wait for."""
+    places = dict(_paths(body, ()))
+    nodes = ir.walk_behaviors(body)
+    found = set()
+    for node in nodes:
+        for trigger in triggers_of(node):
+            sites = [places[id(site)] for site in nodes if _may_occur(trigger.event, site)]
+            # What no member makes comes from outside: at any time from the start on.
+            if all(_is_before(places[id(node)], site) for site in sites or [()]):
+                found.add(id(trigger))
+    return frozenset(found)
+
+
+def triggers_of(node: ir.Behavior) -> tuple[ir.Trigger, ...]:
+    """Return the triggers that a member itself looks at."""
+    match node:
+        case ir.Wait(trigger=trigger) | ir.On(trigger=trigger):
+            return (trigger,)
+        case ir.Emit() | ir.Call() | ir.Finish():
+            return ()
+        case _:
+            return node.until
+
+
+def _may_occur(
+    event: ir.EventRef | ir.LabelEvent | ir.InnerEvent | None, site: ir.Behavior
+) -> bool:
+    """Whether a member makes an event occur."""
+    match event, site:
+        case ir.EventRef(name=name), ir.Emit(event=emitted):
+            return emitted.name == name
+        case ir.EventRef(name=name), ir.On(reactions=reactions):
+            return any(isinstance(r, ir.Emit) and r.event.name == name for r in reactions)
+        case (ir.LabelEvent(label=label) | ir.InnerEvent(label=label)), _:
+            return site.label == label
+    return False
+
+
+def _paths(node: ir.Behavior, path: Path) -> Iterator[tuple[int, Path]]:
+    yield id(node), path
+    if isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+        for index, member in enumerate(node.members):
+            yield from _paths(member, (*path, (node, index)))
+
+
+def _is_before(watcher: Path, site: Path) -> bool:
+    """Whether a member begins with the innermost composition that also holds the other one."""
+    shared = 0
+    for (a, i), (b, j) in zip(watcher, site, strict=False):
+        if a is not b or i != j:
+            break
+        shared += 1
+    return all(_begins_at_once(node, index) for node, index in watcher[shared:])
+
+
+def _begins_at_once(node: ir.Behavior, index: int) -> bool:
+    match node:
+        case ir.Serial(members=members):
+            return all(is_instant(member) for member in members[:index])
+        case ir.Parallel():
+            return index == 0 or (node.start_to_start is None and node.overlap in (None, "start"))
+        case _:
+            return True

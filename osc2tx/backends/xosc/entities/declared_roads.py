@@ -1,0 +1,124 @@
+"""Roads and lanes that a scenario declares and the map has to have (§8.12)."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.facts.map_search import (
+    PARTS,
+    Between,
+    Plain,
+    Ref,
+    Stretch,
+    Wanted,
+    found_on,
+)
+from osc2tx.backends.xosc.facts.maps import Roads
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Made, Member, Named
+
+without_form(
+    "modifier",
+    "set_traffic_lights_control_file",
+    "cycles of a file that only the embedded world reads",
+)
+
+
+def stretch_of(ctx: Context, value: Constant | None) -> Stretch | None:
+    """Return where on the map a declared road or lane is; `None` for everything else.
+
+    Raises:
+        Inexpressible: The map has nothing like it, or is not at hand.
+    """
+    if not isinstance(value, Named) or ctx.values.type_of(value.name) not in PARTS:
+        return None
+    return _stretches(ctx).get(value.name)
+
+
+def check_map(ctx: Context, placement: ir.Placement) -> None:
+    """See to it that the map is as its modifiers want it.
+
+    Raises:
+        Inexpressible: It is not, or cannot be asked.
+    """
+    for call in placement.modifiers:
+        with ctx.report_as(f"modifier {call.name}", call.span):
+            if call.name in WITHOUT_FORM["modifier"]:
+                raise Inexpressible(WITHOUT_FORM["modifier"][call.name])
+            if call.name != "set_map_file":
+                _stretches(ctx)
+
+
+def is_map(ctx: Context, name: str) -> bool:
+    """Whether a declaration is the map."""
+    return any(
+        isinstance(declaration, ir.Actor)
+        and declaration.name == name
+        and "map" in declaration.lineage
+        for declaration in ctx.scenario.declarations
+    )
+
+
+def required_roads(ctx: Context) -> Roads:
+    """Return the map.
+
+    Raises:
+        Inexpressible: It is not at hand.
+    """
+    if ctx.roads is None:
+        raise Inexpressible(
+            f"roads are looked for on the map {ctx.map_file}, which is not at hand: give its"
+            " folder with --map-path"
+        )
+    return ctx.roads
+
+
+def _stretches(ctx: Context) -> dict[str, Stretch]:
+    if ctx.stretches is None:
+        parts = {
+            each.name: Wanted(each.type, _said(ctx, each))
+            for each in ctx.scenario.declarations
+            if isinstance(each, ir.Struct) and each.type in PARTS and each.value is None
+        }
+        relations = [
+            Wanted(call.name, {a.parameter: _plain(ctx.values.of(a.value)) for a in call.arguments})
+            for placement in ctx.scenario.placements
+            if is_map(ctx, placement.actor)
+            for call in placement.modifiers
+            if call.name != "set_map_file" and call.name not in WITHOUT_FORM["modifier"]
+        ]
+        ctx.stretches = found_on(required_roads(ctx), parts, relations)
+    return ctx.stretches
+
+
+def _said(ctx: Context, part: ir.Struct) -> dict[str, Plain]:
+    """Return what constraints fix about a part."""
+    said: dict[str, Plain] = {}
+    inside: dict[str, dict[str, Plain]] = {}
+    for value in part.values:
+        plain = _plain(ctx.values.of(value.value))
+        match value.path:
+            case (name,):
+                said[name] = plain
+            case ("crossing_type", name):
+                inside.setdefault("crossing_type", {})[name] = plain
+            case _:
+                text = ".".join(value.path)
+                raise Inexpressible(f"`{text}` of `{part.name}` cannot be told from the map")
+    return {**said, **{name: Wanted(name, parts) for name, parts in inside.items()}}
+
+
+def _plain(value: Constant) -> Plain:
+    match value:
+        case Named(name=name):
+            return Ref(name)
+        case Member(name=name):
+            return name
+        case Bounds(lower=low, upper=high):
+            return Between(low, high)
+        case Made():
+            raise Inexpressible(f"what `{value.method}` makes is not looked for on the map")
+        case tuple():
+            return tuple(_plain(each) for each in value)
+    return value

@@ -1,0 +1,58 @@
+"""Where and how actors start: `Storyboard/Init/Actions`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx.backends.xosc.actions.speed_changes import speed_action
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.start_positions import position_of
+from osc2tx.backends.xosc.entities.start_statements import (
+    Start,
+    in_order,
+    speed_at_start,
+    starts_of,
+)
+from osc2tx.backends.xosc.entities.towing import towing
+from osc2tx.backends.xosc.state import ActorState, known
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})
+"""Modifiers that say nothing about the start, and are written down with their invocation."""
+
+
+def initial_actions(ctx: Context) -> list[Element]:
+    """Return the start of each actor, references first, and note what is known about them."""
+    for member in ctx.entities:
+        ctx.states[member.name] = ActorState(speed=known(0.0))
+    privates = []
+    tows = towing(ctx)
+    for start in in_order(starts_of(ctx)):
+        tow = tows.get(start.member.name)
+        if tow is not None:  # where it is follows from the vehicle that tows it
+            ctx.states[start.member.name] = replace(ctx.states[tow], lane=None)
+            continue
+        with ctx.within(start.scope), ctx.report_as("placement", start.span):
+            privates.append(_private(ctx, start))
+    ctx.at_start = dict(ctx.states)
+    return privates
+
+
+def _private(ctx: Context, start: Start) -> Element:
+    member = start.member
+    position, state = position_of(ctx, start)
+    actions = [element("PrivateAction", element("TeleportAction", element("Position", position)))]
+    speed = speed_at_start(ctx, start)
+    ctx.states[member.name] = replace(state, speed=known(speed))
+    if speed != 0.0:
+        actions.append(speed_action(speed, "step", "time", 0.0))
+    tows = start.modifiers.get("tow_trailer")
+    if tows is not None:
+        ctx.require("a trailer that is coupled", "1.3", tows.source.span)
+        ctx.require_support("TrailerAction", tows.source.span)
+        tows.entity("trailer")
+    for name, arguments in start.modifiers.items():
+        if name not in OF_MOVEMENT:
+            arguments.finish()
+    comment = ctx.comment(start.span, f"start of {member.name}")
+    return element("Private", *actions, entityRef=member.name, comment=comment)

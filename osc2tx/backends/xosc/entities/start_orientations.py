@@ -1,0 +1,67 @@
+"""How actors are turned at the start (§8.9.9, §8.9.10)."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.registry import at_start
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.entities.start_statements import Start
+from osc2tx.backends.xosc.facts.maps import LanePosition
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
+"""Angle (rad) between the lines that `yaw_measure_by` names."""
+
+at_start("yaw", "orientation")
+
+
+def turned(ctx: Context, start: Start, along: float) -> tuple[float, float | None, float | None]:
+    """Return heading, pitch and roll of who starts where the road has a heading (rad)."""
+    yaw, orientation = start.modifiers.get("yaw"), start.modifiers.get("orientation")
+    given = yaw or orientation
+    if given is None:
+        return along, None, None
+    if yaw is not None:
+        angle, pitch, roll = yaw.number("angle"), None, None
+        if angle is None:
+            angle = yaw.number("angle_range")
+        measured = yaw.member("measure_by", "relative_to_road")
+        base = 0.5 * math.pi if measured == "relative_to_north" else along
+        base += AXES.get(measured, 0.0)
+    else:
+        angle, pitch, roll = (given.number(name) for name in ("yaw", "pitch", "roll"))
+        measured = given.member("measure_by", "relative_to_road")
+        base = along if measured == "relative_to_road" else 0.0
+    other = given.entity("relative_to")
+    if other is not None and measured != "absolute":
+        base = _heading_of(ctx, other, given) + AXES.get(measured, 0.0)
+    return base + (angle or 0.0), pitch, roll
+
+
+def _heading_of(ctx: Context, other: CastMember, source: Arguments) -> float:
+    state = ctx.states[other.name]
+    if state.pose is not None:
+        return state.pose.h
+    if state.lane is None or ctx.roads is None:
+        raise Inexpressible(f"the heading of {other.name} is not known", source.source.span)
+    return ctx.roads.pose(state.lane).h
+
+
+def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) -> Element | None:
+    """Return how an actor on a lane is turned; `None`: along the lane.
+
+    Raises:
+        Inexpressible: Where the lane leads is not known.
+    """
+    if "yaw" not in start.modifiers and "orientation" not in start.modifiers:
+        return None
+    if ctx.roads is None or place is None:
+        raise Inexpressible("where the lane leads is only known during the run", start.span)
+    heading, pitch, roll = turned(ctx, start, ctx.roads.pose(place).h)
+    return element(
+        "Orientation", type="absolute", h=round(heading, 9), p=pitch or None, r=roll or None
+    )

@@ -1,0 +1,113 @@
+"""What a scenario says about the start of each actor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.entities.declared_roads import check_map, is_map
+from osc2tx.backends.xosc.entities.towing import towing
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.scopes import Scope
+from osc2tx.diagnostics import Span
+
+
+@dataclass(slots=True)
+class Start:
+    """The start of one actor: its modifiers by name, and whom it refers to."""
+
+    member: CastMember
+    scope: Scope
+    placement: ir.Placement | None
+    modifiers: dict[str, Arguments]
+    references: tuple[str, ...]
+
+    @property
+    def span(self) -> Span:
+        """Where its start is said, or the actor declared."""
+        return self.member.actor.span if self.placement is None else self.placement.span
+
+
+RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
+TURNS = frozenset({"orientation", "speed", "tow_trailer", "yaw"})
+"""Modifiers that name others without a place beside them."""
+
+without_form("modifier", "on_path", "which piece of road it is, only the embedded world finds out")
+
+
+def starts_of(ctx: Context) -> list[Start]:
+    """Return the start of each actor; what is wrong with one is in the report."""
+    found: dict[str, Start] = {}
+    for scope in ctx.scope.all():
+        for placement in scope.scenario.placements:
+            member = scope.cast.get(placement.actor)
+            if is_map(ctx, placement.actor):
+                check_map(ctx, placement)
+                continue
+            with ctx.within(scope), ctx.report_as("placement", placement.span):
+                if member is None:
+                    raise Inexpressible(f"`{placement.actor}` is no entity of the XML")
+                if not scope.is_first:
+                    raise Inexpressible("the scenario that places it does not begin with the run")
+                if member.name in found:
+                    raise Inexpressible(f"{member.name} is placed twice")
+                found[member.name] = _start(ctx, scope, member, placement)
+    tows = towing(ctx)
+    return [
+        found.get(member.name)
+        or Start(member, ctx.scope, None, {}, tuple(tows.get(member.name, "").split()))
+        for member in ctx.entities
+    ]
+
+
+def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placement) -> Start:
+    for call in placement.modifiers:
+        if call.name in WITHOUT_FORM["modifier"]:
+            raise Inexpressible(WITHOUT_FORM["modifier"][call.name], call.span)
+    modifiers = {call.name: Arguments(ctx, call.arguments, call) for call in placement.modifiers}
+    tow = towing(ctx).get(member.name)
+    references = [] if tow is None else [tow]
+    for arguments in modifiers.values():
+        for name in RELATIVE:
+            other = arguments.entity(name)
+            if other is not None:
+                references.append(other.name)
+    return Start(member, scope, placement, modifiers, tuple(references))
+
+
+def in_order(starts: list[Start]) -> list[Start]:
+    """Sort so that references come first; a ring keeps its order, and is refused later."""
+    placed: set[str] = set()
+    ordered: list[Start] = []
+    waiting = list(starts)
+    while waiting:
+        ready = next((s for s in waiting if placed.issuperset(s.references)), waiting[0])
+        waiting.remove(ready)
+        placed.add(ready.member.name)
+        ordered.append(ready)
+    return ordered
+
+
+def speed_at_start(ctx: Context, start: Start) -> float:
+    """Return the speed (m/s) with which an actor starts.
+
+    Raises:
+        Inexpressible: It follows from a speed that is not known.
+    """
+    arguments = start.modifiers.get("speed")
+    if arguments is None:
+        return 0.0
+    speed = arguments.number("speed") or 0.0
+    for name, sign in (("same_as", 1.0), ("faster_than", 1.0), ("slower_than", -1.0)):
+        other = arguments.entity(name)
+        if other is not None:
+            theirs = ctx.states[other.name].speed
+            if theirs is None or not theirs.is_known:
+                raise Inexpressible(f"the speed of {other.name} is not known", start.span)
+            factor = arguments.number("factor")
+            return theirs.low * (1.0 if factor is None else factor) + sign * speed
+    return speed

@@ -1,0 +1,194 @@
+"""Roads and lanes that scenarios declare, found on the map as the embedded world finds them."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias, TypeVar
+
+from osc2tx.backends.xosc.facts.curves import Waypoint
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.domain.modifiers.map_files import MAP_MODIFIERS, MapModifier
+from osc2tx_runtime.domain.paths.path_values import ConnectPointsBy
+from osc2tx_runtime.domain.paths.path_values import Path as Way
+from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
+from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
+from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
+from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.roads_and_lanes import (
+    CompoundLane,
+    CompoundRoute,
+    Junction,
+    Lane,
+    LaneSection,
+    Road,
+    RoadPart,
+    Route,
+)
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.tree.parameters import Range
+
+__all__ = [
+    "PARTS",
+    "Between",
+    "Plain",
+    "Ref",
+    "Stretch",
+    "Wanted",
+    "begin_of",
+    "crossing_of",
+    "end_of",
+    "found_on",
+    "way_of_route",
+]
+
+PARTS: Mapping[str, type[RoadPart]] = {
+    "compound_lane": CompoundLane,
+    "compound_route": CompoundRoute,
+    "crossing": Crossing,
+    "junction": Junction,
+    "lane": Lane,
+    "lane_section": LaneSection,
+    "road": Road,
+    "route": Route,
+}
+"""Type of the library (§8.12) -> what is looked for."""
+
+
+class Ref(NamedTuple):
+    """Another part, by its name."""
+
+    name: str
+
+
+class Between(NamedTuple):
+    """Any number from the lower bound to the upper one."""
+
+    lower: float
+    upper: float
+
+
+Plain: TypeAlias = "Between | bool | int | float | str | Ref | Wanted | tuple[Plain, ...]"
+
+
+class Wanted(NamedTuple):
+    """A part, or a modifier of the map: its type or name, and what is said about it."""
+
+    kind: str
+    said: Mapping[str, Plain]
+
+
+def found_on(
+    roads: Roads, parts: Mapping[str, Wanted], relations: Sequence[Wanted]
+) -> dict[str, Stretch]:
+    """Return the stretch of the map for each part.
+
+    Args:
+        roads: The map.
+        parts: What is declared, by name.
+        relations: Modifiers of the map.
+
+    Raises:
+        Inexpressible: The map has none, or cannot tell.
+    """
+    made: dict[str, RoadPart] = {}
+    try:
+        for name, wanted in parts.items():
+            made[name] = _made(PARTS[wanted.kind], wanted, made)
+        kinds = {cls.name: cls for cls in MAP_MODIFIERS}
+        modifiers = [_made(kinds[wanted.kind], wanted, made) for wanted in relations]
+        solver = MapSolver(roads.map, list(made.values()), [Relation(m, None) for m in modifiers])
+        solver.solve()
+    except (ScenarioError, UnsupportedError) as error:
+        raise Inexpressible(error.message) from None
+    return {name: part.found for name, part in made.items()}
+
+
+MadeT = TypeVar("MadeT", RoadPart, MapModifier, CrossingType)
+
+
+def _made(cls: type[MadeT], wanted: Wanted, made: Mapping[str, RoadPart]) -> MadeT:
+    """Return an object of the embedded world."""
+    known = inspect.signature(cls).parameters
+    unknown = [name for name in wanted.said if name not in known]
+    if unknown:
+        raise Inexpressible(f"`{unknown[0]}` of a {wanted.kind} cannot be told from the map")
+    arguments: dict[str, Any] = {n: _resolved(value, made) for n, value in wanted.said.items()}
+    return cls(**arguments)
+
+
+def _resolved(value: Plain, made: Mapping[str, RoadPart]) -> object:
+    if isinstance(value, Ref):
+        if value.name not in made:
+            raise Inexpressible(f"`{value.name}` is used before it is declared")
+        return made[value.name]
+    if isinstance(value, Wanted):
+        return _made(CrossingType, value, made)
+    if isinstance(value, Between):
+        return Range(value.lower, value.upper)
+    if isinstance(value, tuple):
+        return tuple(_resolved(each, made) for each in value)
+    return value
+
+
+# --- places on what was found -------------------------------------------------------------------
+
+
+def crossing_of(stretch: Stretch) -> tuple[Waypoint, Waypoint] | None:
+    """Return where a crossing begins and ends; `None` if a stretch is none."""
+    line = stretch.line
+    if line is None:
+        return None
+    begin, end = (Waypoint(0.0, *line.at(s), line.heading) for s in (0.0, line.length))
+    return begin, end
+
+
+def begin_of(roads: Roads, stretch: Stretch) -> LanePosition:
+    """Return where a stretch begins, in direction of travel."""
+    return graph_of(roads.map).begin(stretch)
+
+
+def end_of(roads: Roads, stretch: Stretch) -> LanePosition:
+    """Return where a stretch ends."""
+    return graph_of(roads.map).end(stretch)
+
+
+def way_of_route(
+    roads: Roads,
+    elements: Sequence[LanePosition | Pose | Stretch | Sequence[Waypoint]],
+    connect_by: str,
+) -> tuple[Waypoint, ...]:
+    """Return the way that a route leads along.
+
+    Args:
+        roads: The map.
+        elements: What it is put together from; waypoints are a path.
+        connect_by: What points stand for (§8.12.29).
+
+    Raises:
+        Inexpressible: There is no such way.
+    """
+    parts = [_element(each) for each in elements]
+    kind: ConnectPointsBy | None = next((known for known in CONNECT if known == connect_by), None)
+    if kind is None:
+        raise Inexpressible(f"`{connect_by}` is nothing that points can stand for")
+    try:
+        poses = poses_of_route(roads.map, parts, kind)
+    except ScenarioError as error:
+        raise Inexpressible(error.message) from None
+    return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in poses)
+
+
+CONNECT: tuple[ConnectPointsBy, ...] = ("road", "lane_section", "lane", "crossing", "waypoint")
+
+
+def _element(
+    given: LanePosition | Pose | Stretch | Sequence[Waypoint],
+) -> LanePosition | Pose | Stretch | Way:
+    if isinstance(given, LanePosition | Pose | Stretch):
+        return given
+    poses = tuple(WayPose(each.x, each.y, each.z, yaw=each.h) for each in given)
+    return Way(poses, "straight_line")

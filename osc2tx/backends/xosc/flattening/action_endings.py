@@ -1,0 +1,102 @@
+"""What goes on when an action ends: a change that is not over is ended where it is.
+
+In the DSL an actor keeps its speed and its lane when no action controls them. In the XML an action
+runs on until it is done, or another one takes over.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.speed_changes import hold_speed
+from osc2tx.backends.xosc.conditions.flow import Flow
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom
+from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+BACK_TO_CENTRE = 1.5
+"""Seconds for the way back after a change of lane that was cut short."""
+
+Claims = frozenset[tuple[str, str]]
+
+
+def take(loom: Loom, leaf: Leaf, change: Change, *, is_over: bool) -> None:
+    """Note what is known about the actor when an action has ended."""
+    before = loom.ctx.states[leaf.member.name]
+    state = _merged(before, change.after if is_over else change.during, change.domain)
+    state = replace(state.finished(change.domain), rate=state.rate)
+    if not is_over:
+        state = state.with_unfinished(change.domain, leaf.event)
+    loom.ctx.states[leaf.member.name] = state
+    for noted in (change.during, change.after):
+        loom.note(leaf.member.name, replace(_merged(before, noted, change.domain), unfinished=()))
+
+
+def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
+    """Return the state in which only one domain has changed."""
+    if domain == LATERAL:
+        return replace(before, offset=now.offset, lane=now.lane, pose=now.pose)
+    if domain == LONGITUDINAL:
+        return replace(now, offset=before.offset, lane=before.lane, unfinished=before.unfinished)
+    return replace(now, unfinished=before.unfinished)
+
+
+def settle(loom: Loom, flow: Flow, member: ir.Behavior, taken: Claims) -> Flow:
+    """End what is still changing when a member has ended, unless the next one takes over.
+
+    Args:
+        loom: The acts.
+        flow: When the member ends.
+        member: The member.
+        taken: Entities and domains that the next member takes over.
+
+    Returns:
+        When the member ends, as a flow that stays true if something had to be ended.
+    """
+    ctx = loom.ctx
+    ended = flow
+    for actor in loom.acting(member):
+        state = ctx.states[actor]
+        left = [
+            (domain, event)
+            for domain, event in state.unfinished
+            if domain != WAY and (actor, domain) not in taken
+        ]
+        if not left:
+            continue
+        for domain, _ in left:
+            state = state.finished(domain)
+        ctx.states[actor] = state
+        actions = tuple(_ending(loom, actor, domain, member) for domain, _ in left)
+        name = ctx.names.new(f"hold_{actor}")
+        ended = loom.latched(ended, name)
+        comment = ctx.comment(member.span, f"{actor} goes on as it is")
+        loom.add(name, actions, ended, comment, actor=actor)
+    return ended
+
+
+def _ending(loom: Loom, actor: str, domain: str, member: ir.Behavior) -> Element:
+    if domain == LONGITUDINAL:
+        return hold_speed(actor)
+    note = f"it returns to the centre of the lane that it is in, within {BACK_TO_CENTRE:g} s"
+    loom.ctx.report.exact("a change of lane that is cut short", member.span, note)
+    return element(
+        "PrivateAction",
+        element(
+            "LateralAction",
+            element(
+                "LaneChangeAction",
+                element(
+                    "LaneChangeActionDynamics",
+                    dynamicsShape="sinusoidal",
+                    dynamicsDimension="time",
+                    value=BACK_TO_CENTRE,
+                ),
+                element(
+                    "LaneChangeTarget", element("RelativeTargetLane", entityRef=actor, value=0)
+                ),
+            ),
+        ),
+    )

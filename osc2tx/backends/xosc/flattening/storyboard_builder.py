@@ -1,0 +1,276 @@
+"""What everybody needs who weaves events into acts: the present act, marks, triggers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.backends.xosc.conditions.expressions import condition_flow
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, single, state_of
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.flattening.events import EventTable
+from osc2tx.backends.xosc.flattening.storyboard import Act, Event
+from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
+from osc2tx.backends.xosc.values.constants import Bounds
+from osc2tx.backends.xosc.xml.names import plain
+from osc2tx.backends.xosc.xml.tree import Element
+
+RUN_START = single(run_start())
+
+
+class Loom:
+    """The acts of one scenario while they are made.
+
+    A mark is an event that only sets a variable: it keeps that a flow has come true.
+
+    Attributes:
+        ctx: The scenario.
+        act: The one that events go to.
+        voice: The actor whose maneuver holds marks and emissions.
+        finished: When the scenario ends before its tree does.
+        is_race: The action that is written down now may lose a race before it is done.
+        place: Where the member stands that is written down now.
+    """
+
+    def __init__(self, ctx: Context) -> None:
+        """Begin with one act for all."""
+        self.ctx = ctx
+        self.act = Act(ctx.names.new(f"act_{ctx.scenario.name}"), RUN_START)
+        self.voice: str | None = None
+        self.finished = NEVER
+        self.is_race = False
+        self.place = ctx.scenario.span
+        self._outermost = self.act
+        self._closed: list[Act] = []
+        self._around: list[Act] = []
+        self._hulls: list[dict[str, ActorState]] = []
+        self._tables = {id(scope): EventTable(ctx, scope) for scope in ctx.scope.all()}
+
+    @property
+    def events(self) -> EventTable:
+        """The events of the scenario that is being written down."""
+        return self._tables[id(self.ctx.scope)]
+
+    @property
+    def acts(self) -> tuple[Act, ...]:
+        """All acts, inner ones first: so tools see their ends in the step in which they end."""
+        return (*self._closed, self._outermost)
+
+    @property
+    def is_outermost(self) -> bool:
+        """Whether nothing can stop what is written down now but the end of the scenario."""
+        return self.act is self._outermost
+
+    # --- events and acts --------------------------------------------------------------------------
+
+    def add(
+        self,
+        name: str,
+        actions: tuple[Element, ...],
+        start: Flow,
+        comment: str | None = None,
+        *,
+        actor: str | None = None,
+        repeats: int | None = None,
+    ) -> Flow:
+        """Add an event to the maneuver of an actor; return when it is complete."""
+        if comment is None:
+            comment = self.ctx.comment(self.place, one_line(self.place.text))
+        event = Event(name, actions, start, comment, repeats=repeats, place=self.place)
+        self.act.add(actor, event)
+        return single(state_of("event", name))
+
+    def add_signals(self) -> None:
+        """Add the events from outside whose time is given."""
+        for table in self._tables.values():
+            for event in table.signals():
+                self.act.add(None, event)
+
+    def open_act(self, name: str, start: Flow, comment: str) -> Act:
+        """Let events go to a new act."""
+        act = Act(self.ctx.names.new(name), start, comment, around=self.act)
+        self._around.append(self.act)
+        self._hulls.append(
+            {name: replace(state, unfinished=()) for name, state in self.ctx.states.items()}
+        )
+        self.act = act
+        return act
+
+    def close_act(self) -> None:
+        """Let events go to the act around; what was going on may have been stopped anywhere."""
+        self._closed.append(self.act)
+        for name, state in self._hulls.pop().items():
+            is_aside = state.offset is None and self.ctx.states[name].offset is not None
+            left = ((LATERAL, self.act.name),) if is_aside else ()
+            self.ctx.states[name] = replace(state, unfinished=left)
+        self.act = self._around.pop()
+
+    def note(self, entity: str, state: ActorState) -> None:
+        """Note a state in which an act that is open now may be stopped."""
+        for hull in self._hulls:
+            hull[entity] = merged(hull[entity], state)
+
+    def finish_acts(self) -> None:
+        """Give acts without events one, as the schema asks for it, and pass stops on inwards."""
+        for act in self.acts:
+            if not act.events:
+                name = self.ctx.names.new(f"mark_{act.name}")
+                is_outermost = act is self._outermost
+                running = single(state_of("act", act.name, "runningState"))
+                start = RUN_START if is_outermost else running
+                comment = self.ctx.comment(self.ctx.scenario.span, name)
+                act.add(None, Event(name, (self.ctx.mark(name),), start, comment))
+            around = dict.fromkeys(act.stops_around())
+            for mark in around:  # what is complete because it was stopped must start nothing
+                condition = self.ctx.variable_is(mark, "equalTo", "false")
+                act.start = act.start & single(Test(condition))
+            for mark in (*act.stops, *around):
+                act.stop = act.stop | self.is_set(mark)
+
+    # --- flows ------------------------------------------------------------------------------------
+
+    def latched(self, flow: Flow, name: str) -> Flow:
+        """Return a flow that stays true, by means of a mark if need be."""
+        if flow.is_latched:
+            return flow
+        return self.keep(self.ctx.names.new(f"before_{plain(name)}"), flow)
+
+    def keep(self, mark: str, flow: Flow) -> Flow:
+        """Add a mark; return when it is set."""
+        self.add(mark, (self.ctx.mark(mark),), flow, actor=self.voice)
+        return self.is_set(mark)
+
+    def is_set(self, variable: str) -> Flow:
+        """Return the flow of a variable that stays set."""
+        condition = self.ctx.variable_is(variable, "equalTo", "true")
+        return single(Test(condition, latched=True))
+
+    def begun(self, node: ir.Behavior, start: Flow) -> Flow:
+        """Keep the start of a member whose label is waited for; return when it starts."""
+        mark = self.events.mark(node, ir.Moment.START)
+        if mark is None:
+            return start
+        kept = self.keep(mark, start)
+        return start if start.is_latched else kept
+
+    def ended(self, node: ir.Behavior, end: Flow) -> Flow:
+        """Keep the end of a member whose label is waited for; return when it ends."""
+        mark = self.events.mark(node, ir.Moment.END)
+        return end if mark is None or end.is_never else self.keep(mark, end)
+
+    # --- triggers ---------------------------------------------------------------------------------
+
+    def after(self, trigger: ir.Trigger, start: Flow) -> Flow:
+        """Return when a trigger occurs that is looked at from a flow on."""
+        flow = start
+        if trigger.event is not None:
+            flow = flow & self._occurrence(trigger)
+        match trigger.condition:
+            case None:
+                return flow
+            case ir.Elapsed(duration=duration) if trigger.event is None:
+                return flow.later(self.ctx.values.number(duration))
+            case ir.Every(offset=offset) if trigger.event is None:  # its first time, which ends it
+                return flow if offset is None else flow.later(self.ctx.values.number(offset))
+            case ir.Elapsed() | ir.Every():
+                raise Inexpressible("this condition has no counterpart here", trigger.span)
+            case condition:
+                if trigger.event is not None and isinstance(condition, ir.Edge):
+                    raise Inexpressible("an edge of a condition at an event", trigger.span)
+                tests = condition_flow(self.ctx, condition)
+                self.ctx.report.exact("condition", condition.span)
+                return flow & tests
+
+    def _occurrence(self, trigger: ir.Trigger) -> Flow:
+        event = trigger.event
+        if not isinstance(event, ir.InnerEvent):
+            return self.events.occurrence(trigger)
+        if "." in event.name:
+            raise Inexpressible("an event deep inside of an invoked scenario", event.span)
+        with self.ctx.within(self.ctx.scope.by_label[event.label]):
+            return self.events.of_event(event.name, event, is_early=False)
+
+    def limit(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario, start: Flow) -> Flow:
+        """Return when a member that starts with a flow is over at the latest; as `until`."""
+        lasting = self.length_of(node)
+        ends = NEVER if lasting is None else start.later(lasting)
+        return ends | self.until(node, start)
+
+    def until(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario, start: Flow) -> Flow:
+        """Return when one of the `until` of a member occurs, or one that overrides it starts."""
+        ends = NEVER
+        for trigger in node.until:
+            ends = ends | self.after(trigger, start)
+            self.ctx.report.exact("until", trigger.span)
+        for label in self.overriding(node):
+            is_first = start == RUN_START  # else the other one may have started before
+            ends = ends | start & self.events.of_label(label, ir.Moment.START, is_early=is_first)
+        return ends
+
+    def overriding(self, node: ir.Behavior) -> list[str]:
+        """Return the labels of the members that end this one when they start."""
+        found = []
+        for override in self.ctx.scope.scenario.overrides:
+            if node.label is None or override.overridden != node.label:
+                continue
+            self.ctx.report.exact("override", override.span)
+            found.append(override.by)
+        return found
+
+    def is_unset(self, variable: str) -> Flow:
+        """Return the flow of a variable that is not set, or not yet."""
+        self.ctx.declare(variable, "boolean", "false")
+        return single(Test(self.ctx.variable_is(variable, "equalTo", "false")))
+
+    def length_of(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario) -> float | None:
+        """Return the duration (s) that is written for a member; of a range the least."""
+        if node.duration is None:
+            return None
+        value = self.ctx.values.of(node.duration)
+        self.ctx.report.exact("duration", node.duration.span)
+        return value.lower if isinstance(value, Bounds) else self.ctx.values.number(node.duration)
+
+    # --- actors -----------------------------------------------------------------------------------
+
+    def acting(self, member: ir.Behavior) -> list[str]:
+        """Return the entities that act in a member, in source order."""
+        cast = self.ctx.cast
+        found = [cast[name].name for name in actors_of(member) if name in cast]
+        for node in ir.walk_behaviors(member):
+            if isinstance(node, ir.InvokeScenario):
+                with self.ctx.within(self.ctx.scope.inner[node.span]):
+                    found.extend(self.acting(self.ctx.scope.scenario.body))
+        return list(dict.fromkeys(found))
+
+    def claimed(self, node: ir.Behavior) -> frozenset[tuple[str, str]]:
+        """Return the entities and domains that a member takes over when it starts."""
+        cast = self.ctx.cast
+        return frozenset(
+            (cast[actor].name, domain) for actor, domain in claims(node) if actor in cast
+        )
+
+    def claimed_by(self, labels: list[str]) -> frozenset[tuple[str, str]]:
+        """Return the same for labelled members."""
+        nodes = ir.walk_behaviors(self.ctx.scope.scenario.body)
+        found = (self.claimed(node) for node in nodes if node.label in labels)
+        return frozenset[tuple[str, str]]().union(*found)
+
+
+def one_line(text: str) -> str:
+    """Return the first line of a statement, for comments."""
+    first, _, rest = text.partition("\n")
+    return first.strip() + (" …" if rest.strip() else "")
+
+
+def construct_of(node: ir.Behavior) -> str:
+    """Return what a member is called in reports."""
+    match node:
+        case ir.Invoke(action=action):
+            return f"action {action}"
+        case ir.OneOf():
+            return "one_of"
+        case ir.InvokeScenario():
+            return "scenario invocation"
+    return type(node).__name__.lower()

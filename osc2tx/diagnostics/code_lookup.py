@@ -1,0 +1,23 @@
+"""Finds codes by what people write for them: `OSC203`, `osc203` or the slug."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from osc2tx.diagnostics.codes import CODES, Code
+from osc2tx.diagnostics.suggestions import did_you_mean
+
+
+def find_code(written: str) -> Code | None:
+    """Return the code of that name or slug, in capitals or not."""
+    return CODES.get(written.upper()) or _by_slug().get(written.lower())
+
+
+def meant_code(written: str) -> str | None:
+    """Return a line of help that offers the code or slug that was probably meant."""
+    return did_you_mean(written.upper(), CODES, 0.8) or did_you_mean(written.lower(), _by_slug())
+
+
+@cache
+def _by_slug() -> dict[str, Code]:
+    return {code.slug: code for code in CODES.values()}

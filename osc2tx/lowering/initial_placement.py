@@ -1,0 +1,224 @@
+"""Initial placement: what holds at the start of the run is taken out of the tree.
+
+Only invocations that begin at the very start can place an actor. Their `at: start` modifiers
+become its placement, modifiers that hold throughout hold at the start as well, and an
+`assign_position` that says nothing else disappears. An `at: start` further on stays in the tree:
+it has to hold by then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import field, replace
+
+from osc2tx import ir
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.carla_paths import START
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.shape_arguments import first_value, says_start
+from osc2tx.support.light_dataclass import dataclass
+
+# Modifiers that say something about a single instant and so can place an actor.
+PLACING = frozenset({"acceleration", "lane", "lateral", "orientation", "position", "speed", "yaw"})
+
+# Modifiers of maps: what declared roads and lanes are like, for the whole scenario (§8.12.2.2).
+MAP_MEMBERS = frozenset(
+    {"compound_lane_side", "crossing_connects", "end_lane", "lane_side", "number_of_lanes"}
+    | {"roads_follow_in_junction"}
+    | {"routes_are_in_sequence", "routes_are_opposite", "routes_overlap", "set_map_file"}
+    | {"set_traffic_lights_control_file", "start_lane"}
+)
+
+# Modifiers of actors that say the same as members of a scenario, for the whole of it.
+PLACING_MEMBERS = frozenset({"location", "tow_trailer"}) | MAP_MEMBERS
+
+# Types of routes of a map, on which an actor can start.
+ROUTES = frozenset(
+    {"compound_lane", "compound_route", "crossing", "lane", "lane_section", "road", "route"}
+)
+
+# Actions that take no time, so that the next member of a serial still begins at the start.
+INSTANT = frozenset(
+    {"air", "assign_acceleration", "assign_celestial_position", "assign_orientation"}
+    | {"assign_position", "assign_speed", "clouds", "fog", "rain", "set_lights", "snow", "wind"}
+    | {"set_bulb_state", "set_group_bulb_state", "set_group_semantic_state", "set_group_state"}
+    | {"set_semantic_state", "set_state"}
+)
+
+
+@dataclass(slots=True)
+class _Found:
+    """The placement of one actor, being collected."""
+
+    span: Span
+    comments: list[str] = field(default_factory=list)
+    modifiers: dict[str, ir.ModifierCall] = field(default_factory=dict)
+    is_throughout: bool = True
+
+
+class PlacementLowering:
+    """Splits a tree into initial placement and what is left of the tree."""
+
+    def __init__(self, ctx: LoweringContext) -> None:
+        """Take the place for complaints."""
+        self._ctx = ctx
+        self._found: dict[str, _Found] = {}
+
+    def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
+        """Return the placements in source order, and the tree without them."""
+        rest = self._rewrite(body, is_start=True)
+        placements = tuple(
+            ir.Placement(
+                actor=actor,
+                modifiers=tuple(found.modifiers.values()),
+                span=found.span,
+                comments=tuple(found.comments),
+                is_throughout=found.is_throughout,
+            )
+            for actor, found in self._found.items()
+            if found.modifiers
+        )
+        return placements, rest
+
+    def _rewrite(self, node: ir.Behavior, *, is_start: bool) -> ir.Behavior | None:
+        match node:
+            case ir.Serial():
+                return self._composition(node, self._serial_members(node, is_start=is_start))
+            case ir.Parallel() | ir.OneOf():
+                members = (self._rewrite(member, is_start=is_start) for member in node.members)
+                return self._composition(node, members)
+            case ir.Invoke():
+                return self._lift(node) if is_start else self._later(node)
+            case ir.InvokeScenario() | ir.Wait() | ir.Emit() | ir.Finish() | ir.Call() | ir.On():
+                return node
+
+    def _serial_members(self, node: ir.Serial, *, is_start: bool) -> Iterator[ir.Behavior | None]:
+        for member in node.members:
+            yield self._rewrite(member, is_start=is_start)
+            is_start = is_start and is_instant(member)
+
+    def _composition(
+        self, node: ir.Composition, members: Iterator[ir.Behavior | None]
+    ) -> ir.Composition | None:
+        left = tuple(member for member in members if member is not None)
+        return replace(node, members=left) if left else None
+
+    def _lift(self, node: ir.Invoke) -> ir.Invoke | None:
+        if not isinstance(node.actor, ir.FieldRef):
+            return self._later_start(node)
+        actor = node.actor.name
+        node = self._begin_on_path(node, actor)
+        placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
+        if not placing:
+            return self._later_start(node)
+        found = self._found.setdefault(actor, _Found(node.span))
+        for modifier in placing:
+            found.is_throughout &= modifier.at != "start"
+            what = _subject(modifier)
+            if modifier.at == "start" or what not in found.modifiers:
+                # What holds throughout stays in the tree as well, and its comments with it.
+                comments = modifier.comments if modifier.at == "start" else ()
+                found.modifiers[what] = replace(modifier, at="start", comments=comments)
+        rest = tuple(m for m in node.modifiers if m.at != "start")
+        if node.action == "assign_position" and not rest and not node.arguments:
+            found.comments.extend(node.comments)
+            return None
+        return self._later_start(replace(node, modifiers=rest))
+
+    def _later(self, node: ir.Invoke) -> ir.Invoke:
+        """Leave an action where it stands; but for its path, which places its actor anyway."""
+        if isinstance(node.actor, ir.FieldRef):
+            node = self._begin_on_path(node, node.actor.name)
+        return self._later_start(node)
+
+    def _begin_on_path(self, node: ir.Invoke, actor: str) -> ir.Invoke:
+        """Place an actor on the first path that it drives along; it cannot change to another."""
+        for modifier in node.modifiers:
+            if modifier.name != START:
+                continue
+            found = self._found.setdefault(actor, _Found(node.span))
+            first = found.modifiers.setdefault(START, modifier)
+            if _path_of(first) != _path_of(modifier):
+                self._ctx.unsupported(
+                    "OSC505",
+                    modifier.span,
+                    f"`{actor}` drives along another path already",
+                    help="give it one path",
+                )
+        return replace(node, modifiers=tuple(m for m in node.modifiers if m.name != START))
+
+    def _later_start(self, node: ir.Invoke) -> ir.Invoke:
+        """Leave an `at: start` in the tree: the runtime looks whether it holds by then."""
+        if not any(map(_may_jump, node.modifiers)):
+            for modifier in node.modifiers:
+                if modifier.at == "start":
+                    self._ctx.unsupported(
+                        "OSC505",
+                        modifier.span,
+                        f"`{modifier.name}(…, at: start)` has to hold when the action starts, or"
+                        " the action fails",
+                        help="let the action before end so with `at: end`, or allow a jump with"
+                        " `physical_movement(prefer_non_physical)`",
+                    )
+        return node
+
+
+def _path_of(modifier: ir.ModifierCall) -> str:
+    return " ".join(argument.value.span.text for argument in modifier.arguments)
+
+
+def _places(modifier: ir.ModifierCall) -> bool:
+    """Whether a modifier says where or how an actor is at an instant."""
+    if modifier.name == "along":
+        return any(argument.value.type.name in ROUTES for argument in modifier.arguments)
+    return modifier.name in PLACING and says_start(modifier)
+
+
+def _subject(modifier: ir.ModifierCall) -> str:
+    """Return what a modifier is about: a speed along the lane is another thing than one across."""
+    values = (a.value for a in modifier.arguments if a.parameter == "direction")
+    across = any(isinstance(v, ir.EnumValue) and v.member == "lateral" for v in values)
+    return f"{modifier.name} across" if across else modifier.name
+
+
+def _may_jump(modifier: ir.ModifierCall) -> bool:
+    """Whether a modifier says that physics need not hold."""
+    values = (argument.value for argument in modifier.arguments)
+    return modifier.name == "physical_movement" and any(
+        isinstance(value, ir.EnumValue) and value.member == "prefer_non_physical"
+        for value in values
+    )
+
+
+def merged(placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
+    """Return one placement for each actor, where it first stands; those of maps stay apart."""
+    by_actor: dict[str, ir.Placement] = {}
+    for number, placement in enumerate(placements):
+        if placement.of_map:
+            by_actor[f"{placement.actor} {number}"] = placement
+            continue
+        first = by_actor.get(placement.actor)
+        if first is not None:
+            placement = replace(
+                first,
+                modifiers=(*first.modifiers, *placement.modifiers),
+                comments=(*first.comments, *placement.comments),
+                is_throughout=first.is_throughout and placement.is_throughout,
+            )
+        by_actor[placement.actor] = placement
+    return tuple(by_actor.values())
+
+
+def is_instant(node: ir.Behavior) -> bool:
+    """Whether a member takes no time."""
+    match node:
+        case ir.Serial() | ir.Parallel():
+            return all(is_instant(member) for member in node.members)
+        case ir.OneOf():
+            return any(is_instant(member) for member in node.members)
+        case ir.Invoke(action=action):
+            return action in INSTANT
+        case ir.Emit() | ir.Finish() | ir.Call():
+            return True
+        case ir.InvokeScenario() | ir.Wait() | ir.On():
+            return False

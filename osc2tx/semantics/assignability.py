@@ -1,0 +1,166 @@
+"""Whether a value fits where it is put: defaults, arguments, conditions (§7.4.2.6)."""
+
+from __future__ import annotations
+
+from osc2tx.semantics.builtins import TIME
+from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
+from osc2tx.semantics.resolution import Environment, Resolution
+from osc2tx.semantics.scenario_runner import reads_as_quantity
+from osc2tx.semantics.types import (
+    BOOL,
+    ERROR,
+    EVENT,
+    UINT,
+    Dimension,
+    ListType,
+    PhysicalType,
+    RangeType,
+    Type,
+)
+from osc2tx.syntax import ast
+
+
+def check_value(
+    r: Resolution,
+    expression: ast.Expression,
+    target: Type,
+    env: Environment,
+    what: str,
+    *,
+    allow_range: bool = False,
+) -> Type:
+    """Type an expression, and report it if it does not fit the target type."""
+    source = r.type_of(expression, env, target)
+    if reads_as_quantity(r, expression, target, env):
+        r.types[expression] = source = target
+    check_fits(r, expression, source, target, what, allow_range=allow_range)
+    return source
+
+
+def check_condition(r: Resolution, expression: ast.Expression, env: Environment) -> None:
+    """Type an expression that must be boolean."""
+    check_value(r, expression, BOOL, env, "a condition")
+
+
+def check_duration(r: Resolution, expression: ast.Expression, env: Environment) -> None:
+    """Type an expression that must be a time, or a range of times."""
+    check_value(r, expression, TIME, env, "a duration", allow_range=True)
+
+
+def check_fits(
+    r: Resolution,
+    expression: ast.Expression,
+    source: Type,
+    target: Type,
+    what: str,
+    *,
+    allow_range: bool = False,
+) -> None:
+    """Report an expression whose type does not fit the target type."""
+    if source == ERROR or target == ERROR:
+        return
+    if allow_range and isinstance(source, RangeType) and not isinstance(target, RangeType):
+        source = source.element
+        if isinstance(expression, ast.RangeLiteral):
+            check_fits(r, expression.lower, r.types[expression.lower], target, what)
+            check_fits(r, expression.upper, r.types[expression.upper], target, what)
+            return
+    if converts(source, target):
+        _check_sign(r, expression, target, what)
+        return
+    wanted = _dimension_inside(target)
+    given = _dimension_inside(source)
+    composed = isinstance(source, ListType | RangeType)
+    if wanted is None or given is None or composed or wanted == given:
+        r.report(
+            "OSC301",
+            expression.span,
+            f"{what} must be `{target}`, not `{source}`",
+            help=_mismatch_help(expression, source, target),
+        )
+    elif source in NUMBERS:
+        _report_missing_unit(r, expression, target, what)
+    else:
+        _report_dimension(r, expression, source, target, what)
+
+
+def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> str | None:
+    if isinstance(source, RangeType):
+        return f"constrain it in its `with:` block: `keep(it in {expression.span.text})`"
+    if source == EVENT and target == BOOL:
+        return f"to react to an event write `@{expression.span.text}`"
+    return None
+
+
+def _dimension_inside(type_: Type) -> Dimension | None:
+    return dimension_of(type_.element if isinstance(type_, RangeType) else type_)
+
+
+def _report_missing_unit(
+    r: Resolution, expression: ast.Expression, target: Type, what: str
+) -> None:
+    physical = target.element if isinstance(target, RangeType) else target
+    si = dimension_of(physical)
+    if r.relaxes(
+        "OSC605", expression.span, f"a number without unit for `{target}` is taken in SI (`{si}`)"
+    ):
+        return
+    unit = example_unit(r, physical)
+    r.report(
+        "OSC303",
+        expression.span,
+        f"{what} must be `{target}`; a plain number has no unit",
+        help=f"write `{expression.span.text}{unit}`" if unit and _is_literal(expression) else None,
+    )
+
+
+def _is_literal(expression: ast.Expression) -> bool:
+    operand = expression.operand if isinstance(expression, ast.Unary) else expression
+    return isinstance(operand, ast.IntegerLiteral | ast.FloatLiteral)
+
+
+def example_unit(r: Resolution, type_: Type) -> str | None:
+    """Return the shortest unit of a physical type that is its SI unit."""
+    dimension = dimension_of(type_)
+    names = [
+        unit.name
+        for unit in r.scope.all_units()
+        if unit.factor == 1.0 and unit.offset == 0.0 and dimension_of(unit.type) == dimension
+    ]
+    return min(names, key=len, default=None)
+
+
+def _report_dimension(
+    r: Resolution, expression: ast.Expression, source: Type, target: Type, what: str
+) -> None:
+    product = isinstance(expression, ast.Binary) and expression.operator in (
+        ast.BinaryOperator.MULTIPLY,
+        ast.BinaryOperator.DIVIDE,
+    )
+    si = _dimension_inside(target)
+    if product and r.relaxes(
+        "OSC604",
+        expression.span,
+        f"a product of dimension `{_dimension_inside(source)}` is taken as a number "
+        f"in SI for `{target}` (`{si}`)",
+    ):
+        return
+    notes = [f"`{target}` has dimension `{si}`"] if isinstance(target, PhysicalType) else []
+    r.report(
+        "OSC302",
+        expression.span,
+        f"{what} must be `{target}`, not `{source}`",
+        notes=[*notes, f"the value has dimension `{_dimension_inside(source)}`"],
+    )
+
+
+def _check_sign(r: Resolution, expression: ast.Expression, target: Type, what: str) -> None:
+    if target != UINT:
+        return
+    match expression:
+        case ast.Unary(
+            operator=ast.UnaryOperator.NEGATE, operand=ast.IntegerLiteral(value=value)
+        ) if value:
+            r.report("OSC317", expression.span, f"{what} is unsigned and cannot be {-value}")
+        case _:
+            return

@@ -1,0 +1,113 @@
+"""Actions that put an actor somewhere at once (DSL 8.8.2.4, 8.8.2.5)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, Unpack
+
+from osc2tx_rules import at_least_one, at_most_one
+from osc2tx_runtime.domain.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
+from osc2tx_runtime.domain.modifiers.base import now
+from osc2tx_runtime.domain.placing.initial_state import Spot
+from osc2tx_runtime.domain.placing.placer import Placer
+from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
+from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, RoutePoint
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
+from osc2tx_runtime.language.action import ActionOptions
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.world.attitude import Tilt
+
+from .motion_action import OneStepAction
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import MovableObject
+
+__all__ = ["AssignOrientation", "AssignPosition"]
+
+PLACES = ("position", "route_point", "odr_point", "with")
+Target = Point | RoutePoint | OdrPoint
+
+
+@action(
+    "movable_object", "assign_position", slots=(LONGITUDINAL, LATERAL), places=True, paces=False
+)
+class AssignPosition(OneStepAction):
+    """Be somewhere else at the next step; the speed stays.
+
+    Args:
+        actor: Who.
+        *modifiers: position, lane, speed, yaw, orientation: instead of a point.
+        position: Point in the world.
+        route_point: Point in route coordinates.
+        odr_point: Point in road coordinates.
+        **options: Duration and label.
+    """
+
+    rules = (at_most_one(*PLACES), at_least_one(*PLACES))
+    accepts: ClassVar[tuple[type, ...]] = (Position, Lane, Speed, Yaw, Orient)
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        position: Point | Callable[[], Point] | None = None,
+        route_point: RoutePoint | Callable[[], RoutePoint] | None = None,
+        odr_point: OdrPoint | Callable[[], OdrPoint] | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.movable = actor
+        self.point: Target | Callable[[], Target] | None = position or route_point or odr_point
+
+    def on_start(self) -> None:
+        """Assigns it."""
+        placer = Placer(self.world)
+        point: Target | None = now(self.point)
+        match point:
+            case OdrPoint():
+                spot = Spot(place_of_odr(self.world.map, point), None, None)
+            case RoutePoint():
+                spot = Spot(place_of_route(self.world.map, point), None, None)
+            case _:
+                modifiers = self.modifiers
+                if point is not None:
+                    modifiers = (Position(at_point=point, project_on_route=False),)
+                spot = placer.spot(self.movable, modifiers, self.here)
+        actor_id = self.actor.id
+        self.effect(
+            "position",
+            tuple(spot),
+            lambda: self.world.assign(
+                actor_id, at=spot.at, speed=spot.speed, heading=spot.heading, tilt=spot.tilt
+            ),
+        )
+
+
+@action("movable_object", "assign_orientation", slots=(LATERAL,))
+class AssignOrientation(OneStepAction):
+    """Have a heading, pitch and roll at the next step.
+
+    A vehicle goes back to its lane from there, and on its wheels as soon as they roll; others keep
+    what they were told. A pitch or roll of zero leaves it to the road.
+    """
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        orientation: Orientation | Callable[[], Orientation],
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.movable = actor
+        self.orientation = orientation
+
+    def on_start(self) -> None:
+        """Assigns it."""
+        wanted, actor_id = now(self.orientation), self.actor.id
+        tilt = Tilt(wanted.pitch or None, wanted.roll or None)
+        self.effect(
+            "attitude",
+            (wanted.yaw, tilt),
+            lambda: self.world.assign(actor_id, heading=wanted.yaw, tilt=tilt),
+        )

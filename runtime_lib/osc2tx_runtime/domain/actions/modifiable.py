@@ -1,0 +1,268 @@
+"""Actions that control one side of the motion and leave the other to modifiers (DSL 8.9.1).
+
+`ego.follow_path(way) with: speed(30kph)`: the action controls the pose, the modifier the speed.
+`at: all` holds (or is approached and then held) from the start of the action on; `at: end` is
+reached exactly at the end of its duration or of the phase it ends with, else it ends the action;
+`at: start` has to hold when the action starts, or is jumped to where physics need not hold.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, Unpack
+
+from osc2tx_runtime.domain.actors import MovableObject
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    AvoidCollisions,
+    Distance,
+    Lane,
+    Lateral,
+    Modifier,
+    Orient,
+    Position,
+    Speed,
+    Yaw,
+)
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
+from osc2tx_runtime.domain.planning.goals import distance_to_cover, watched_place
+from osc2tx_runtime.domain.planning.lateral_planning import follow_reference, side_command
+from osc2tx_runtime.domain.planning.longitudinal_planning import speed_command
+from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
+from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
+from osc2tx_runtime.language.action import ActionOptions
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, Method
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.world.commands import Careful, Command
+
+from .modifier_checks import check_modifiers, check_options, is_start
+from .modifier_groups import PATH_SHAPERS
+from .motion_action import MotionAction
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.tree.duration_limits import Limits
+
+__all__ = ["ShapedAction"]
+
+
+class ShapedAction(MotionAction):
+    """Moves by itself in its own slots, and as the modifiers say in those they speak of.
+
+    It claims the speed if a modifier speaks of it, and the lane likewise, so that
+    `drive() with: speed(...)` and `change_lane(...)` run side by side.
+
+    Attributes:
+        movable: The actor.
+        commands_speed: Whether it has a command of its own where it controls the speed.
+        stands: Whether it goes nowhere, so that all its modifiers are about where it is.
+        own: Slots that the action controls itself.
+    """
+
+    commands_speed: ClassVar[bool] = True
+    stands: ClassVar[bool] = False
+
+    def __init__(
+        self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.movable = actor
+        self._phase: Limits | None = None
+        self._reached = self._jumped = False
+        self._to_cover: float | None = None
+        self._covered = 0.0
+        self._counted = (0, 0.0)
+        self._watched: PlaceWatch | None = None
+        self._toward: object = None  # the lane of a reference, or its heading
+
+    def become(self, method: Method) -> None:
+        """Take the method; a goal bounds the action."""
+        super().become(method)
+        if self.has_goal and self.duration is None:
+            self.open_ended = False
+
+    @cached_property
+    def own(self) -> tuple[str, ...]:
+        """Slots that the action controls itself; read when it is complete."""
+        return self.slots
+
+    @cached_property
+    def lasting(self) -> tuple[Modifier, ...]:
+        """The modifiers but those that only speak of the start."""
+        return tuple(m for m in self.modifiers if not is_start(m))
+
+    @cached_property
+    def has_goal(self) -> bool:
+        """True if a modifier says what is to be reached."""
+        return any(m.facts.bounds or getattr(m, "at", "all") == "end" for m in self.modifiers)
+
+    @cached_property
+    def follows_path(self) -> bool:
+        """True if it ends behind the end of a path."""
+        return any(isinstance(modifier, PATH_SHAPERS) for modifier in self.modifiers)
+
+    def takes(self, modifier: Modifier) -> bool:
+        """Whether the action can carry out a modifier."""
+        return is_start(modifier) or isinstance(modifier, self.accepts)
+
+    def speaks_of(self, slot: str) -> bool:
+        """Whether a modifier says something about a slot."""
+        return any(slot in self._slots_of(modifier) for modifier in self.modifiers)
+
+    def _slots_of(self, modifier: Modifier) -> tuple[str, ...]:
+        starts = getattr(modifier, "at", "all") == "start"
+        match modifier:
+            case Position() | Lane() | Lateral() | Yaw() | Orient() if starts:
+                return (LONGITUDINAL, LATERAL) if self.may_jump else ()
+            case Speed(direction=direction) if starts:
+                slot = LATERAL if direction == "lateral" else LONGITUDINAL
+                return (slot,) if self.may_jump else ()
+            case Speed(direction="lateral"):
+                return (LATERAL,)
+            case Along(shape=shape) if shape is not None:
+                return (LONGITUDINAL, LATERAL)
+            case AvoidCollisions(avoid=False):
+                return ()
+            case Distance(shape=None) if self.duration is None and not self.end_is_known:
+                return ()
+            case Orient(yaw=None) if self.movable.lane_bound:
+                return ()
+        return modifier.facts.slots
+
+    # --- how it runs --------------------------------------------------------------------------
+
+    def setup(self, **kwargs: object) -> None:
+        """Claim what the modifiers speak of as well, and check what can be known by now."""
+        self._phase = phase_of(self) if self.has_goal and not self.follows_path else None
+        if self._phase is not None:
+            self.open_ended = True
+        check_modifiers(self)
+        own = self.own
+        self.slots = tuple(
+            slot for slot in (LONGITUDINAL, LATERAL) if slot in own or self.speaks_of(slot)
+        )
+        super().setup(**kwargs)
+        check_options(self)
+
+    @property
+    def end_is_known(self) -> bool:
+        """Whether it is known in advance when the action ends."""
+        return self.fixed_duration() is not None or self._phase is not None
+
+    def time_left(self) -> float | None:
+        """Seconds until the end, where it is known."""
+        if self._phase is not None:
+            return self._phase.left * self.context.dt
+        return super().time_left()
+
+    def initialise(self) -> None:
+        """Start."""
+        self._reached, self._jumped, self._covered, self._to_cover = False, False, 0.0, None
+        self._toward = self._watched = None
+        super().initialise()
+
+    def on_started(self) -> None:
+        """Sees to what holds at the start, then commands what the modifiers say."""
+        self._jumped = hold_or_jump(self)
+        if not self._jumped:
+            self._command_rest()
+
+    def _command_rest(self) -> None:
+        self._to_cover = distance_to_cover(self)
+        position = watched_place(self)
+        self._watched = None if position is None else PlaceWatch(position)
+        self._counted = (self.elapsed_steps, self.here.v)
+        speed = side = None
+        if LONGITUDINAL not in self.own and LONGITUDINAL in self.slots:
+            speed = speed_command(self)
+        if LATERAL not in self.own and LATERAL in self.slots:
+            side = side_command(self)
+            self._toward = follow_reference(self)
+        if speed is not None:
+            self.command(LONGITUDINAL, speed)
+        elif self._careful() and not (LONGITUDINAL in self.own and self.commands_speed):
+            super().command(LONGITUDINAL, Careful(None))
+        if side is not None:
+            self.command(LATERAL, side)
+
+    def command(self, slot: str, command: Command) -> None:
+        """Command the actor, with care if a modifier asks for it."""
+        careful = slot == LONGITUDINAL and self._careful()
+        super().command(slot, Careful(command) if careful else command)
+
+    def _careful(self) -> bool:
+        avoid = one_of_kind(self.modifiers, AvoidCollisions)
+        return avoid is not None and avoid.avoid
+
+    def on_update(self) -> Status:
+        """Ends with its goal; keeps up with references."""
+        if self._jumped and self.elapsed_steps:
+            self._jumped = False
+            self._command_rest()
+            return Status.RUNNING
+        if self._to_cover is not None:
+            self._reached = self._cover() >= self._to_cover - 1e-6
+        if self._watched is not None:
+            self._reached = self._watched.reached(self)
+        tilt_again(self)
+        if self._toward is not None and self._toward != (now := follow_reference(self)):
+            self._toward = now
+            side = side_command(self)
+            if side is not None:
+                self.command(LATERAL, side)
+                return Status.RUNNING
+        return super().on_update()
+
+    def update(self) -> Status:
+        """Update; at the end of a duration the goal has to be there."""
+        status = super().update()
+        over = status is Status.SUCCESS
+        if self._phase is not None and status is Status.RUNNING:
+            over = self._phase.left <= 0
+        if over and self.has_goal and not self._reached:
+            missed = None if self._watched is None else self._watched.missed
+            return self.fail(missed or self._not_reached())
+        return Status.SUCCESS if over else status
+
+    def _not_reached(self) -> str:
+        ends = [m.name for m in self.modifiers if getattr(m, "at", "all") == "end"]
+        what = " and ".join(dict.fromkeys(f"`{name}(at: end)`" for name in ends)) or "its goal"
+        return f"its time is over before {what} is reached; give it more, or none"
+
+    # --- goals --------------------------------------------------------------------------------
+
+    def goal_reached(self, done: dict[str, bool]) -> bool:
+        """Whether all that is to be reached is."""
+        open_ended = self.registered.ends == "open"
+        if open_ended and not self.has_goal:
+            return False
+        reached = all(
+            done[slot]
+            for slot in self.slots
+            if (slot in self.own and not open_ended) or self._ends_with(slot)
+        )
+        watches = self._to_cover is not None or self._watched is not None
+        self._reached = reached and (not watches or self._reached) and lies_so(self)
+        return self._reached and self._phase is None
+
+    def _ends_with(self, slot: str) -> bool:
+        """Whether what is pursued in a slot belongs to the goal."""
+        for modifier in self.modifiers:
+            lasting = getattr(modifier, "at", "all") == "end" or isinstance(modifier, PATH_SHAPERS)
+            looked_at = self._watched is not None or self._to_cover is not None
+            if looked_at and isinstance(modifier, Position):
+                continue  # by itself
+            counted = isinstance(modifier, Distance) and modifier.shape is None
+            lasting = lasting or isinstance(modifier, Distance)
+            if lasting and not counted and slot in self._slots_of(modifier):
+                return True
+        return False
+
+    def _cover(self) -> float:
+        """Metres covered since the start."""
+        step, speed = self.elapsed_steps, self.here.v
+        before, speed_before = self._counted
+        if step > before:
+            self._covered += 0.5 * abs(speed + speed_before) * (step - before) * self.context.dt
+            self._counted = (step, speed)
+        return self._covered

@@ -1,0 +1,182 @@
+"""What the concrete actions share: the state of the actor and the progress of its commands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.modifiers import MovementModifier, PhysicalMovement
+from osc2tx_runtime.domain.paths.path_curves import PathError
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.errors import PlacementError, ScenarioError
+from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.registry import LONGITUDINAL
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.opendrive import MapError
+from osc2tx_runtime.world.actor_dimensions import TOP_SPEED
+from osc2tx_runtime.world.commands import Careful, Command, SpeedChange
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+    from osc2tx_runtime.opendrive import LanePosition
+    from osc2tx_runtime.world.actor_dimensions import Limits
+    from osc2tx_runtime.world.protocol import LightState, World
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["MotionAction", "OneStepAction", "Refused", "note_lights"]
+
+
+class Refused(ScenarioError):
+    """Something that cannot be done: the action fails with this reason."""
+
+
+IMPOSSIBLE = (Refused, PathError, PlacementError, MapError)
+"""What makes an action fail, not the run."""
+
+
+class MotionAction(Action):
+    """An action that commands the motion of its actor.
+
+    What it finds `IMPOSSIBLE` is why the action fails; at the start nothing is commanded then.
+    """
+
+    _refused: str | None = None
+
+    @property
+    def world(self) -> World:
+        """The world."""
+        return self.context.world
+
+    @property
+    def here(self) -> ActorState:
+        """State of the actor at the present step."""
+        return self.context.world.state(self.actor.id)
+
+    def command(self, slot: str, command: Command) -> None:
+        """Command the actor in a claimed slot.
+
+        Raises:
+            Refused: By its own place or speed, which is whatever it makes it; or to a speed that
+                nothing on a road has.
+        """
+        course = command.course if isinstance(command, Careful) else command
+        if isinstance(course, SpeedChange) and abs(course.target) > TOP_SPEED and not self.may_jump:
+            raise Refused(f"{course.target:.1f} m/s is beyond the {TOP_SPEED:g} m/s it can do")
+        if getattr(course, "reference", None) == self.actor.id:
+            raise Refused(f"{self.actor.id} cannot be its own reference; name another actor")
+        super().command(slot, command)
+
+    def situation(self) -> str:
+        """Return that it stands, which is why things do not come about."""
+        if not self.slots or self.actor.id not in self.world.actors():
+            return ""
+        return f"{self.actor.id} stands" if self.here.v == 0.0 else ""
+
+    def place_of(self, actor_id: str) -> LanePosition:
+        """Place of an actor on the lanes.
+
+        Raises:
+            Refused: If it is off the road.
+        """
+        place = self.world.state(actor_id).lane_position
+        if place is None:
+            raise Refused(f"{actor_id} is not on a road, so it has no lane", self.source)
+        return place
+
+    def initialise(self) -> None:
+        """Claim the slots and start."""
+        self._refused = None
+        try:
+            super().initialise()
+            self.on_started()
+        except IMPOSSIBLE as error:
+            self._refused = error.message
+
+    def on_started(self) -> None:
+        """Whatever else is to be commanded at the start."""
+
+    def update(self) -> Status:
+        """Update; fails with what was found impossible."""
+        if self._refused is not None:
+            return self.fail(self._refused)
+        try:
+            return super().update()
+        except IMPOSSIBLE as error:
+            return self.fail(error.message)
+
+    def on_update(self) -> Status:
+        """Ends with the goal in all slots, fails as soon as one cannot be reached."""
+        if self.elapsed_steps == 0:
+            return Status.RUNNING  # the commands act from now on
+        done, progress_of, actor_id = {}, self.context.world.progress, self.actor.id
+        # Who commands nothing goes on as it is, and may come to the end of the road as well.
+        for slot in self.slots or (LONGITUDINAL,):
+            progress = progress_of(actor_id, slot)
+            if progress.failed is not None:
+                return self.fail(progress.failed)
+            done[slot] = progress.done
+        return Status.SUCCESS if self.goal_reached(done) else Status.RUNNING
+
+    def goal_reached(self, done: dict[str, bool]) -> bool:
+        """Whether the action has reached its goal.
+
+        Args:
+            done: For each slot whether its command is.
+        """
+        return self.registered.ends != "open" and all(done.values())
+
+    @property
+    def limits(self) -> Limits:
+        """What the actor can do on the road as it is."""
+        return self.world.limits(self.actor.id)
+
+    @property
+    def tyres(self) -> Limits:
+        """What is possible on the road at all."""
+        return self.world.limits(self.actor.id, of_vehicle=False)
+
+    def drawn_side(self, lanes: int) -> Literal["left", "right"]:
+        """A side on which there are so many lanes, drawn from the seed."""
+        own = self.place_of(self.actor.id)
+        sides: tuple[Literal["left", "right"], ...] = ("left", "right")
+        count = max(abs(lanes), 1)
+        free = [s for s in sides if self.world.map.neighbour(own, s, count) is not None]
+        return self.generator(self.action_name).choice(free or ["left"])
+
+    def fixed_duration(self) -> float | None:
+        """The duration (s) if it is one number."""
+        duration = self.duration
+        return None if duration is None or isinstance(duration, tuple) else float(duration)
+
+    def time_left(self) -> float | None:
+        """Seconds until the end of the duration, if it is one number."""
+        duration = self.fixed_duration()
+        return None if duration is None else duration - self.elapsed
+
+    def option(self) -> str:
+        """What `physical_movement` says; `prefer_physical` without it."""
+        physical = one_of_kind(self.modifiers, PhysicalMovement)
+        return "prefer_physical" if physical is None else physical.option
+
+    @property
+    def may_jump(self) -> bool:
+        """Whether physics need not hold."""
+        return self.option() == "prefer_non_physical"
+
+    @property
+    def strict(self) -> bool:
+        """Whether the limits of the actor must hold, not only those of tyres."""
+        surprises = any(isinstance(m, MovementModifier) and m.monotonous for m in self.modifiers)
+        return self.option() == "must_be_physical" or surprises
+
+
+class OneStepAction(MotionAction):
+    """An action whose change can be seen at the next step, when it ends."""
+
+    def on_update(self) -> Status:
+        """Ends at the next step."""
+        return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+
+
+def note_lights(context: ExecutionContext, actor_id: str, lights: LightState) -> None:
+    """Writes to the trace what was asked for and what shines now."""
+    context.trace.other(0, "lights", actor=actor_id, mode=lights.mode, lit=lights.lit)

@@ -1,0 +1,93 @@
+"""Playing the cycles of traffic lights (DSL 8.15.9.7)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Unpack
+
+from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.signals.traffic_lights import states_of
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.action import ActionOptions
+from osc2tx_runtime.language.registry import action
+from osc2tx_runtime.language.tree.base import Status
+
+from .light_switching import SignalAction
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import TrafficLightController
+    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
+
+__all__ = ["PlayCycles"]
+
+
+@action("traffic_light_controller", "play_cycles", ends="open", needs=("traffic_lights",))
+class PlayCycles(SignalAction):
+    """Run cycles, again and again, until another action switches one of the lights.
+
+    Args:
+        actor: The controller.
+        *modifiers: None are taken.
+        cycles: At most one for each light.
+        **options: Duration and label.
+    """
+
+    def __init__(
+        self,
+        actor: TrafficLightController,
+        *modifiers: Modifier,
+        cycles: Sequence[TrafficLightCycle],
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.cycles = cycles  # those of a file are only there at setup
+        self.playing: tuple[tuple[TrafficLightCycle, tuple[str, ...]], ...] = ()
+        self._phases: dict[str, int] = {}
+
+    def find(self) -> None:
+        """Find the lights, and see whether the cycles fit them."""
+        signals = self.signals
+        playing: dict[str, TrafficLightCycle] = {}
+        found = []
+        for cycle in self.cycles:
+            cycle.check()
+            lights = cycle.phases[0].group.lights(signals)
+            for signal in lights:
+                if signal in playing:
+                    raise ScenarioError(f"two cycles are about traffic light {signal}")
+                playing[signal] = cycle
+                for phase in cycle.phases:
+                    states_of(phase.bulbs_state, signals.lamps(signal), phase.group.name)
+            found.append((cycle, lights))
+        if not found:
+            raise ScenarioError("there is no cycle to play")
+        self.playing = tuple(found)
+
+    def on_start(self) -> None:
+        """Shows the first phases."""
+        self._phases = {}
+        self._play()
+
+    def on_update(self) -> Status:
+        """Shows the phase of the present time; ends if another action has taken over a light."""
+        if self.elapsed_steps == 0:
+            return Status.RUNNING
+        lights = [signal for _, each in self.playing for signal in each]
+        if any(self.signals.shown_by(signal) is not self for signal in lights):
+            return Status.SUCCESS
+        self._play()
+        return Status.RUNNING
+
+    def _play(self) -> None:
+        """Switches the lights whose phase begins."""
+        for cycle, lights in self.playing:
+            moment = cycle.at(self.elapsed)
+            for signal in lights:
+                if self._phases.get(signal) == moment.number:
+                    continue
+                self._phases[signal] = moment.number
+                lamps = self.signals.lamps(signal)
+                states = states_of(moment.phase.bulbs_state, lamps, moment.phase.group.name)
+                # Its own kind of effect: an action that switches the light is no conflict, it
+                # comes after (the kinds are carried out by name) and ends this one.
+                self.switch("cycle of light", signal, dict(enumerate(states)))

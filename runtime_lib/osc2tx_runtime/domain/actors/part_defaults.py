@@ -1,0 +1,131 @@
+"""What is known of an actor that its scenario does not say: by its category, kind and model.
+
+Axles and hitches are typical ones; nobody publishes them for a category. They are as wide as the
+box allows, at the places that the shape of the vehicle has them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver
+from osc2tx_runtime.world.actor_dimensions import MAX_STEERING, Shape
+from osc2tx_runtime.world.towing import DRAWBAR
+
+__all__ = [
+    "known_axles",
+    "known_coupler",
+    "known_infrastructure",
+    "known_receiver",
+    "known_role",
+    "known_trailer_category",
+    "misfit",
+]
+
+_TRACK = 0.9
+"""Share of the width of a vehicle between its outer wheels."""
+
+
+class _Wheels(NamedTuple):
+    """Wheels of a category: diameter (m), how many on the front axle and on the rear axle."""
+
+    diameter: float
+    front: int = 2
+    rear: int = 2
+
+
+_WHEELS: Mapping[str, _Wheels] = {
+    "car": _Wheels(0.6),
+    "van": _Wheels(0.7),
+    "bus": _Wheels(1.0, 2, 4),
+    "heavy_truck": _Wheels(1.0, 2, 4),
+    "truck": _Wheels(1.0, 2, 4),
+    "semi_tractor": _Wheels(1.0, 2, 4),
+    "semi_trailer": _Wheels(1.0),
+    "trailer": _Wheels(0.8),
+    "motorcycle": _Wheels(0.6, 1, 1),
+    "bicycle": _Wheels(0.7, 1, 1),
+    "micro_mobility_device": _Wheels(0.2, 1, 1),
+    "vru_vehicle": _Wheels(0.7, 1, 1),
+    "stand_up_scooter": _Wheels(0.2, 1, 1),
+    "wheelchair": _Wheels(0.6),
+    "work_machine": _Wheels(1.2),
+    "train": _Wheels(0.9),
+    "tram": _Wheels(0.6),
+}
+
+_HITCH_HEIGHT = {"ball": 0.4, "pintle": 0.8, "fifth_wheel": 1.2}
+"""Metres of a hitch above the ground, by its type."""
+
+# `intended_infrastructure` (8.7.19), what something moves on first.
+_INFRASTRUCTURE: Mapping[str, tuple[str, ...]] = {
+    "person": ("sidewalk",),
+    "animal": ("sidewalk",),
+    "wheelchair": ("sidewalk",),
+    "bicycle": ("biking", "driving"),
+    "micro_mobility_device": ("biking", "driving"),
+    "stand_up_scooter": ("biking", "driving"),
+    "vru_vehicle": ("biking", "driving"),
+    "bus": ("driving", "bus"),
+    "train": ("rail",),
+    "tram": ("tram",),
+}
+
+_ROLES = {
+    "vehicle.carlamotors.firetruck": "fire",
+    "vehicle.dodge.charger_police": "police",
+    "vehicle.ford.ambulance": "ambulance",
+}
+
+
+def known_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
+    """Return the axles of a vehicle from front to rear; a trailer has the rear one alone."""
+    wheels = _WHEELS.get(category, _WHEELS["car"])
+    track = 0.0 if wheels.rear == 1 else round(_TRACK * shape.width, 3)
+    height = 0.5 * wheels.diameter
+    rear = Axle(0.0, wheels.diameter, track, 0.0, height, wheels.rear)
+    if category in ("trailer", "semi_trailer"):
+        return (rear,)
+    front = Axle(MAX_STEERING, wheels.diameter, track, shape.wheelbase, height, wheels.front)
+    return front, rear
+
+
+def known_receiver(shape: Shape, said: str) -> HitchReceiver:
+    """Return the hitch of a vehicle: at its rear end, of the type that the scenario says."""
+    return HitchReceiver(said, -shape.rear, _HITCH_HEIGHT.get(said, _HITCH_HEIGHT["ball"]))
+
+
+def known_coupler(category: str, shape: Shape, said: str) -> HitchCoupler:
+    """Return the coupler of a trailer: before the box, of the type that the scenario says."""
+    kind = said or ("fifth_wheel" if category == "semi_trailer" else "ball")
+    height = _HITCH_HEIGHT.get(kind, _HITCH_HEIGHT["ball"])
+    return HitchCoupler(kind, shape.front + DRAWBAR, height)
+
+
+def misfit(receiver: HitchReceiver, coupler: HitchCoupler) -> str | None:
+    """Return why the halves of a hitch cannot be coupled (8.7.13); None if they can.
+
+    Args:
+        receiver: As far as the scenario says it; a type that it leaves open fits.
+        coupler: Likewise.
+    """
+    types = receiver.hitch_type, coupler.hitch_type
+    if types[0] == types[1] or types[0] == "none" or not types[1]:
+        return None
+    return f"a {types[1]} coupler does not fit a {types[0]} receiver"
+
+
+def known_infrastructure(category: str) -> tuple[str, ...]:
+    """Return what a category of vehicles or a kind of actors moves on."""
+    return _INFRASTRUCTURE.get(category, ("driving",))
+
+
+def known_role(model: str | None) -> str | None:
+    """Return the role of a model that is only made for one."""
+    return None if model is None else _ROLES.get(model)
+
+
+def known_trailer_category(category: str) -> str | None:
+    """Return what the category of a vehicle says of it as a trailer."""
+    return "semi_trailer" if category == "semi_trailer" else None

@@ -1,0 +1,311 @@
+"""Physical objects, and those of them that are not vehicles (DSL 8.7.3 to 8.7.6, 8.7.9, 8.7.10)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar, TypedDict, Unpack
+
+from osc2tx_runtime.domain.actors.behavioral_models import leave_to
+from osc2tx_runtime.domain.actors.part_defaults import known_infrastructure, known_role
+from osc2tx_runtime.domain.actors.parts import (
+    UNSAID,
+    BehavioralModel,
+    BoundingBox,
+    completed,
+    is_open,
+)
+from osc2tx_runtime.domain.measuring.object_measurements import Measures
+from osc2tx_runtime.domain.points_and_poses import Point
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.world.actor_dimensions import MODELS, Shape, limits_of, shape_of
+from osc2tx_runtime.world.protocol import ActorSpec
+
+from .base import Actor
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = [
+    "Animal",
+    "MovableObject",
+    "ObjectFields",
+    "ParticipantFields",
+    "Person",
+    "PhysicalObject",
+    "StationaryObject",
+    "TrafficParticipant",
+]
+
+LIBRARY_KINDS = frozenset(
+    {
+        *("physical_object", "stationary_object", "movable_object", "traffic_participant"),
+        *("vehicle", "trailer", "person", "animal"),
+    }
+)
+"""Kinds of physical objects in the domain model."""
+
+_SAME = 1e-6  # m between what a scenario says and what follows from the rest of it
+
+
+class ObjectFields(TypedDict, total=False):
+    """Keywords of `PhysicalObject`."""
+
+    name: str | None
+    model: str | None
+    color: str | None
+    geometry_reference: str | None
+    bounding_box: BoundingBox | None
+    center: Point | None
+    length: float | None
+    width: float | None
+    height: float | None
+    center_of_gravity: Point | None
+    initial_bm: BehavioralModel | None
+
+
+class ParticipantFields(ObjectFields, total=False):
+    """Keywords of `TrafficParticipant`."""
+
+    intended_infrastructure: Sequence[str] | Mapping[int, str] | None
+    role: str | None
+
+
+class PhysicalObject(Actor, Measures):
+    """Any tangible thing.
+
+    Args:
+        name: Role name; default: the field that holds it.
+        model: CARLA blueprint or other name of a model.
+        color: Name or `r,g,b`; for viewers.
+        geometry_reference: Name of a 3D model.
+        bounding_box: Size and place of the box, as far as the next four do not say it.
+        center: Middle of the box (m), from the reference point.
+        length: Length of the box (m).
+        width: Width of the box (m).
+        height: Height of the box (m).
+        center_of_gravity: From the reference point (m); default: the middle of the box.
+        initial_bm: What it does while no action controls it.
+    """
+
+    kinds = ("physical_object", *Actor.kinds)
+    lane_bound: ClassVar[bool] = False
+    movable: ClassVar[bool] = True
+
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        model: str | None = None,
+        color: str | None = None,
+        geometry_reference: str | None = None,
+        bounding_box: BoundingBox | None = None,
+        center: Point | None = None,
+        length: float | None = None,
+        width: float | None = None,
+        height: float | None = None,
+        center_of_gravity: Point | None = None,
+        initial_bm: BehavioralModel | None = None,
+    ) -> None:
+        super().__init__(name=name)
+        self.model = model
+        self._color = color
+        self._geometry_reference = geometry_reference
+        self._box = _box(bounding_box or BoundingBox(), center, (length, width, height))
+        self._center_of_gravity = center_of_gravity
+        self.initial_bm = initial_bm or BehavioralModel()
+
+    def bind(self, context: ExecutionContext) -> None:
+        """Joins a run, with the behavioral model that it starts with."""
+        super().bind(context)
+        leave_to(context, self, self.initial_bm)
+
+    def set_bm(self, behavioral_model: BehavioralModel) -> None:
+        """Leave the object to another behavioral model while no action controls it (8.7.3.1.9)."""
+        leave_to(self.context, self, behavioral_model)
+
+    # --- what the scenario or the catalogue says ----------------------------------------------
+
+    @property
+    def color(self) -> str:
+        """Its colour, for scenarios that ask for it."""
+        return self._said("color", self._color)
+
+    @property
+    def geometry_reference(self) -> str:
+        """Its 3D model, likewise."""
+        return self._said("geometry_reference", self._geometry_reference)
+
+    @property
+    def bounding_box(self) -> BoundingBox:
+        """The box around it."""
+        shape = self.shape
+        center = Point(shape.centre, 0.0, 0.5 * shape.height)
+        return BoundingBox(center, shape.length, shape.width, shape.height)
+
+    @property
+    def center_of_gravity(self) -> Point:
+        """Its centre of gravity (m), from the reference point: that of the box if nobody says."""
+        return self._center_of_gravity or self.bounding_box.center
+
+    def _said(self, member: str, value: str | None) -> str:
+        """Return a value that only the scenario can know.
+
+        Raises:
+            ScenarioError: It says nothing about it.
+        """
+        if value is None:
+            raise ScenarioError(f"nothing says the {member} of {self.id}", self.source)
+        return value
+
+    # --- for the world ------------------------------------------------------------------------
+
+    @property
+    def category(self) -> str | None:
+        """Category of a vehicle that the scenario names."""
+        return None
+
+    @property
+    def shape(self) -> Shape:
+        """Size and reference point: as written, else of the model, else of category or kind.
+
+        Raises:
+            ScenarioError: A size is negative, or the box is not where the standard has it.
+        """
+        known = shape_of(self.library_kind, self.category, self.model)
+        box = completed(self._box, BoundingBox(Point(), known.length, known.width, known.height))
+        for size in (box.length, box.width, box.height):
+            if size < 0.0:
+                raise ScenarioError(f"{self.id} has a negative size", self.source)
+        rear = self._rear(known.rear * (box.length / known.length))
+        self._check_center(Point(0.5 * box.length - rear, 0.0, 0.5 * box.height))
+        wheelbase = known.wheelbase * (box.length / known.length)
+        return Shape(box.length, box.width, box.height, rear, wheelbase)
+
+    def _rear(self, known: float) -> float:
+        """Metres from the rear end to the reference point; `known` if nobody says."""
+        return known
+
+    def _check_center(self, wanted: Point) -> None:
+        """The reference point is where section 8.3.3 has it, and the box stands on the ground."""
+        said = self._box.center
+        for axis, is_, must_be in (
+            ("x", said.x, wanted.x),
+            ("y", said.y, 0.0),
+            ("z", said.z or wanted.z, wanted.z),  # 0 is a point that leaves it open
+        ):
+            if abs(is_ - must_be) > _SAME:
+                raise UnsupportedError(
+                    f"the {axis} of the middle of the bounding box of {self.id} is {must_be:g} m:"
+                    " the axes of an object begin below the middle of its box, or of its rear"
+                    f" axle; not {is_:g} m",
+                    self.source,
+                )
+
+    @property
+    def library_kind(self) -> str:
+        """The most derived kind that is not of a user's own: size and limits go by it."""
+        return next((kind for kind in self.kinds if kind in LIBRARY_KINDS), self.kinds[-1])
+
+    @property
+    def size_from(self) -> str:
+        """What the size is from: `scenario`, `model`, `category` or `default`."""
+        if self._box.length + self._box.width + self._box.height >= 0.0:  # false for what is open
+            return "scenario"
+        if self.model in MODELS:
+            return "model"
+        return "default" if self.category is None else "category"
+
+    def spec(self) -> ActorSpec:
+        """What the world must know."""
+        return ActorSpec(
+            id=self.id,
+            kind=self.library_kind,
+            shape=self.shape,
+            limits=limits_of(self.library_kind, self.category, self.model),
+            model=self.model,
+            lane_bound=self.lane_bound,
+            movable=self.movable,
+            color=self._color,
+        )
+
+
+def _box(
+    whole: BoundingBox, center: Point | None, sizes: tuple[float | None, float | None, float | None]
+) -> BoundingBox:
+    """Return what is said of a box as a whole and of its parts."""
+    length, width, height = (UNSAID if size is None else size for size in sizes)
+    parts = BoundingBox(center or whole.center, length, width, height)
+    for part in ("length", "width", "height"):
+        one, other = getattr(whole, part), getattr(parts, part)
+        if not is_open(one) and not is_open(other) and one != other:
+            raise ScenarioError(f"a bounding box has two values of its {part}: {one:g}, {other:g}")
+    return completed(parts, whole)
+
+
+class StationaryObject(PhysicalObject):
+    """An object whose pose never changes."""
+
+    kinds = ("stationary_object", *PhysicalObject.kinds)
+    movable = False
+
+
+class MovableObject(PhysicalObject):
+    """An object that may move."""
+
+    kinds = ("movable_object", *PhysicalObject.kinds)
+
+
+class TrafficParticipant(MovableObject):
+    """A movable object that matters to traffic.
+
+    Args:
+        intended_infrastructure: What it moves on, or single places of that list; default: what
+            its kind or category does.
+        role: The role that others can see; default: that of the model, if it is made for one.
+        **fields: As of `PhysicalObject`.
+    """
+
+    kinds = ("traffic_participant", *MovableObject.kinds)
+
+    def __init__(
+        self,
+        *,
+        intended_infrastructure: Sequence[str] | Mapping[int, str] | None = None,
+        role: str | None = None,
+        **fields: Unpack[ObjectFields],
+    ) -> None:
+        super().__init__(**fields)
+        self._infrastructure = intended_infrastructure
+        self._role = role
+
+    @property
+    def intended_infrastructure(self) -> list[str]:
+        """What it moves on, in words of OpenDRIVE lane types."""
+        said = self._infrastructure or {}
+        if not isinstance(said, Mapping):
+            return list(said)
+        found = list(known_infrastructure(self.category or self.library_kind))
+        for number, kind in sorted(said.items()):
+            if number > len(found):
+                raise ScenarioError(
+                    f"nothing says number {len(found)} of what {self.id} moves on", self.source
+                )
+            found[number : number + 1] = [kind]
+        return found
+
+    @property
+    def role(self) -> str:
+        """The role that others can see."""
+        return self._said("role", self._role or known_role(self.model))
+
+
+class Person(TrafficParticipant):
+    """A human being on foot; walks straight on, not bound to lanes."""
+
+    kinds = ("person", *TrafficParticipant.kinds)
+
+
+class Animal(TrafficParticipant):
+    """An animal; moves like a person."""
+
+    kinds = ("animal", *TrafficParticipant.kinds)

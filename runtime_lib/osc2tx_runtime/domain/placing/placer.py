@@ -1,0 +1,271 @@
+"""Where modifiers put an actor: on the map, beside or before another actor, at a point."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime import opendrive
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    Lane,
+    Lateral,
+    Location,
+    Modifier,
+    OnPath,
+    Position,
+    value_of,
+)
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.placing.default_starts import StartPlaces
+from osc2tx_runtime.domain.placing.initial_state import Spot, aside_speed_at, speed_at, tilt_at
+from osc2tx_runtime.domain.placing.point_placement import PointPlaces
+from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind, road_entry
+from osc2tx_runtime.domain.points_and_poses import RoutePoint
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.lane_neighbours import offset_from
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.world.protocol import World
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["Placer"]
+
+_EXACT = 1e-7  # m to which a distance along the road is met
+
+
+class Placer:
+    """Finds the place that modifiers describe, among the actors that are placed already."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._map = world.map
+        self._starts = StartPlaces(world.map)
+        self._points = PointPlaces(world.map)
+        self._draws: random.Random | None = None
+
+    def spot(
+        self,
+        actor: PhysicalObject,
+        modifiers: Sequence[Modifier],
+        now: ActorState | None = None,
+        *,
+        spawn: LanePosition | None = None,
+        is_free: Callable[[LanePosition], bool] = lambda _place: True,
+        draws: random.Random | None = None,
+    ) -> Spot:
+        """Resolves modifiers to a place.
+
+        Args:
+            actor: Who is to be placed.
+            modifiers: position, lane, lateral, speed, yaw, orientation.
+            now: Its present state, if it has one: what modifiers leave open stays.
+            spawn: Place given by the settings.
+            is_free: Tells whether a default start place can be used.
+            draws: Chooses from ranges; None: their middle.
+
+        Raises:
+            PlacementError: There is no such place.
+        """
+        self._draws = draws
+        speed = speed_at(self._world, modifiers, self._of)
+        own_speed = speed if speed is not None else (0.0 if now is None else now.v)
+        at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
+        if speed and not actor.movable:
+            raise PlacementError(f"{actor.id} is stationary, so it has no speed")
+        lateral = one_of_kind(modifiers, Lateral)
+        if lateral is not None:
+            if not isinstance(at, LanePosition):
+                raise PlacementError(f"{actor.id}: lateral needs a lane, not a point off the lanes")
+            at = self._aside(actor, at, lateral)
+        pose = self._map.pose(at) if isinstance(at, LanePosition) else at
+        heading = heading_of(self._world, actor, modifiers, pose)
+        along = heading is not None and math.cos(heading - pose.h) >= 1.0 - 1e-9
+        if along and actor.lane_bound and isinstance(at, LanePosition):
+            heading = None
+        turned = pose if heading is None else pose._replace(h=heading)
+        tilt = tilt_at(self._world, modifiers, turned)
+        aside = aside_speed_at(self._world, modifiers, self._of)
+        return Spot(at, speed, heading, tilt, aside)
+
+    # --- kinds of places ----------------------------------------------------------------------
+
+    def _place(
+        self,
+        actor: PhysicalObject,
+        modifiers: Sequence[Modifier],
+        speed: float,
+        now: ActorState | None,
+        spawn: LanePosition | None,
+        is_free: Callable[[LanePosition], bool],
+    ) -> LanePosition | opendrive.Pose:
+        position, lane = self._position(actor, modifiers), one_of_kind(modifiers, Lane)
+        if spawn is not None:
+            return self._starts.given(actor, spawn, lane, position)
+        if position is not None and position.absolute:
+            if position.at_point is not None and position.project_on_route:
+                return self._points.projected(actor, position.at_point, lane)
+            at = self._points.at_point(actor, position)
+            if lane is not None:
+                self._points.check_lane(actor, at, lane)
+            return at
+        if position is not None and position.reference_point is not None:
+            return self._points.near_point(actor, position, self._of(position.size()), lane)
+        beside = None if lane is None else lane.reference
+        reference = None if position is None else position.reference
+        if beside is not None or reference is not None:
+            return self._beside(actor, lane, position, speed)
+        along = one_of_kind(modifiers, Along)
+        if along is not None:
+            return self._on_route(actor, along, lane, position)
+        if now is not None and now.lane_position is not None:
+            return self._from_here(actor, now.lane_position, lane, position)
+        distance = None if position is None else self._of(position.size())
+        on_path = one_of_kind(modifiers, OnPath)
+        if on_path is not None:
+            return self._starts.on_path(actor, on_path.path, lane, distance, is_free)
+        return self._starts.default(actor, lane, distance, is_free)
+
+    @staticmethod
+    def _position(actor: PhysicalObject, modifiers: Sequence[Modifier]) -> Position | None:
+        """The position; a location is one."""
+        position, location = one_of_kind(modifiers, Position), one_of_kind(modifiers, Location)
+        if location is None:
+            return position
+        if position is not None or actor.movable:
+            raise PlacementError(
+                f"{actor.id}: location is for stationary objects, instead of position"
+            )
+        pose = location.pose
+        return Position(x=pose.x, y=pose.y, z=pose.z, h=pose.yaw or 0.0)
+
+    def _aside(self, actor: PhysicalObject, at: LanePosition, lateral: Lateral) -> LanePosition:
+        """The place across the lane, in the lane or beside another actor."""
+        own = actor.shape.width
+        if lateral.side_of is None:
+            width = self._map.lane_width(at.road, at.lane, at.s)
+            return LanePosition(at.road, at.lane, at.s, self._of(lateral.offsets(own, width)))
+        other = self._world.state(lateral.side_of.id)
+        centre = LanePosition(at.road, at.lane, at.s)
+        offset = offset_from(self._map, centre, other.x, other.y)
+        aside = self._of(lateral.offsets(own, other.width))
+        return LanePosition(at.road, at.lane, at.s, offset + aside)
+
+    def _beside(
+        self, actor: PhysicalObject, lane: Lane | None, position: Position | None, speed: float
+    ) -> LanePosition:
+        reference = None if position is None else position.reference
+        in_lane_of = None if lane is None else lane.reference
+        start = self._centre(in_lane_of or reference, actor)
+        if lane is not None and lane.side_of is not None and lane.side is not None:
+            beside = self._map.neighbour(start, lane.side, lane.number) if lane.number else start
+            if beside is None:
+                raise PlacementError(
+                    f"{actor.id}: there is no lane to the {lane.side} of {lane.side_of.id},"
+                    f" which is in lane {start.lane} of road {start.road}"
+                )
+            start = beside
+        if position is not None and reference is not None:
+            start = self._at_distance(actor, start, position, speed)
+        elif position is not None:
+            start = self._along_road(actor, start, self._of(position.size()))
+        if lane is not None and in_lane_of is None:
+            return self._points.numbered(actor, start, lane)
+        return start
+
+    def _at_distance(
+        self, actor: PhysicalObject, start: LanePosition, position: Position, speed: float
+    ) -> LanePosition:
+        """Moves along the lane of `start` until the distance to the reference is right."""
+        reference = position.reference
+        assert reference is not None
+        origin = self._centre(reference, actor)
+        wanted = self._of(position.size())
+        if position.timed:
+            wanted *= self._world.state(reference.id).v if position.ahead else speed
+        wanted = wanted if position.ahead else -wanted
+        place = start
+        for _ in range(20):
+            measured = self._map.route_distance(origin, place)
+            if measured is None:
+                break
+            if abs(wanted - measured) < _EXACT:
+                return place
+            step = self._map.advance(place, wanted - measured)
+            if abs(step.travelled - (wanted - measured)) > 1e-6:
+                break
+            place = step.position
+        side = "ahead of" if wanted >= 0.0 else "behind"
+        raise PlacementError(
+            f"{actor.id}: the lane does not reach {abs(wanted):.1f} m {side} {reference.id}"
+        )
+
+    def _on_route(
+        self,
+        actor: PhysicalObject,
+        along: Along,
+        lane: Lane | None,
+        position: Position | None,
+    ) -> LanePosition | opendrive.Pose:
+        """Where a route of the map begins, or so far from there."""
+        route = along.way
+        distance = value_of(along.start_offset)
+        distance += 0.0 if position is None else self._of(position.size())
+        if isinstance(route, Path) or route.found.kind == "crossing":
+            return self._points.on_way(actor, RoutePoint(route, distance))
+        place = graph_of(self._map).begin(route.found)
+        step = self._map.advance(place, distance)
+        if abs(step.travelled - distance) > 1e-6:
+            raise PlacementError(
+                f"{actor.id}: {route.found} ends after {step.travelled:.1f} m, before"
+                f" {distance:g} m"
+            )
+        place = step.position
+        return place if lane is None else self._points.numbered(actor, place, lane)
+
+    def _from_here(
+        self,
+        actor: PhysicalObject,
+        here: LanePosition,
+        lane: Lane | None,
+        position: Position | None,
+    ) -> LanePosition:
+        place = LanePosition(here.road, here.lane, here.s)
+        if position is not None:
+            place = self._along_road(actor, place, self._of(position.size()))
+        return place if lane is None else self._points.numbered(actor, place, lane)
+
+    # --- small steps --------------------------------------------------------------------------
+
+    def _along_road(
+        self, actor: PhysicalObject, place: LanePosition, distance: float
+    ) -> LanePosition:
+        start = road_entry(self._map, place)
+        step = self._map.advance(start, distance)
+        if abs(step.travelled - distance) > 1e-6:
+            raise PlacementError(
+                f"{actor.id}: lane {place.lane} of road {place.road} ends after"
+                f" {step.travelled:.1f} m, before {distance:g} m"
+            )
+        return step.position
+
+    def _centre(self, of: PhysicalObject | None, actor: PhysicalObject) -> LanePosition:
+        """Place of a placed actor, on the centre of its driving lane."""
+        assert of is not None
+        state = self._world.state(of.id)
+        on = self._map.locate(state.x, state.y, state.z, hint=state.lane_position)
+        if on is None:
+            raise PlacementError(f"{actor.id}: {of.id} is not on a road, so it has no lane")
+        return LanePosition(on.road, on.lane, on.s)
+
+    def _of(self, bounds: tuple[float, float]) -> float:
+        """A value between bounds."""
+        low, high = bounds
+        if low == high:
+            return low
+        return 0.5 * (low + high) if self._draws is None else self._draws.uniform(low, high)

@@ -1,0 +1,189 @@
+"""Small steps of placing: a modifier's pose, its heading, the begin of a lane on its road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeVar
+
+from osc2tx_runtime import opendrive
+from osc2tx_runtime.domain.modifiers import Modifier, Orient, Position, Yaw
+from osc2tx_runtime.domain.points_and_poses import OdrPoint
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+from osc2tx_runtime.world.actor_motion import ANY_LANE
+from osc2tx_runtime.world.attitude import LEVEL, Tilt, tilt_on
+from osc2tx_runtime.world.curve import turn_between
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.world.protocol import World
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = [
+    "heading_base",
+    "heading_of",
+    "headings_of",
+    "one_of_kind",
+    "place_of_odr",
+    "pose_of",
+    "road_entry",
+    "road_heading",
+    "tilt_of",
+]
+
+# What is added to an angle between axes to have the heading: the width axis points left.
+_AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
+
+_AT_END = 1e-6  # m by which a point may miss its road
+
+ModifierT = TypeVar("ModifierT", bound=Modifier)
+
+
+def one_of_kind(modifiers: Sequence[Modifier], kind: type[ModifierT]) -> ModifierT | None:
+    """The only modifier of a kind; None without one."""
+    found = [modifier for modifier in modifiers if isinstance(modifier, kind)]
+    if len(found) > 1:
+        raise PlacementError(f"{found[0].name} is given {len(found)} times")
+    return found[0] if found else None
+
+
+def heading_of(
+    world: World,
+    actor: PhysicalObject,
+    modifiers: Sequence[Modifier],
+    at: opendrive.Pose | ActorState,
+) -> float | None:
+    """Heading (rad) that yaw or orientation ask for; None if they are not given.
+
+    Of a range it is the nearest to the present heading.
+
+    Args:
+        world: The world.
+        actor: Who is to turn.
+        modifiers: Those of an action or a placement.
+        at: Where the actor is.
+    """
+    found = headings_of(world, actor, modifiers, at)
+    if found is None:
+        return None
+    low, high = found
+    beyond = turn_between(low, at.h)  # what it is turned to the left of the least
+    if low == high or 0.0 <= beyond <= high - low:
+        return low if low == high else at.h
+    return low if abs(beyond) <= abs(turn_between(high, at.h)) else high
+
+
+def headings_of(
+    world: World,
+    actor: PhysicalObject,
+    modifiers: Sequence[Modifier],
+    at: opendrive.Pose | ActorState,
+) -> tuple[float, float] | None:
+    """Least and greatest heading (rad) that yaw or orientation allow; arguments as above."""
+    turned = one_of_kind(modifiers, Yaw) or one_of_kind(modifiers, Orient)
+    angles = None if turned is None else turned.angles()
+    if turned is None or angles is None:
+        return None
+    low, high = angles
+    base = heading_base(world, turned, at)
+    return base + low, base + high
+
+
+def heading_base(world: World, turned: Yaw | Orient, at: opendrive.Pose | ActorState) -> float:
+    """The heading (rad) from which an angle counts; arguments as above."""
+    if isinstance(turned, Orient):
+        base = 0.0 if turned.measure_by == "absolute" else road_heading(world.map, at)
+    else:
+        north = turned.measure_by == "relative_to_north"
+        base = 0.5 * math.pi if north else road_heading(world.map, at)
+        base += _AXES.get(turned.measure_by, 0.0)
+    if turned.relative_to is not None and turned.measure_by != "absolute":
+        base = world.state(turned.relative_to.id).h + _AXES.get(turned.measure_by or "", 0.0)
+    return base
+
+
+def tilt_of(world: World, modifiers: Sequence[Modifier], at: opendrive.Pose | ActorState) -> Tilt:
+    """Pitch and roll (rad) that an orientation asks for; arguments as above."""
+    turned = one_of_kind(modifiers, Orient)
+    if turned is None or (turned.pitch is None and turned.roll is None):
+        return LEVEL
+    pitch, roll = turned.tilt()
+    base = (0.0, 0.0)
+    if turned.relative_to is not None and turned.measure_by != "absolute":
+        other = world.state(turned.relative_to.id)
+        base = (other.pitch, other.roll)
+    elif turned.measure_by != "absolute":
+        on = world.map.locate(at.x, at.y, at.z, lane_types=ANY_LANE, max_distance=1e-3)
+        base = (0.0, 0.0) if on is None else tilt_on(world.map.pose(on), at.h)
+    return Tilt(
+        None if pitch is None else base[0] + pitch, None if roll is None else base[1] + roll
+    )
+
+
+def road_heading(road_map: RoadMap, at: opendrive.Pose | ActorState) -> float:
+    """Direction of travel (rad) of the lane under a point, else of the nearest driving lane."""
+    on = road_map.locate(at.x, at.y, at.z, lane_types=ANY_LANE, max_distance=1e-3)
+    if on is None:
+        on = road_map.locate(at.x, at.y, at.z)
+    return 0.0 if on is None else road_map.pose(on).h
+
+
+def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
+    """Where the lane of a place begins on its road, in direction of travel."""
+    key = road_map.lane_key(place)
+    sections = road_map.roads[place.road].sections
+    with_s = road_map.travel_direction(place.road, place.lane) > 0
+    while True:
+        wanted = (key.road, key.section + (-1 if with_s else 1))
+        before = [k for k in road_map.predecessors(key) if (k.road, k.section) == wanted]
+        if not before:
+            break
+        key = before[0]
+    section = sections[key.section]
+    if with_s:
+        return LanePosition(key.road, key.lane, section.begin)
+    last = key.section == len(sections) - 1
+    s = section.end if last else math.nextafter(section.end, section.begin)
+    return LanePosition(key.road, key.lane, s)
+
+
+def pose_of(actor: PhysicalObject, position: Position) -> tuple[opendrive.Pose, float | None]:
+    """Pose of the reference point, and the heading if one is given."""
+    if position.at_point is not None:
+        point = position.at_point
+        heading = None if position.h is None else float(position.h)
+        return opendrive.Pose(point.x, point.y, point.z, heading or 0.0), heading
+    x, y, z = position.x or 0.0, position.y or 0.0, position.z or 0.0
+    heading = None if position.h is None else float(position.h)
+    if position.frame == "world":
+        return opendrive.Pose(x, y, z, heading or 0.0), heading
+    heading = None if heading is None else -heading
+    h = heading or 0.0
+    back = actor.shape.centre  # CARLA places the box centre
+    return opendrive.Pose(x - back * math.cos(h), -y - back * math.sin(h), z, h), heading
+
+
+def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:
+    """Place of a point in road coordinates."""
+    try:
+        lane = point.lane
+        if lane is None:
+            pose = road_map.road_pose(point.road_id, point.s, point.t)
+            _check_length(road_map, point)
+            return pose
+        place = LanePosition(point.road_id, lane, point.s)
+        road_map.pose(place)
+        _check_length(road_map, point)
+        left = point.t * road_map.travel_direction(point.road_id, lane)
+        return LanePosition(point.road_id, lane, point.s, left)
+    except MapError as error:
+        raise PlacementError(error.message) from error
+
+
+def _check_length(road_map: RoadMap, point: OdrPoint) -> None:
+    length = road_map.roads[point.road_id].length
+    if not -_AT_END <= point.s <= length + _AT_END:
+        raise PlacementError(
+            f"road {point.road_id} is {length:.1f} m long, so there is no s = {point.s:g} m"
+        )

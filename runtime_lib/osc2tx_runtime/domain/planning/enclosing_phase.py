@@ -1,0 +1,52 @@
+"""When an action without a duration of its own ends: with the phase that it belongs to.
+
+In `parallel(duration: 8s)` the members that never end by themselves end after 8 s; what holds
+`at: end` for one of them has to hold then.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.tree import Parallel, Serial
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.tree import Behaviour
+    from osc2tx_runtime.language.tree.duration_limits import Limits
+
+__all__ = ["phase_of"]
+
+
+def phase_of(action: Action) -> Limits | None:
+    """The duration with which an open-ended action ends; None if nobody can tell before."""
+    if action.registered.ends != "open" or action.duration is not None:
+        return None
+    node: Behaviour = action
+    while isinstance(node.parent, Serial | Parallel):
+        parent = node.parent
+        if isinstance(parent, Serial) and parent.children[-1] is not node:
+            return None
+        if isinstance(parent, Parallel) and not _all_open(parent):
+            return None
+        limits = parent.limits
+        if limits is not None:
+            return limits if limits.fixed is not None else None
+        node = parent
+    return None
+
+
+def _all_open(parallel: Parallel) -> bool:
+    """Whether no member ends the others."""
+    simple = parallel.overlap == "start" and parallel.end_to_end is None
+    return simple and not parallel.start_to_start and all(map(_is_open, parallel.children))
+
+
+def _is_open(node: Behaviour) -> bool:
+    if isinstance(node, Action):
+        ends = node.registered.ends
+        goes_on = node.duration is None and not getattr(node, "follows_path", False)
+        return ends == "instant" or (ends == "open" and goes_on)
+    if isinstance(node, Serial) and node.limits is None:
+        return _is_open(node.children[-1]) if node.children else False
+    return isinstance(node, Parallel) and node.limits is None and _all_open(node)

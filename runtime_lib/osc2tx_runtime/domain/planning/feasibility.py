@@ -1,0 +1,94 @@
+"""Whether an actor can do what a course asks for: within its limits, and without turning back."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.actions.motion_action import Refused
+from osc2tx_runtime.world.function_profiles import turns_back
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.modifiers.base import MovementModifier
+    from osc2tx_runtime.world.profiles import Profile
+
+__all__ = ["check_course", "check_one_way", "check_peak", "check_rates"]
+
+_JUMP = 0.5  # m/s: a smaller difference is made up for on the way
+_SAMPLES = 200
+
+
+def check_peak(peak: float | None, unit: str) -> None:
+    """Refuses a peak that is none."""
+    if peak is not None and peak <= 0.0:
+        raise Refused(f"rate_peak {peak:g} {unit} is not positive")
+
+
+def check_one_way(modifier: MovementModifier, course: Profile) -> None:
+    """Refuses a detour, where a modifier asks for none."""
+    turn = turns_back(course) if modifier.monotonous else None
+    if turn is not None:
+        raise Refused(f"{modifier.name}: it would have to turn back after {turn:.1f} s")
+
+
+def check_course(
+    action: ShapedAction, modifier: MovementModifier, way: Profile, offset: float, *, ends: bool
+) -> None:
+    """Refuses a way over time that is beyond the limits of the actor.
+
+    Args:
+        action: What is carried out.
+        modifier: What asks for it.
+        way: Metres over time, seen from something that moves.
+        offset: Speed of that (m/s).
+        ends: The action ends with it, at whatever speed.
+    """
+    check_one_way(modifier, way)
+    if action.may_jump or math.isinf(way.duration):
+        return
+    duration = way.duration
+    step = duration / _SAMPLES
+    speeds = [offset + way.rate(i * step) for i in range(_SAMPLES)]
+    speeds.append(offset + way.rate(max(duration - 1e-9, 0.0)))
+    if duration == 0.0 and abs(way.value(0.0)) < 1e-6:
+        return
+    _check_jump(action.here.v, speeds[0], "at its start")
+    if not ends:
+        _check_jump(speeds[-1], offset, "at its end")
+    _check_speeds(action, speeds, step)
+
+
+def check_rates(action: ShapedAction, course: Profile) -> None:
+    """Refuses a speed (m/s) over time that is beyond the limits."""
+    if math.isinf(course.duration):
+        return
+    step = course.duration / _SAMPLES
+    _check_jump(action.here.v, course.value(0.0), "at its start")
+    _check_speeds(action, [course.value(i * step) for i in range(_SAMPLES + 1)], step)
+
+
+def _check_speeds(action: ShapedAction, speeds: list[float], step: float) -> None:
+    """Refuses speeds (m/s), one after the other, that are beyond the limits."""
+    limits = action.limits if action.strict else action.tyres
+    for gaining, cap in ((True, limits.acceleration), (False, limits.deceleration)):
+        rates = (
+            abs(after - before) / step
+            for before, after in pairwise(speeds)
+            if step and gaining == (abs(after) > abs(before))
+        )
+        most = max(rates, default=0.0)
+        if most > cap * 1.01:
+            raise Refused(
+                f"its shape takes {most:.2f} m/s^2, more than the {cap:.4g} m/s^2 it can"
+                f" do{limits.road}"
+            )
+
+
+def _check_jump(before: float, after: float, when: str) -> None:
+    if abs(after - before) > _JUMP:
+        raise Refused(
+            f"{when} its shape has {after:.2f} m/s, after {before:.2f} m/s; a speed only jumps with"
+            " physical_movement(prefer_non_physical)"
+        )

@@ -1,0 +1,111 @@
+"""Where a change of the place across the road ends, and whether it can be driven."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.actions.motion_action import Refused
+from osc2tx_runtime.domain.modifiers import Lane
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.lane_neighbours import lane_with_number, lanes_to_left
+from osc2tx_runtime.world.lateral import excessive_shift
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.actions.motion_action import MotionAction
+    from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+
+__all__ = ["check_shift", "jump_aside", "lanes_to", "lanes_wanted", "target_of_shift"]
+
+
+def _side(lanes: int) -> Literal["left", "right"]:
+    return "left" if lanes > 0 else "right"
+
+
+def target_of_shift(action: ShapedAction, lanes: int) -> LanePosition:
+    """A place in the lane so many to the left of the present one.
+
+    Raises:
+        Refused: There is no such lane.
+    """
+    here = action.place_of(action.actor.id)
+    if lanes == 0:
+        return here
+    there = action.world.map.neighbour(here, _side(lanes), abs(lanes))
+    if there is None:
+        raise Refused(
+            f"there is no such lane to the {_side(lanes)} of lane {here.lane} of road {here.road}"
+            f" at s = {here.s:.1f} m"
+        )
+    return there
+
+
+def jump_aside(action: ShapedAction, lanes: int, offset: float) -> None:
+    """Puts the actor so many lanes to the left and so far (m) left of the centre, at once.
+
+    Raises:
+        Refused: There is no such lane.
+    """
+    there = target_of_shift(action, lanes)
+    at = LanePosition(there.road, there.lane, there.s, offset)
+    actor_id, world = action.actor.id, action.world
+    action.effect("lane", (lanes, offset), lambda: world.assign(actor_id, at=at))
+
+
+def check_shift(action: ShapedAction, lanes: int, offset: float, duration: float) -> None:
+    """Refuses a change of the place across the road that is beyond the limits of the actor.
+
+    Raises:
+        Refused: It is, or there is no such lane.
+    """
+    reason = excessive_shift(
+        action.world.map,
+        action.here,
+        target_of_shift(action, lanes),
+        offset,
+        duration,
+        action.limits,
+    )
+    if reason is not None:
+        raise Refused(reason)
+
+
+def lanes_wanted(action: MotionAction, lane: Lane) -> int:
+    """Lanes to the left of the present one at which a modifier wants the actor.
+
+    Raises:
+        Refused: There is no such lane.
+    """
+    own = action.place_of(action.actor.id)
+    try:
+        if lane.reference is not None:
+            beside = lanes_to_left(action.world.map, own, action.place_of(lane.reference.id))
+            if lane.side_of is None:
+                return beside
+            return beside + (lane.number if lane.side == "left" else -lane.number)
+    except ScenarioError as error:
+        raise Refused(error.message) from error
+    target = lane_with_number(action.world.map, own, lane.number, lane.from_)
+    if target is None:
+        raise Refused(
+            f"road {own.road} has no lane {lane.number} from the {lane.from_}"
+            f" at s = {own.s:.1f} m"
+        )
+    return lanes_to_left(action.world.map, own, target)
+
+
+def lanes_to(action: MotionAction, lane: RoadPart) -> int:
+    """Lanes to the left of the present one at which a lane of the map is.
+
+    Raises:
+        Refused: It is not beside the actor, or runs the other way.
+    """
+    own, found, road_map = action.place_of(action.actor.id), lane.found, action.world.map
+    if found.lane is None or found.road != own.road:
+        raise Refused(f"{action.actor.id} is on road {own.road}, so it cannot change to {found}")
+    target = LanePosition(own.road, found.lane, own.s)
+    beside = road_map.lanes(own.road, own.s, like=own.lane)
+    if found.lane not in beside:
+        raise Refused(f"{found} is not beside lane {own.lane} at s = {own.s:.1f} m")
+    return lanes_to_left(road_map, own, target)

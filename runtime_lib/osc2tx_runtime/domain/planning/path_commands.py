@@ -1,0 +1,107 @@
+"""From paths and trajectories to commands."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.domain.paths.network_paths import path_in_world, trajectory_in_world
+from osc2tx_runtime.domain.paths.path_curves import (
+    PathError,
+    curve_of_path,
+    curve_of_trajectory,
+    stretch,
+)
+from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
+from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
+from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_runtime.world.commands import (
+    Command,
+    FollowCourse,
+    KeepSchedule,
+    ReplayCourse,
+    ReplayTrajectory,
+)
+from osc2tx_runtime.world.curve import Curve, turn_between
+from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["path_command", "trajectory_commands"]
+
+_FAR = 100.0  # m to a path that an actor is ready to go by itself
+_SLIP = 0.2  # rad between heading and way that a follower can still have
+
+
+def path_command(
+    road_map: RoadMap, here: ActorState, path: Path, offsets: tuple[float, float], *, exact: bool
+) -> Command:
+    """The lateral command for a path.
+
+    Raises:
+        PathError: The path is empty, too far away, or cannot be driven as it says.
+    """
+    curve = curve_of_path(path_in_world(road_map, path))
+    begin, end = stretch(curve, *offsets)
+    if exact:
+        return ReplayCourse(curve, begin, end)
+    _check_yaw(curve, curve.knots)
+    _check_way_to(here, curve, begin)
+    return FollowCourse(curve, begin, end)
+
+
+def trajectory_commands(
+    road_map: RoadMap,
+    here: ActorState,
+    trajectory: Trajectory,
+    offsets: tuple[float, float],
+    *,
+    exact: bool,
+) -> dict[str, Command]:
+    """The commands for a trajectory. Before its first time the actor goes to its first point.
+
+    Raises:
+        PathError: The trajectory is empty, too far away, or cannot be driven as it says.
+    """
+    trajectory = trajectory_in_world(road_map, trajectory)
+    curve_of_trajectory(trajectory)  # checks it as it is written
+    lead = 0.0
+    if trajectory.time_stamps[0] > 1e-9:
+        first = trajectory.points[0]
+        lead = math.hypot(first.x - here.x, first.y - here.y)
+        yaw = here.h if first.yaw is not None else None
+        points = (Pose(here.x, here.y, here.z, yaw=yaw), *trajectory.points)
+        times = (0.0, *trajectory.time_stamps)
+        trajectory = Trajectory(points, times, trajectory.interpolation)
+    curve = curve_of_trajectory(trajectory)
+    low, high = 0.0, curve.length
+    begin, end = curve.begin, curve.end
+    if any(offsets):
+        start_offset, end_offset = offsets
+        low, high = stretch(curve, lead + start_offset if start_offset else 0.0, end_offset)
+        begin, end = curve.at_length(low), curve.at_length(high) if end_offset else curve.end
+    if exact:
+        replay = ReplayTrajectory(curve, begin, end)
+        return {LONGITUDINAL: replay, LATERAL: replay}
+    _check_yaw(curve, curve.knots)
+    _check_way_to(here, curve, low)
+    return {LONGITUDINAL: KeepSchedule(curve, begin, end), LATERAL: FollowCourse(curve, low, high)}
+
+
+def _check_yaw(curve: Curve, places: tuple[float, ...]) -> None:
+    """A follower looks where it goes."""
+    for at in places:
+        wanted, way = curve.yaw(at), curve.heading(at)
+        if wanted is None or way is None:
+            continue
+        slip = abs(turn_between(way, wanted))
+        if slip > _SLIP:
+            raise PathError(
+                f"a point asks for a heading {math.degrees(slip):.0f} degrees off the way, which"
+                " only replay can do"
+            )
+
+
+def _check_way_to(here: ActorState, curve: Curve, begin: float) -> None:
+    along = curve.nearest(here.x, here.y, begin, 5.0)
+    away = curve.distance_to(here.x, here.y, along)
+    if away > _FAR:
+        raise PathError(f"the path is {away:.0f} m away, too far to get there")

@@ -1,0 +1,194 @@
+"""What modifiers say about the start of an action: it has to hold, or is jumped to.
+
+Where physics need not hold (`physical_movement(prefer_non_physical)`) the actor is put there at
+once. Otherwise the actions before have to see to it; if they have not, the action fails.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.actions.modifier_groups import PLACES
+from osc2tx_runtime.domain.actions.motion_action import Refused
+from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
+from osc2tx_runtime.domain.placing.placer import Placer
+from osc2tx_runtime.domain.placing.pose_resolution import heading_of, headings_of, tilt_of
+from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.world.curve import turn_between
+from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
+
+from .goals import way_to
+from .lateral_speed_planning import lateral_speed_bounds
+from .lateral_targets import lanes_wanted
+from .longitudinal_planning import speed_at_start
+from .orientation_planning import check_tilt
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+
+__all__ = ["PlaceWatch", "hold_or_jump"]
+
+_NEAR = 0.1  # m
+_SPEED_NEAR = 0.05  # m/s
+_TURNED = 0.01  # rad
+
+
+def hold_or_jump(action: ShapedAction) -> bool:
+    """Sees to what has to hold at the start.
+
+    Returns:
+        True if the actor is put somewhere else, which can be seen at the next step.
+
+    Raises:
+        Refused: It does not hold.
+        PlacementError: There is no such place.
+    """
+    at_start = [m for m in action.modifiers if getattr(m, "at", "all") == "start"]
+    places = [modifier for modifier in at_start if isinstance(modifier, PLACES)]
+    if not action.may_jump:
+        for modifier in at_start:
+            _check(action, modifier)
+        return False
+    if places:
+        speeds = [m for m in at_start if isinstance(m, Speed) and m.direction == "longitudinal"]
+        _jump(action, [*places, *speeds])
+    return bool(places)
+
+
+def _jump(action: ShapedAction, modifiers: Sequence[Modifier]) -> None:
+    actor_id, world = action.actor.id, action.world
+    if not any(isinstance(modifier, Position | Lane | Lateral) for modifier in modifiers):
+        heading = heading_of(world, action.movable, modifiers, action.here)
+        tilt = tilt_of(world, modifiers, action.here)
+        action.effect(
+            "attitude",
+            (heading, tilt),
+            lambda: world.assign(actor_id, heading=heading, tilt=tilt),
+        )
+        return
+    draws = action.generator(f"{action.action_name} start")
+    spot = Placer(world).spot(action.movable, modifiers, action.here, draws=draws)
+    action.effect(
+        "position",
+        tuple(spot),
+        lambda: world.assign(
+            actor_id, at=spot.at, speed=spot.speed, heading=spot.heading, tilt=spot.tilt
+        ),
+    )
+
+
+def _check(action: ShapedAction, modifier: Modifier) -> None:
+    match modifier:
+        case Speed(direction="longitudinal"):
+            low, high = speed_at_start(action, modifier)
+            _within(action.here.v, low, high, _SPEED_NEAR, "its speed is", "m/s")
+        case Speed():
+            low, high = lateral_speed_bounds(action, modifier)
+            aside = action.here.lateral_speed
+            _within(aside, low, high, _SPEED_NEAR, "its lateral speed is", "m/s")
+        case Position():
+            _check_place(action, modifier)
+        case Lane():
+            lanes = lanes_wanted(action, modifier)
+            if lanes:
+                here = action.place_of(action.actor.id)
+                side = "right" if lanes > 0 else "left"
+                raise Refused(
+                    f"at its start it is in lane {here.lane} of road {here.road}, {abs(lanes)} to"
+                    f" the {side} of where it has to be"
+                )
+        case Lateral():
+            _check_lateral(action, modifier)
+        case Yaw() | Orient():
+            check_tilt(action, modifier)
+            found = headings_of(action.world, action.movable, [modifier], action.here)
+            if found is None:
+                return
+            low, high = found
+            turn = turn_between(low, action.here.h)
+            if not -_TURNED <= turn <= high - low + _TURNED:
+                raise Refused(
+                    f"at its start it heads {math.degrees(turn):.1f} degrees off what"
+                    f" {modifier.name} asks for"
+                )
+
+
+def _check_place(action: ShapedAction, position: Position) -> None:
+    here, low, high, what = measured(action, position)
+    _within(here, low, high, _NEAR, what, "m")
+
+
+def measured(action: ShapedAction, position: Position) -> tuple[float, float, float, str]:
+    """Where an actor is (m), between what it is to be, and what was measured.
+
+    Raises:
+        Refused: There is no way to the reference.
+    """
+    if position.reference is None:
+        low, high = way_to(action, position)
+        here = along_lane(action.world.map, action.place_of(action.actor.id))
+        return here, here + low, here + high, "its place along its lane is"
+    other = action.world.state(position.reference.id)
+    along = along_lanes(action.world.map, other, action.here)
+    if along is None:
+        raise Refused(f"there is no way along lanes to {position.reference.id}")
+    low, high = position.size()
+    if position.timed:
+        trailing = max(other.v if position.ahead else action.here.v, 0.0)
+        low, high = low * trailing, high * trailing
+    here = along if position.ahead else -along
+    side = "ahead of" if position.ahead else "behind"
+    return here, low, high, f"its distance {side} {position.reference.id} is"
+
+
+class PlaceWatch:
+    """A place that has to be reached while something else decides the speed.
+
+    Attributes:
+        missed: How the place is missed at the present step; None if it is not.
+    """
+
+    def __init__(self, position: Position) -> None:
+        self._position = position
+        self._before: float | None = None
+        self.missed: str | None = None
+
+    def reached(self, action: ShapedAction) -> bool:
+        """Whether the actor is there, or has passed the place where nobody knows the end."""
+        here, low, high, what = measured(action, self._position)
+        off = here - min(max(here, low), high)
+        before, self._before = self._before, off
+        passed = before is not None and before * off <= 0.0 and not action.end_is_known
+        if passed or abs(off) <= _NEAR:
+            self.missed = None
+            return True
+        wanted = f"{low:.2f}" if low == high else f"from {low:.2f} to {high:.2f}"
+        self.missed = f"at its end {what} {here:.2f} m, not {wanted} m"
+        return False
+
+
+def _check_lateral(action: ShapedAction, lateral: Lateral) -> None:
+    here = action.here
+    place = action.place_of(action.actor.id)
+    if lateral.side_of is None:
+        width = action.world.map.lane_width(place.road, place.lane, place.s)
+        low, high = lateral.offsets(here.width, width)
+        _within(place.offset, low, high, _NEAR, "its distance left of its lane's centre is", "m")
+        return
+    other = action.world.state(lateral.side_of.id)
+    aside = lateral_on_road(action.world.map, here, other)
+    if aside is None:
+        raise Refused(f"there is no way along lanes to {lateral.side_of.id}")
+    low, high = lateral.offsets(here.width, other.width)
+    _within(0.0 - aside, low, high, _NEAR, f"its distance left of {lateral.side_of.id} is", "m")
+
+
+def _within(value: float, low: float, high: float, near: float, what: str, unit: str) -> None:
+    """Refuses a value outside of its bounds."""
+    if low - near <= value <= high + near:
+        return
+    wanted = f"{low:.2f}" if low == high else f"from {low:.2f} to {high:.2f}"
+    raise Refused(f"at its start {what} {value:.2f} {unit}, not {wanted} {unit}")

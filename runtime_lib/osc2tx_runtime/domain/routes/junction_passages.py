@@ -1,0 +1,71 @@
+"""Ways through the junctions of a map."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from osc2tx_runtime.domain.routes.map_segments import Stretch
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.routes.road_graph import RoadGraph
+
+__all__ = ["Passage", "arms_of", "passages_of"]
+
+
+class Passage(NamedTuple):
+    """A way through a junction, from lane to lane.
+
+    Attributes:
+        junction: The junction.
+        in_lane: Lane that enters it.
+        via: Lane in it.
+        out_lane: Lane that leaves it.
+        turn: Change of heading (rad), to the left positive, in (-pi, pi].
+    """
+
+    junction: Stretch
+    in_lane: Stretch
+    via: Stretch
+    out_lane: Stretch
+    turn: float
+
+    @property
+    def route(self) -> Stretch:
+        """In-road, junction and out-road as one route."""
+        roads = (self.in_lane, self.via, self.out_lane)
+        parts = tuple(Stretch("road", r.road, forwards=r.forwards) for r in roads)
+        return Stretch("compound_route", parts[0].road, parts=parts)
+
+
+def passages_of(graph: RoadGraph) -> tuple[Passage, ...]:
+    """All ways through the junctions of a map, by the lanes that enter them."""
+    found = []
+    for lane in graph.lanes:
+        for via in graph.after(lane):
+            junction = graph.map.roads[via.road].junction
+            if junction is None:
+                continue
+            inside = Stretch("junction", junction)
+            for out in graph.after(via):
+                if graph.map.roads[out.road].junction is None:
+                    turn = graph.heading(out, at_end=False) - graph.heading(lane, at_end=True)
+                    turn = math.pi - (math.pi - turn) % math.tau
+                    found.append(Passage(inside, lane, via, out, turn))
+    return tuple(found)
+
+
+def arms_of(
+    graph: RoadGraph, passages: Sequence[Passage], junction: Stretch
+) -> Iterator[tuple[float, str]]:
+    """Roads that meet in a junction: direction in which they leave it (rad), and their id."""
+    seen: dict[str, float] = {}
+    for passage in passages:
+        if passage.junction != junction:
+            continue
+        entry = graph.heading(passage.in_lane, at_end=True) + math.pi
+        seen.setdefault(passage.in_lane.road, entry)
+        seen.setdefault(passage.out_lane.road, graph.heading(passage.out_lane, at_end=False))
+    for road, heading in seen.items():
+        yield heading % math.tau, road

@@ -1,0 +1,97 @@
+"""Route coordinates: lanes measured along their centre line in direction of travel, and roads.
+
+A lane is measured from where it begins on its road, over all lane sections it continues in; it
+goes by the id it has there.
+"""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime import opendrive
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.placing.pose_resolution import road_entry
+from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+
+__all__ = ["along_lane", "place_of_route", "route_point_at"]
+
+_AT_END = 1e-5  # m: so near to the end of a lane is there
+
+
+def along_lane(road_map: RoadMap, place: LanePosition) -> float:
+    """Arc length (m) along the centre line of the lane, from where it begins on its road."""
+    return road_map.route_distance(road_entry(road_map, place), place) or 0.0
+
+
+def route_point_at(road_map: RoadMap, place: LanePosition) -> RoutePoint:
+    """A place on a lane in the coordinates of the lane."""
+    entry = road_entry(road_map, place)
+    along = road_map.route_distance(entry, place) or 0.0
+    return RoutePoint(RoadRoute(entry.road, entry.lane), along, place.offset)
+
+
+def place_of_route(road_map: RoadMap, point: RoutePoint) -> LanePosition | opendrive.Pose:
+    """Place of a point in route coordinates; beyond the end of its lane on the ones that follow.
+
+    Raises:
+        PlacementError: There is no such place.
+    """
+    route = point.route
+    if route is None:
+        raise PlacementError("a point without a route is relative; it needs a reference")
+    way = None
+    if isinstance(route, Path):
+        return _beside_path(route, point)
+    if isinstance(route, RoadPart):
+        found = route.found
+        if found.line is not None:
+            return opendrive.Pose(*found.line.at(point.s, point.t), found.line.heading)
+        if found.kind == "road":
+            route = RoadRoute(found.road)
+    try:
+        if isinstance(route, RoadPart):
+            graph = graph_of(road_map)
+            begin = graph.begin(route.found)
+            if found.kind == "compound_route":
+                way = road_map.route_to(graph.end(route.found))
+        elif route.lane_id is None:
+            return road_map.road_pose(route.road_id, point.s, point.t)
+        else:
+            begin = _begin(road_map, route.road_id, route.lane_id)
+        step = road_map.advance(begin, point.s, way)
+    except MapError as error:
+        raise PlacementError(error.message) from error
+    if abs(step.travelled - point.s) > _AT_END:
+        raise PlacementError(
+            f"lane {begin.lane} of road {begin.road} ends after {step.travelled:.1f} m,"
+            f" before s = {point.s:g} m"
+        )
+    on = step.position
+    return LanePosition(on.road, on.lane, on.s, point.t)
+
+
+def _beside_path(path: Path, point: RoutePoint) -> opendrive.Pose:
+    curve = path.curve
+    if not 0.0 <= point.s <= curve.length + _AT_END:
+        raise PlacementError(
+            f"the path is {curve.length:.1f} m long, so it has no s = {point.s:g} m"
+        )
+    at = curve.at_length(point.s)
+    (x, y, z), heading = curve.point(at), curve.heading(at) or 0.0
+    x, y = x - point.t * math.sin(heading), y + point.t * math.cos(heading)
+    return opendrive.Pose(x, y, z, heading)
+
+
+def _begin(road_map: RoadMap, road: str, lane: int) -> LanePosition:
+    """Where a lane begins: in the first section, in direction of travel, that has it."""
+    with_s = road_map.travel_direction(road, lane) > 0
+    sections = road_map.roads[road].sections
+    for section in sections if with_s else reversed(sections):
+        if lane in section.lanes:
+            s = section.begin if with_s else math.nextafter(section.end, section.begin)
+            return LanePosition(road, lane, s)
+    raise PlacementError(f"road {road} has no lane {lane}")

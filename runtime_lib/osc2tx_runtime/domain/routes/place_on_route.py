@@ -1,0 +1,107 @@
+"""Where an actor is on a route (DSL 8.7.5.1.1): metres from its start, and how long it is."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.routes.crossings import Crossing
+from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.domain.routes.route_axes import axis_lanes, length_of
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.opendrive import LanePosition, RoadMap
+from osc2tx_runtime.world.curve import Curve
+from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["place_on_route"]
+
+_BESIDE = 2.0  # m from a path at which an actor still is on it: about half a lane
+_EDGE = 0.5  # m beyond the ends of a crossing
+
+
+def place_on_route(
+    road_map: RoadMap, route: Path | RoadPart, state: ActorState
+) -> tuple[float, float]:
+    """Metres from the start of a route to an actor, and length of the route.
+
+    Raises:
+        ScenarioError: The actor is not on it.
+    """
+    if isinstance(route, Path):
+        return _on_path(route.curve, state)
+    if isinstance(route, Crossing):
+        return _on_crossing(route, state)
+    found, graph = route.found, graph_of(road_map)
+    place = state.lane_position
+    if place is None:
+        raise ScenarioError(f"the actor is off the road, so not on {found}")
+    match found.kind:
+        case "road":
+            return _within(place, found, (place.s, length_of(graph, found)))
+        case "lane_section":
+            return _on_section(graph, place, found)
+        case "lane" | "compound_lane":
+            return _on_lanes(graph, place, found)
+        case "compound_route":
+            return _on_roads(graph, place, found)
+    raise UnsupportedError(f"a {found.kind} is nothing to measure a distance along")
+
+
+def _on_path(curve: Curve, state: ActorState) -> tuple[float, float]:
+    here = state.x, state.y
+    knots = curve.knots
+    nearest = min(range(len(knots)), key=lambda i: math.dist(curve.point(knots[i])[:2], here))
+    begin, end = knots[max(nearest - 1, 0)], knots[min(nearest + 1, len(knots) - 1)]
+    begin, end = curve.length_at(begin), curve.length_at(end)
+    along = curve.nearest(state.x, state.y, begin, end - begin)
+    away = curve.distance_to(state.x, state.y, along)
+    if away > _BESIDE:
+        raise ScenarioError(f"the actor is {away:.1f} m from the path, so not on it")
+    return along, curve.length
+
+
+def _on_crossing(crossing: Crossing, state: ActorState) -> tuple[float, float]:
+    line = crossing.line
+    along, aside = line.place_of(state.x, state.y)
+    half = _BESIDE if crossing.known_width is None else 0.5 * crossing.known_width
+    if abs(aside) > half or not -_EDGE <= along <= line.length + _EDGE:
+        raise ScenarioError(f"the actor is not on {crossing.found}")
+    return along, line.length
+
+
+def _on_section(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[float, float]:
+    forwards = graph.map.travel_direction(place.road, place.lane) > 0
+    if forwards != found.forwards:
+        raise ScenarioError(f"the actor is on the other side of {found}")
+    section = graph.map.roads[found.road].sections[found.section or 0]
+    if place.road != found.road or not section.begin <= place.s <= section.end:
+        raise ScenarioError(f"the actor is on road {place.road}, not on {found}")
+    (axis,) = axis_lanes(graph, found)
+    return graph.along(axis, place.s), length_of(graph, found)
+
+
+def _on_lanes(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[float, float]:
+    key, before = graph.map.lane_key(place), 0.0
+    for lane in axis_lanes(graph, found):
+        if graph.key(lane) == key:
+            return before + graph.along(lane, place.s), length_of(graph, found)
+        before += length_of(graph, lane)
+    raise ScenarioError(f"the actor is on lane {place.lane} of road {place.road}, not on {found}")
+
+
+def _on_roads(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[float, float]:
+    along = graph.map.route_distance(graph.begin(found), place)
+    if along is None or place.road not in {part.road for part in found.parts}:
+        raise ScenarioError(f"the actor is on road {place.road}, not on {found}")
+    return along, length_of(graph, found)
+
+
+def _within(
+    place: LanePosition, found: Stretch, distances: tuple[float, float]
+) -> tuple[float, float]:
+    along, length = distances
+    if place.road != found.road or not 0.0 <= along <= length:
+        raise ScenarioError(f"the actor is on road {place.road}, not on {found}")
+    return distances

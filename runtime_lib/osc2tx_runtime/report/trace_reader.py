@@ -1,0 +1,179 @@
+"""Reads a trace (JSON Lines) into the object that is embedded in the page."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from .action_log import ActionLog
+from .json_values import Json, number, plain, short, text
+from .surroundings import Surroundings
+from .tracks import Track
+
+__all__ = ["Run", "read_run"]
+
+_FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
+_SIZES = {"length": 1.0, "width": 1.0}
+_DEGREES = 180.0 / math.pi
+# Values of the environment: words before, factor and offset from SI units, unit behind.
+_WEATHER = {
+    "temperature": ("", 1.0, -273.15, " °C"),
+    "pressure": ("pressure ", 0.01, 0.0, " hPa"),
+    "relative_humidity": ("humidity ", 100.0, 0.0, " %"),
+    "rain_intensity": ("rain ", 3.6e6, 0.0, " mm/h"),
+    "snow_intensity": ("snow ", 3.6e6, 0.0, " mm/h"),
+    "wind_speed": ("wind ", 3.6, 0.0, " km/h"),
+    "wind_direction": ("wind from ", _DEGREES, 0.0, "°"),
+    "visual_range": ("sight ", 1.0, 0.0, " m"),
+    "cloudiness": ("clouds ", 1.0, 0.0, "/8"),
+    "sun_elevation": ("sun elevation ", _DEGREES, 0.0, "°"),
+    "sun_azimuth": ("sun azimuth ", _DEGREES, 0.0, "°"),
+    "moon_elevation": ("moon elevation ", _DEGREES, 0.0, "°"),
+    "moon_azimuth": ("moon azimuth ", _DEGREES, 0.0, "°"),
+}
+_HEADER_KEYS = ("version", "scenario", "source", "map", "dt", "seed", "parameters")
+
+
+@dataclass
+class Run:
+    """What a trace says, in the order of its lines.
+
+    Attributes:
+        header: The header line, empty if there is none.
+        result: The result line, None if the run did not get there.
+        tracks: Movement by actor id.
+        surroundings: Lights and weather.
+        end: Latest time in the trace (s).
+        skipped: Number of lines that could not be shown.
+    """
+
+    header: Json = field(default_factory=dict)
+    result: Json | None = None
+    tracks: dict[str, Track] = field(default_factory=dict)
+    actions: ActionLog = field(default_factory=ActionLog)
+    marks: list[Json] = field(default_factory=list)
+    surroundings: Surroundings = field(default_factory=Surroundings)
+    end: float = 0.0
+    skipped: int = 0
+
+    def add(self, line: Json) -> None:
+        """Take one line of the trace."""
+        kind = line.get("kind")
+        if kind == "header":
+            self.header = line
+        elif kind == "result":
+            self.result = line
+        else:
+            time = number(line.get("t"))
+            if time is None or not self._add_timed(text(kind), time, line):
+                self.skipped += 1
+            else:
+                self.end = max(self.end, time)
+
+    def _add_timed(self, kind: str, time: float, line: Json) -> bool:
+        if kind == "state":
+            return self.tracks.setdefault(text(line.get("actor")), Track()).add(time, line)
+        if kind == "action":
+            self.actions.add(time, line)
+            return True
+        self.surroundings.add(kind, time, line)
+        name = _mark_name(kind, line)
+        if name is None:
+            return False
+        mark: Json = {"t": short(time, 4), "kind": kind, "actor": text(line.get("actor"))}
+        mark["name"] = name
+        if kind == "collision":
+            actors = line.get("actors")
+            mark["actors"] = [text(actor) for actor in actors] if isinstance(actors, list) else []
+        self.marks.append(mark)
+        return True
+
+    def as_json(self) -> Json:
+        """The object the page reads."""
+        return {
+            "header": {key: plain(self.header.get(key)) for key in _HEADER_KEYS},
+            "result": plain(self.result),
+            "duration": short(self.end, 4),
+            "skipped": self.skipped,
+            "actors": [self._actor(name, sizes) for name, sizes in self._cast().items()],
+            "actions": self.actions.as_json(),
+            "marks": self.marks,
+        }
+
+    def _cast(self) -> dict[str, Json]:
+        """Sizes by actor id: those of the header, then others that have states."""
+        cast: dict[str, Json] = {}
+        declared = self.header.get("actors")
+        if isinstance(declared, dict):
+            for name, sizes in declared.items():
+                cast[text(name)] = sizes if isinstance(sizes, dict) else {}
+        for name in self.tracks:
+            cast.setdefault(name, {})
+        return cast
+
+    def _actor(self, name: str, sizes: Json) -> Json:
+        kind = text(sizes.get("kind"))
+        length, width = (number(sizes.get(key)) or value for key, value in _SIZES.items())
+        rear = number(sizes.get("rear"))
+        track = self.tracks.get(name)
+        return {
+            "id": name,
+            "kind": kind,
+            "length": short(length, 3),
+            "width": short(width, 3),
+            "rear": short(length / 2 if rear is None else rear, 3),
+            "movable": not any(word in kind.lower() for word in _FIXED_KINDS),
+            "track": track.as_json() if track is not None and track.times else None,
+        }
+
+
+def _mark_name(kind: str, line: Json) -> str | None:
+    """What to write beside the mark of an instant; None for a kind that is not known."""
+    if kind == "event":
+        return text(line.get("name")) + _arguments(line.get("arguments"))
+    if kind == "lights":
+        return text(line.get("mode"))
+    if kind == "signal":
+        return f"{text(line.get('signal'))}: {text(line.get('state'))}"
+    if kind == "collision":
+        actors = line.get("actors")
+        return " and ".join(map(text, actors)) if isinstance(actors, list) else text(actors)
+    if kind == "environment":
+        rest = (_weather(key, value) for key, value in line.items() if key not in ("t", "kind"))
+        return ", ".join(rest)
+    return None
+
+
+def _weather(name: str, value: object) -> str:
+    """A value of the environment in units that people use."""
+    amount = number(value)
+    if amount is None or name not in _WEATHER:
+        return f"{name} {text(value)}"
+    words, factor, offset, unit = _WEATHER[name]
+    return f"{words}{amount * factor + offset:.4g}{unit}"
+
+
+def _arguments(values: object) -> str:
+    """The arguments of an event in brackets, nothing if there are none."""
+    if not isinstance(values, dict) or not values:
+        return ""
+    return " (" + ", ".join(f"{name} {text(value)}" for name, value in values.items()) + ")"
+
+
+def read_run(trace_lines: Sequence[str]) -> Run:
+    """Read a trace; lines that are broken or of unknown kind are counted, not refused."""
+    run = Run()
+    for line in trace_lines:
+        if not line.strip():
+            continue
+        try:
+            value = json.loads(line)
+        except ValueError:
+            value = None
+        if isinstance(value, dict):
+            run.add(value)
+        else:
+            run.skipped += 1
+    return run

@@ -1,0 +1,271 @@
+"""One actor over one step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
+
+from .actor_dimensions import TYRES, Limits
+from .attitude import LEVEL, Tilt, tilt_on
+from .attitude_control import Turning
+from .commands import SpeedChange
+from .curve_following import Course, Steering
+from .friction import held_by
+from .friction_circle import Wheels, curvature_ahead
+from .lane_neighbours import lane_under, offset_from
+from .lane_return import abreast, lane_near, turn_from
+from .lateral import (
+    SIDEWAYS,
+    HoldOffset,
+    Lateral,
+    Shift,
+    shift_profile,
+)
+from .longitudinal import Longitudinal, longitudinal_of
+from .position_control import PlacedRun
+from .protocol import ActorSpec
+from .route_following import Way
+from .state import ActorState
+from .step_inputs import Senses
+
+__all__ = ["ANY_LANE", "CRUISE", "Moving", "cruise_of"]
+
+CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
+"""Speed (m/s) at which those who stand set out on a course; vehicles: `CRUISE_VEHICLE`."""
+
+CRUISE_VEHICLE = 5.0
+
+
+def cruise_of(kind: str) -> float:
+    """Speed (m/s) at which an actor of a kind sets out."""
+    return CRUISE.get(kind, CRUISE_VEHICLE)
+
+
+ANY_LANE = DRIVING | {
+    "shoulder", "sidewalk", "walking", "biking", "parking", "border", "curb", "median", "stop",
+    "restricted", "special1", "special2", "special3", "tram", "rail", "roadWorks",
+}  # fmt: skip
+"""Lane types on which actors off the lanes are located."""
+
+_NEAR = 0.5  # m: how far outside a lane an actor is still on it
+_STILL = 1e-9  # m/s
+_ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
+
+
+@dataclass(slots=True)
+class Moving:
+    """An actor over its steps, with its commands at work.
+
+    Attributes:
+        spec: What it is.
+        state: Snapshot of the present step.
+        bound: Lane it follows, with its offset from there; None off the lanes.
+        route: Decides at forks; None: the smallest change of heading.
+        blocked: Why it cannot go on; None while it can.
+        jumped: In the last step it was put somewhere instead of moving there.
+        wheels: Its grip on the road; None for those without wheels.
+        tilt: Pitch and roll that it was told; wheels that roll forget them.
+    """
+
+    spec: ActorSpec
+    state: ActorState
+    bound: LanePosition | None
+    route: Route | None = None
+    blocked: str | None = None
+    jumped: bool = False
+    wheels: Wheels | None = None
+    tilt: Tilt = LEVEL
+    _course: Course | None = None
+    _home: LanePosition | None = None  # lane it returns to
+    _way: Way | None = None
+    _speed: Longitudinal | None = None
+    _side: Lateral = field(default_factory=HoldOffset)
+    _turning: Turning | None = None
+    _astray: bool = False  # turned where it stands, so that it is in no lane any more
+
+    @property
+    def limits(self) -> Limits:
+        """What it can do on the road as it is."""
+        limits = self.spec.limits
+        return limits if self.wheels is None else held_by(limits, self.wheels.road)
+
+    @property
+    def tyres(self) -> Limits:
+        """What tyres can do there."""
+        return TYRES if self.wheels is None else held_by(TYRES, self.wheels.road)
+
+    # --- motion -------------------------------------------------------------------------------
+
+    def moved(self, senses: Senses, road_map: RoadMap) -> ActorState:
+        """State at the next step; the snapshot itself stays as it is."""
+        state, dt = self.state, senses.dt
+        if self._course is not None and self._speed is None and state.v == 0.0:
+            setting_out = SpeedChange(cruise_of(self.spec.kind))
+            self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
+        speed = state.v if self._speed is None else self._speed.speed_after(state, senses)
+        path = self._speed.path if isinstance(self._speed, PlacedRun) else None
+        if self.wheels is not None and self.wheels.limited:
+            way = curvature_ahead(road_map, self.bound, self.route)
+            speed = self.wheels.held(speed, state, way, dt)
+            path = None if self.wheels.slipping else path
+        if path is None:
+            path = 0.5 * (state.v + speed) * dt
+        self.jumped = False
+        if self._home is not None or self._astray:
+            self._return_to_lane(road_map)
+        if path and self.wheels is not None:
+            self.tilt = LEVEL
+        if self.bound is not None:
+            return self._along_lane(speed, path, road_map, senses)
+        if self._course is not None:
+            return self._on_course(self._course, speed, path, road_map, dt)
+        if path == 0.0 and self._turning is None:
+            return self._standing(speed, dt)
+        return self._straight_on(speed, path, road_map, dt)
+
+    def _along_lane(
+        self, speed: float, path: float, road_map: RoadMap, senses: Senses
+    ) -> ActorState:
+        bound, dt = self.bound, senses.dt
+        assert bound is not None
+        offset, rate = self._side.offset_after(bound.offset, path, self.state, senses)
+        aside = offset - bound.offset
+        if path == 0.0 and aside == 0.0:
+            return self._standing(speed, dt)
+        along = path if aside == 0.0 else math.copysign(math.sqrt(max(path**2 - aside**2, 0)), path)
+        if along:
+            if self._way is not None:
+                self._way.look(bound, along)
+            ahead = road_map.advance(bound, along, self.route)
+            place = ahead.position
+            if abs(ahead.travelled - along) > 1e-6:
+                speed = self._stop_at_end(place)
+            else:
+                self.blocked = None
+        else:
+            place = bound
+        if offset != place.offset:
+            place = LanePosition(place.road, place.lane, place.s, offset)
+        self.bound = place
+        return self._state_on_lane(place, speed, rate, (speed - self.state.v) / dt, road_map)
+
+    def _standing(self, speed: float, dt: float) -> ActorState:
+        """The same place; the same state if nothing else changes."""
+        state, a = self.state, (speed - self.state.v) / dt
+        if speed == state.v and a == state.a and state.lateral_speed == 0.0:
+            return state
+        return state._replace(v=speed, a=a, lateral_speed=0.0)
+
+    def _stop_at_end(self, place: LanePosition) -> float:
+        self.blocked = (
+            f"{self.spec.id} has come to the end of lane {place.lane} of road {place.road}"
+        )
+        self._speed = None
+        return 0.0
+
+    def _state_on_lane(
+        self, bound: LanePosition, speed: float, rate: float, a: float, road_map: RoadMap
+    ) -> ActorState:
+        pose = road_map.pose(bound)
+        h = pose.h
+        if rate and abs(speed) > _STILL:
+            h += math.asin(min(max(rate / speed, -SIDEWAYS), SIDEWAYS))
+            h = math.pi - (math.pi - h) % math.tau
+        elif abs(speed) <= _STILL and self._half_way(bound):
+            h = self.state.h  # standing half way through a lane change
+        under = lane_under(road_map, bound, pose) if bound.offset else bound
+        pitch, roll = self._tilted(pose, h)
+        return ActorState(
+            pose.x, pose.y, pose.z, h, speed, a, under, rate, self.spec.shape, pitch, roll
+        )
+
+    def _tilted(self, ground: Pose, heading: float) -> tuple[float, float]:
+        """Pitch and roll on the ground, or as it was told."""
+        if self.tilt is LEVEL and not (ground.pitch or ground.roll):
+            return 0.0, 0.0  # nearly always
+        return self.tilt.over(tilt_on(ground, heading))
+
+    def _half_way(self, bound: LanePosition) -> bool:
+        return not self._side.progress().done and bound.road == self.state.road
+
+    def _straight_on(self, speed: float, path: float, road_map: RoadMap, dt: float) -> ActorState:
+        state = self.state
+        h = state.h
+        if self._home is not None:
+            pose = self._towards_lane(self._home, path, road_map)
+            return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
+        if self._turning is not None:
+            h, self.tilt = self._turning.after(state, self.tilt, dt)
+        pose = Pose(state.x + path * math.cos(h), state.y + path * math.sin(h), state.z, h)
+        return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
+
+    # --- courses off the lanes ----------------------------------------------------------------
+
+    def _on_course(
+        self, course: Course, speed: float, path: float, road_map: RoadMap, dt: float
+    ) -> ActorState:
+        state = self.state
+        pose, speed = course.after(state, speed, path, dt)
+        way = math.hypot(pose.x - state.x, pose.y - state.y)
+        self.jumped = way > max(abs(path), abs(speed) * dt) + _NEAR
+        return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
+
+    def _return_to_lane(self, road_map: RoadMap) -> None:
+        """Is in its lane again if it stands in it and along it, else on the way there, if any."""
+        state, home, self._astray = self.state, self._home, False
+        if not self.spec.lane_bound:
+            return
+        if home is None:
+            home = lane_near(road_map, state)
+        else:
+            home = abreast(road_map, home, state, self.route)
+        self._home = home
+        if home is None:
+            return
+        turn = turn_from(road_map, home, state)
+        offset = offset_from(road_map, home, state.x, state.y)
+        inside = abs(offset) <= 0.5 * road_map.lane_width(home.road, home.lane, home.s)
+        if inside and abs(turn) <= (_ALIGNED if state.v > 0.5 else 1e-3):
+            rate = state.v * math.sin(turn)
+            profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.limits)
+            self.bound = LanePosition(home.road, home.lane, home.s, offset)
+            self._side, self._home = Shift(profile, 0.0), None
+
+    def _towards_lane(self, home: LanePosition, path: float, road_map: RoadMap) -> Pose:
+        """Steers at the centre of the lane, some way ahead."""
+        state = self.state
+        steering = Steering(state.shape, self.limits)
+        ahead = road_map.advance(home, steering.look_ahead(state.v), self.route).position
+        goal = road_map.pose(ahead)
+        return steering.towards(state, goal.x, goal.y, path)
+
+    def free_state(self, pose: Pose, speed: float, a: float, road_map: RoadMap) -> ActorState:
+        """State off the lanes: where it is, and which lane is under it, if any."""
+        hint = self.state.lane_position
+        heading = pose.h if self.spec.lane_bound else None
+        on = road_map.locate(
+            pose.x, pose.y, pose.z, heading, hint=hint, lane_types=ANY_LANE, max_distance=_NEAR
+        )
+        ground = Pose(pose.x, pose.y, pose.z, pose.h) if on is None else road_map.pose(on)
+        pitch, roll = self._tilted(ground, pose.h)
+        return ActorState(
+            pose.x, pose.y, ground.z, pose.h, speed, a, on, 0.0, self.spec.shape, pitch, roll
+        )
+
+    def unbind(self) -> None:
+        """Is on no lane any more, and goes straight on."""
+        self.bound, self._course, self._home = None, None, None
+
+    def turn_away(self) -> None:
+        """Is turned by force: a vehicle goes back to its lane from there."""
+        self.unbind()
+        self._astray = self.spec.lane_bound
+
+    def rebind(self, bound: LanePosition, speed: float, road_map: RoadMap) -> ActorState:
+        """State after a jump to a place on a lane."""
+        self.bound, self.blocked, self.tilt = bound, None, LEVEL
+        self._course, self._home, self._astray = None, None, False
+        self._side = HoldOffset()
+        return self._state_on_lane(bound, speed, 0.0, 0.0, road_map)

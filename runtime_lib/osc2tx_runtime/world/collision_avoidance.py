@@ -1,0 +1,100 @@
+"""Driving with care: not running into what is ahead, and stopping at red lights.
+
+For others ahead: the interaction term of the intelligent-driver model. The acceleration is at most
+a (1 - (g*/g)^2) with the wanted gap g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being
+comfortable values of the actor. For lights see `red_lights`. With a free road the inner command
+acts unchanged, so its closed forms stay exact. Deterministic; reads the snapshot only.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+from osc2tx_runtime.opendrive import Route
+
+from .actor_dimensions import COMFORT, Limits
+from .commands import Careful
+from .protocol import REACHED, Progress
+from .red_lights import RedLights
+from .state import ActorState
+from .step_inputs import Senses
+
+__all__ = ["Cautious", "Hold"]
+
+_LEAST_GAP = 0.1  # m: nearer counts as so near
+
+
+class _Inner(Protocol):
+    def speed_after(self, me: ActorState, senses: Senses) -> float: ...
+    def progress(self) -> Progress: ...
+
+
+class Hold:
+    """The speed at the start."""
+
+    def __init__(self, speed: float) -> None:
+        self._speed = speed
+
+    def speed_after(self, me: ActorState, senses: Senses) -> float:
+        """Always the same."""
+        return self._speed
+
+    def progress(self) -> Progress:
+        """Always reached."""
+        return REACHED
+
+
+class Cautious:
+    """Another command, slowed down behind others and before red lights.
+
+    While it is slower than the inner command wants, that one's time goes on; afterwards the actor
+    gains speed with a comfortable acceleration until it has caught up with the wanted speed.
+
+    Args:
+        command: What to keep clear of.
+        inner: The other command; None holds the speed.
+        speed: Present speed (m/s).
+        limits: Of the actor.
+        route: Its way at forks.
+    """
+
+    def __init__(
+        self,
+        command: Careful,
+        inner: _Inner | None,
+        speed: float,
+        limits: Limits,
+        route: Route | None = None,
+    ) -> None:
+        self._inner = inner or Hold(speed)
+        self._headway, self._gap = command.headway, command.gap
+        self._limits = limits
+        self._lights = RedLights(limits, route)
+        self._held = False
+
+    def speed_after(self, me: ActorState, senses: Senses) -> float:
+        """The inner speed, or what others and lights leave room for."""
+        speed = wanted = self._inner.speed_after(me, senses)
+        found = senses.obstacle(me)
+        if found is not None or self._held:
+            rise = COMFORT * self._limits.acceleration
+            if found is not None:
+                rise = max(self._acceleration(me.v, found), -self._limits.deceleration)
+            speed = min(wanted, max(me.v + rise * senses.dt, 0.0))
+        speed = self._lights.allowed(me, speed, senses)
+        self._held = speed < wanted
+        return speed
+
+    def _acceleration(self, speed: float, found: tuple[float, float]) -> float:
+        gap, other = found
+        a = COMFORT * self._limits.acceleration
+        b = COMFORT * self._limits.deceleration
+        closing = speed * (speed - other) / (2.0 * math.sqrt(a * b))
+        wanted = self._gap + max(speed * self._headway + closing, 0.0)
+        return a * (1.0 - (wanted / max(gap, _LEAST_GAP)) ** 2)
+
+    def progress(self) -> Progress:
+        """That of the inner command; not reached while something is in the way."""
+        progress = self._inner.progress()
+        return Progress(progress.done and not self._held, progress.failed)

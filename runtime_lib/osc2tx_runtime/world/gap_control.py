@@ -1,0 +1,184 @@
+"""Longitudinal commands about places: a distance to another actor, or to be somewhere in time."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.clock import whole_steps
+
+from .actor_dimensions import COMFORT, Limits
+from .arrival_schedule import towards
+from .commands import Arrive, FollowSpeed, KeepGap
+from .distances import gap_between, headway_between
+from .guidance import mean_rate_to_place, rate_to_place, rate_to_place_and_speed
+from .projected_motion import Tracked
+from .protocol import PENDING, REACHED, Progress
+from .state import ActorState
+from .step_inputs import Senses
+
+__all__ = ["ArrivalRun", "GapRun"]
+
+_SPEED_TOLERANCE = 0.2  # m/s between the speeds at which a gap can count as reached
+_GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
+_GAP_STEPS = 4  # steps for which it must stay so
+_STIFFNESS = 0.4  # of the spring that closes a gap, in units of the limit that counts at the end
+
+
+class GapRun:
+    """Feedback on a distance to another actor.
+
+    A small error decays like that of a critically damped spring, as with tools that read
+    OpenSCENARIO XML; the closing speed grows with the square root of a large one, so that the
+    actor can always still brake. It does not reverse.
+    """
+
+    __slots__ = ("_command", "_failed", "_limits", "_other", "_settled")
+
+    def __init__(self, command: KeepGap, limits: Limits) -> None:
+        self._command = command
+        self._limits = limits
+        self._other = Tracked(command.reference, command.projected)
+        self._settled = 0
+        self._failed: str | None = None
+
+    def speed_after(self, me: ActorState, senses: Senses) -> float:
+        """A step towards the speed that closes the error."""
+        other = self._other.state(senses)
+        found = _allowed(self._command, me, other, me.v, senses)
+        if found is None:
+            self._failed = _no_way(self._command)
+            return me.v
+        here, low, high = found
+        error = min(max(here, low), high) - here  # > 0: more speed is needed
+        last = self._limits.acceleration if error < 0.0 else self._limits.deceleration
+        pace = math.sqrt(_STIFFNESS * last)  # 1/s
+        soon = abs(error + 0.5 * (other.v - me.v) * senses.dt)  # in the middle of the step
+        closing = min(0.5 * pace * soon, math.sqrt(2.0 * COMFORT * last * soon))
+        its_speed = other.v + other.a * senses.dt  # if it goes on so
+        goal = max(its_speed + math.copysign(closing, error), 0.0)
+        if error == 0.0 and low < high:
+            goal = me.v if low < here < high else goal  # anywhere in the range will do
+        blend = 1.0 - math.exp(-2.0 * pace * senses.dt)
+        speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, senses.dt)
+        close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
+        near = abs(error) < _GAP_TOLERANCE and close
+        self._settled = self._settled + 1 if near else 0
+        return speed
+
+    def progress(self) -> Progress:
+        """Done when the gap has been held for some steps."""
+        return Progress(self._settled >= _GAP_STEPS, self._failed)
+
+
+class ArrivalRun:
+    """Is somewhere when its time is over.
+
+    In each step it takes the acceleration of `guidance` for a goal that goes on at its speed.
+    """
+
+    def __init__(self, command: Arrive, limits: Limits) -> None:
+        self._command = command
+        self._limits = limits
+        gap = command.gap
+        self._other = None if gap is None else Tracked(gap.reference, gap.projected)
+        self._steps: int | None = None  # to go
+        self._covered = 0.0
+        self._progress = PENDING
+
+    def speed_after(self, me: ActorState, senses: Senses) -> float:
+        """One step on the way there; afterwards the same speed."""
+        dt = senses.dt
+        if self._steps is None:
+            self._steps = max(whole_steps(self._command.duration, dt), 1)
+        if self._steps == 0:
+            return me.v
+        end = self._end_speed(senses)
+        found = self._rest(me, senses, self._steps * dt, end)
+        if found is None:
+            assert self._command.gap is not None
+            self._progress = Progress(False, _no_way(self._command.gap))
+            return me.v
+        rest, moving = found
+        rate = self._rate(me.v, rest, moving, end, dt)
+        speed = towards(me.v, me.v + rate * dt, self._limits, 1.0, dt)
+        if me.v >= 0.0 > speed:
+            speed = 0.0
+        step = 0.5 * (me.v + speed) * dt
+        self._covered += step
+        self._steps -= 1
+        if self._steps == 0:
+            self._judge(rest + moving * dt - step, speed, end)
+        return speed
+
+    def _end_speed(self, senses: Senses) -> float | None:
+        wanted = self._command.speed
+        if isinstance(wanted, FollowSpeed):
+            return senses.state(wanted.reference).v * wanted.factor + wanted.difference
+        return wanted
+
+    def _rest(
+        self, me: ActorState, senses: Senses, time: float, end: float | None
+    ) -> tuple[float, float] | None:
+        """Metres from here to the goal, and the speed of the goal (m/s)."""
+        gap = self._command.gap
+        if gap is None or self._other is None:
+            return (self._command.way or 0.0) - self._covered, 0.0
+        other = self._other.state(senses)
+        found = _allowed(gap, me, other, me.v if end is None else end, senses)
+        if found is None:
+            return None
+        here, low, high = found
+        steady = here + (me.v - other.v) * time
+        return min(max(steady, low), high) - here, other.v
+
+    def _rate(self, v: float, rest: float, moving: float, end: float | None, dt: float) -> float:
+        n = self._steps or 1
+        missing = rest - (v - moving) * n * dt
+        if end is not None:
+            return rate_to_place_and_speed(n, dt, missing, end - v)
+        if v > 0.0 > v + mean_rate_to_place(n, dt, missing) * n * dt:
+            gain = rest + moving * n * dt  # it has to stop there before the time is over
+            return -v * v / (2.0 * gain) if gain > 0.0 else -self._limits.deceleration
+        return rate_to_place(n, dt, missing)
+
+    def _judge(self, missed: float, speed: float, end: float | None) -> None:
+        limits = self._limits
+        can = f"it can do {limits.acceleration:g} and -{limits.deceleration:g} m/s^2"
+        if abs(missed) > _GAP_TOLERANCE:
+            side = "short of" if missed > 0.0 else "beyond"
+            reason = f"when its time is over it is {abs(missed):.1f} m {side} its place; {can}"
+            self._progress = Progress(False, reason)
+        elif end is not None and abs(speed - end) > _SPEED_TOLERANCE:
+            reason = f"it comes to its place at {speed:.1f} m/s, not {end:.1f} m/s; {can}"
+            self._progress = Progress(False, reason)
+        else:
+            self._progress = REACHED
+
+    def progress(self) -> Progress:
+        """Done or failed when the time is over."""
+        return self._progress
+
+
+def _allowed(
+    command: KeepGap, me: ActorState, other: ActorState, own_speed: float, senses: Senses
+) -> tuple[float, float, float] | None:
+    """Where the actor is ahead of the other one (m), and between what it may be."""
+    along = senses.along(other, me)
+    if along is None:
+        return None
+    match command.measure:
+        case "gap":
+            here = gap_between(along, me.shape, other.shape)
+        case "headway":
+            here = headway_between(along, me.shape, other.shape)
+        case "reference":
+            here = along
+    low, high = command.distance or 0.0, (command.distance or 0.0) + command.spread
+    if command.time is not None:
+        trailing = max(other.v if command.ahead else own_speed, 0.0)
+        low, high = command.time * trailing, (command.time + command.spread) * trailing
+    return (here, low, high) if command.ahead else (here, -high, -low)
+
+
+def _no_way(command: KeepGap) -> str:
+    return f"there is no way along lanes to {command.reference}"

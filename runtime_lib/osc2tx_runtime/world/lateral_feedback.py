@@ -1,0 +1,167 @@
+"""Lateral commands that run on feedback: beside another actor, or sideways at a constant speed."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.clock import whole_steps
+
+from .actor_dimensions import COMFORT, Limits
+from .commands import Beside, Sideways, Slant
+from .distances import side_gap
+from .guidance import rate_to_place_and_speed
+from .lateral_limits import SIDEWAYS
+from .profiles import Profile
+from .projected_motion import Tracked
+from .protocol import PENDING, REACHED, Progress
+from .state import ActorState
+from .step_inputs import Senses
+
+__all__ = ["BesideRun", "SidewaysRun"]
+
+_RATE = 1.0  # 1/s: how fast small errors decay
+_NEAR = 0.05  # m at which a distance counts as reached
+_RATE_NEAR = 0.02  # m/s at which a lateral speed counts as reached
+_STEPS = 4  # steps for which it must stay so
+
+
+class SidewaysRun:
+    """A speed across the lane, or a heading, as far as the heading allows."""
+
+    def __init__(self, command: Sideways | Slant) -> None:
+        self._command = command
+        self._steps = 0
+        self._over = False  # the course, if there is one
+        self._reached = False
+
+    def _wanted(self, path: float, senses: Senses) -> float:
+        """Speed (m/s) to the left."""
+        command, time = self._command, self._steps * senses.dt
+        course = command.course
+        self._over = course is None or time >= course.duration - 1e-9
+        if isinstance(command, Slant):
+            angle = command.angle if course is None else course.value(time)
+            return math.sin(angle) * path / senses.dt
+        speed = command.speed if course is None else course.value(time)
+        if command.reference is None:
+            return speed
+        return speed + command.factor * senses.state(command.reference).lateral_speed
+
+    def offset_after(
+        self, offset: float, path: float, me: ActorState, senses: Senses
+    ) -> tuple[float, float]:
+        """One step to the side."""
+        self._steps += 1
+        room = abs(path) * SIDEWAYS / senses.dt
+        wanted = self._wanted(path, senses)
+        speed = min(max(wanted, -room), room)
+        self._reached = speed == wanted and self._over
+        if isinstance(self._command, Sideways) and self._command.course is not None:
+            return offset + 0.5 * (me.lateral_speed + speed) * senses.dt, speed
+        return offset + speed * senses.dt, speed
+
+    def progress(self) -> Progress:
+        """Done while it has the last speed."""
+        return REACHED if self._reached else PENDING
+
+
+class BesideRun:
+    """Feedback on the distance across the lane to another actor."""
+
+    def __init__(self, command: Beside, limits: Limits, rate: float) -> None:
+        self._command = command
+        self._limits = limits
+        self._speed = rate
+        self._other = Tracked(command.reference, command.projected)
+        self._settled = 0
+        self._steps: int | None = None  # to go, where there is a time
+        self._elapsed = 0
+        self._failed: str | None = None
+
+    def offset_after(
+        self, offset: float, path: float, me: ActorState, senses: Senses
+    ) -> tuple[float, float]:
+        """A step at the lateral speed that closes the error, within the limits."""
+        command, dt = self._command, senses.dt
+        other = self._other.state(senses)
+        to_left = senses.aside(me, other)
+        if to_left is None:
+            self._failed = f"there is no way along lanes to {command.reference}"
+            return offset, 0.0
+        if self._steps is None and command.duration is not None:
+            self._steps = max(whole_steps(command.duration, dt), 1)
+        error = 0.0
+        if command.left is None:
+            gap = side_gap(to_left, me.shape, other.shape)
+            wanted = other.lateral_speed - gap / (command.time or dt)
+            self._note(abs(self._speed - wanted) < _RATE_NEAR)
+        elif command.course is not None:
+            return self._on_course(command.course, offset, -to_left, path, other, dt)
+        else:
+            own = -to_left  # so far it is left of the other one
+            error = min(max(own, command.left), command.left + command.spread) - own
+            wanted = self._towards(error, other.lateral_speed, dt)
+        limit = self._limits.lateral * (1.0 if self._steps else COMFORT)
+        speed = min(max(wanted, self._speed - limit * dt), self._speed + limit * dt)
+        room = abs(path) * SIDEWAYS / dt
+        speed = min(max(speed, -room), room)
+        moved = 0.5 * (self._speed + speed) * dt
+        moved = min(max(moved, -room * dt), room * dt)
+        self._speed = speed
+        if self._steps:
+            self._steps -= 1
+            self._judge(error + other.lateral_speed * dt - moved)
+        return offset + moved, speed
+
+    def _on_course(
+        self,
+        course: Profile,
+        offset: float,
+        own: float,
+        path: float,
+        other: ActorState,
+        dt: float,
+    ) -> tuple[float, float]:
+        """One step on a course, if the other one goes on as it does."""
+        self._elapsed += 1
+        time, moving = self._elapsed * dt, other.lateral_speed
+        wanted = course.value(time) - own + moving * dt
+        room = abs(path) * SIDEWAYS
+        moved = min(max(wanted, -room), room)
+        self._speed = course.rate(time) + moving if moved == wanted else moved / dt
+        if self._settled < _STEPS and time >= course.duration - 1e-9:
+            self._settled = _STEPS
+            self._miss(wanted - moved)
+        return offset + moved, self._speed
+
+    def _towards(self, error: float, moving: float, dt: float) -> float:
+        """The lateral speed (m/s) that brings it nearer to its place."""
+        if self._steps:
+            missing = error - (self._speed - moving) * self._steps * dt
+            change = moving - self._speed
+            return self._speed + dt * rate_to_place_and_speed(self._steps, dt, missing, change)
+        rate = min(_RATE * abs(error), math.sqrt(2.0 * COMFORT * self._limits.lateral * abs(error)))
+        wanted = moving + math.copysign(rate, error)
+        if self._steps is None:
+            self._note(abs(error) < _NEAR and abs(self._speed - wanted) < 4.0 * _RATE_NEAR)
+        return wanted
+
+    def _note(self, near: bool) -> None:
+        self._settled = self._settled + 1 if near else 0
+
+    def _judge(self, missed: float) -> None:
+        """Whether it is there when its time is over."""
+        if self._steps == 0:
+            self._settled = _STEPS
+            self._miss(missed)
+
+    def _miss(self, missed: float) -> None:
+        if abs(missed) > _NEAR:
+            self._failed = (
+                f"when its time is over it is {abs(missed):.2f} m from its place beside"
+                f" {self._command.reference}"
+            )
+
+    def progress(self) -> Progress:
+        """Done when the distance has been held for some steps, or at its time."""
+        return Progress(self._settled >= _STEPS, self._failed)

@@ -1,0 +1,43 @@
+"""What commands at work may read of the present step."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from osc2tx_runtime.opendrive import Route
+
+from .state import ActorState
+from .stop_lines_ahead import StopLine
+
+__all__ = ["Senses"]
+
+
+class Senses(Protocol):
+    """The snapshot of the present step.
+
+    Attributes:
+        dt: Length of the step (s).
+    """
+
+    dt: float
+
+    def state(self, actor: str) -> ActorState:
+        """State of an actor."""
+
+    def projected(self, state: ActorState, seconds: float) -> ActorState:
+        """Where an actor would be after some time if it went on in its lane at its speed."""
+
+    def along(self, a: ActorState, b: ActorState) -> float | None:
+        """Route distance (m) from a to b; None if not connected."""
+
+    def aside(self, a: ActorState, b: ActorState) -> float | None:
+        """How far (m) b is left of a, across the lane of a; None if not connected."""
+
+    def obstacle(self, me: ActorState) -> tuple[float, float] | None:
+        """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
+
+    def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
+        """First line within so many metres at which a light asks to stop; None if none does."""
+
+    def grip(self, me: ActorState) -> float:
+        """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""

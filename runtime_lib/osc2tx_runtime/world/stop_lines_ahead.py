@@ -1,0 +1,109 @@
+"""Lights ahead that ask to stop, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route, SignalPlace, signal_places
+from osc2tx_runtime.opendrive.lane_line import lane_line
+
+from .traffic_light_lamps import Meaning
+from .traffic_light_states import LaneLines, Signals
+
+__all__ = ["StopLine", "StopLines"]
+
+STOP: frozenset[Meaning] = frozenset({"stop", "attention"})
+"""What forbids to pass."""
+
+STOP_IF_POSSIBLE: frozenset[Meaning] = frozenset({"stop_attention"})
+"""What forbids to pass for those who can still stop comfortably."""
+
+_STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one
+_AT = 1e-5  # m: a line so little behind is here
+
+
+class StopLine(NamedTuple):
+    """A line at which a light asks to stop.
+
+    Attributes:
+        signal: The light.
+        distance: Metres along the lane from the reference point.
+        strict: False for a light that asks only those to stop who comfortably can.
+    """
+
+    signal: str
+    distance: float
+    strict: bool
+
+
+class StopLines:
+    """The stop lines of a map: a light holds where OpenDRIVE puts its signal, or a reference.
+
+    Args:
+        road_map: The map.
+        signals: What the lights show.
+    """
+
+    def __init__(self, road_map: RoadMap, signals: Signals) -> None:
+        self._map = road_map
+        self._signals = signals
+        lights = [each for each in road_map.signals() if each.dynamic]
+        self._of_map = signal_places(road_map.roads, lights)
+
+    def ahead(
+        self, place: LanePosition, route: Route | None, nearest: float, reach: float
+    ) -> StopLine | None:
+        """The first line ahead whose light asks to stop; None if there is none.
+
+        Args:
+            place: Where to look from.
+            route: Decides at forks, as for the motion.
+            nearest: Lines nearer than this (m) are passed already.
+            reach: How far to look (m).
+        """
+        asking = {each: s for each in self._signals.lit() if (s := self._strict(each)) is not None}
+        if not asking:
+            return None
+        for found, distance in self._along(place, route, reach):
+            if found.signal in asking and nearest < distance <= reach:
+                return StopLine(found.signal, distance, asking[found.signal])
+        return None
+
+    def _strict(self, signal: str) -> bool | None:
+        """Whether a light forbids all to pass; None if it forbids nothing to vehicles."""
+        if all(lamp.for_pedestrians for lamp in self._signals.lamps(signal)):
+            return None
+        meaning = self._signals.meaning(signal)
+        return True if meaning in STOP else False if meaning in STOP_IF_POSSIBLE else None
+
+    @cached_property
+    def _places(self) -> LaneLines:
+        """Where lights hold; asked for only when the cast is on the map."""
+        return self._signals.lines(self._of_map)
+
+    def _along(
+        self, place: LanePosition, route: Route | None, reach: float
+    ) -> Iterator[tuple[SignalPlace, float]]:
+        """Places of signals on the way, by distance (m)."""
+        road_map, covered = self._map, 0.0
+        while covered <= reach:
+            section = road_map.roads[place.road].section_at(place.s)
+            with_s = road_map.travel_direction(place.road, place.lane) > 0
+            here = self._places.get((place.road, place.lane), ())
+            for found in here if with_s else reversed(here):
+                ahead = (found.s - place.s) * (1 if with_s else -1) >= -_AT
+                if ahead and section.begin <= found.s <= section.end:
+                    yield found, covered + self._length(place, found.s)
+            left = self._length(place, section.end if with_s else section.begin) + _STEP_OVER
+            step = road_map.advance(LanePosition(*place[:3]), left, route)
+            covered += left
+            if step.travelled < left - 0.5 * _STEP_OVER:
+                return  # a dead end
+            place = step.position
+
+    def _length(self, place: LanePosition, s: float) -> float:
+        """Arc length (m) along the centre of the lane to another s of the same section."""
+        line = lane_line(self._map.roads[place.road].section_at(place.s).lanes[place.lane])
+        return abs(line.length_at(s) - line.length_at(place.s))

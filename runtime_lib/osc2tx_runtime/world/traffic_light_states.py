@@ -1,0 +1,162 @@
+"""Traffic lights of the map and what they show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.opendrive import Controller, RoadMap, SignalPlace
+
+from .traffic_light_lamps import BOXES, BulbState, Lamp, Meaning, meaning_of
+
+__all__ = ["Signals"]
+
+OFF: BulbState = "is_off"
+
+LinePlace = tuple[str, int, float]
+"""Road, lane and road coordinate (m)."""
+LaneLines = Mapping[tuple[str, int], tuple[SignalPlace, ...]]
+"""Stop lines by road and lane, in order of s."""
+
+_NAMED = 12  # signals that a message lists
+
+
+class Signals:
+    """What the lights of a map show; all are off until somebody switches them.
+
+    As everywhere in a world, what is set at step k can be read from step k+1 on.
+
+    Args:
+        road_map: The map.
+    """
+
+    def __init__(self, road_map: RoadMap) -> None:
+        self._map_name = road_map.name
+        self._types = {s.id: s.type for s in road_map.signals() if s.dynamic}
+        self._groups: Mapping[str, Controller] = {c.id: c for c in road_map.controllers()}
+        self._boxes: dict[str, tuple[Lamp, ...]] = {
+            each: BOXES[type_] for each, type_ in self._types.items() if type_ in BOXES
+        }
+        self._shown: dict[str, tuple[BulbState, ...]] = {}
+        self._next: dict[str, tuple[BulbState, ...]] = {}
+        self._shown_by: dict[str, object] = {}
+        self._moved: dict[str, tuple[LinePlace, ...]] = {}
+
+    # --- boxes and groups ---------------------------------------------------------------------
+
+    def lamps(self, signal: str) -> tuple[Lamp, ...]:
+        """Lamps of a box.
+
+        Raises:
+            ScenarioError: The map has no such traffic light, or nothing says what lamps it has.
+        """
+        found = self._boxes.get(signal)
+        if found is not None:
+            return found
+        if signal in self._types:
+            raise ScenarioError(
+                f"which lamps traffic light {signal} of map {self._map_name} has is not known (its"
+                f" type is {self._types[signal]}); list them: keep(it.bulbs == [...])"
+            )
+        known = ", ".join(list(self._types)[:_NAMED]) or "none"
+        raise ScenarioError(
+            f"map {self._map_name} has no traffic light {signal}; those it has: {known}"
+        )
+
+    def describe(self, signal: str, lamps: Sequence[Lamp]) -> None:
+        """Says which lamps a box has, instead of those of its type.
+
+        Raises:
+            ScenarioError: The map has no such traffic light.
+        """
+        if signal not in self._types:
+            self.lamps(signal)
+        self._boxes[signal] = tuple(lamps)
+
+    def members(self, group: str) -> tuple[str, ...]:
+        """Traffic lights of a group: the signals of a controller of the map.
+
+        Raises:
+            ScenarioError: The map has no such controller.
+        """
+        found = self._groups.get(group)
+        if found is None:
+            known = ", ".join(list(self._groups)[:_NAMED]) or "none"
+            raise ScenarioError(
+                f"map {self._map_name} has no group of traffic lights {group}; those it has:"
+                f" {known}"
+            )
+        return tuple(signal for signal in found.signals if signal in self._types)
+
+    def group_of(self, signal: str) -> str | None:
+        """Id of the group that a traffic light belongs to."""
+        return next((g.id for g in self._groups.values() if signal in g.signals), None)
+
+    # --- stop lines ---------------------------------------------------------------------------
+
+    def stop_at(self, signal: str, places: Sequence[LinePlace]) -> None:
+        """Moves the stop lines of a traffic light to other places than those of the map."""
+        self._moved[signal] = tuple(places)
+
+    def lines(self, of_map: LaneLines) -> LaneLines:
+        """Stop lines of the map, but for those that have been moved.
+
+        Args:
+            of_map: What the map has.
+        """
+        if not self._moved:
+            return of_map
+        found = {
+            lane: [place for place in places if place.signal not in self._moved]
+            for lane, places in of_map.items()
+        }
+        for signal, moved in self._moved.items():
+            for road, lane, s in moved:
+                found.setdefault((road, lane), []).append(SignalPlace(signal, s))
+        return {lane: tuple(sorted(places, key=lambda p: p.s)) for lane, places in found.items()}
+
+    # --- what they show -----------------------------------------------------------------------
+
+    def states(self, signal: str) -> tuple[BulbState, ...]:
+        """States of the lamps at the present step, in their order."""
+        return self._shown.get(signal) or tuple(OFF for _ in self.lamps(signal))
+
+    def latest(self, signal: str) -> tuple[BulbState, ...]:
+        """States that the lamps have or will have at the next step."""
+        return self._next.get(signal) or self.states(signal)
+
+    def meaning(self, signal: str) -> Meaning:
+        """What the light says at the present step."""
+        return meaning_of(self.lamps(signal), self.states(signal))
+
+    def lit(self) -> Mapping[str, tuple[BulbState, ...]]:
+        """States of the lights that somebody has switched, at the present step."""
+        return self._shown
+
+    # --- writing ------------------------------------------------------------------------------
+
+    def show(self, signal: str, lamp: int, state: BulbState, by: object) -> bool:
+        """Switches a lamp from the next step on; returns whether that changes anything.
+
+        Args:
+            signal: The box.
+            lamp: Number of the lamp in it, from 0.
+            state: What it is to do.
+            by: Who switches it, for `shown_by`.
+        """
+        before = self.latest(signal)
+        new = (*before[:lamp], state, *before[lamp + 1 :])
+        changes = signal not in self._shown_by or before != new
+        self._next[signal] = new
+        self._shown_by[signal] = by
+        return changes
+
+    def shown_by(self, signal: str) -> object:
+        """Who switched a light last."""
+        return self._shown_by.get(signal)
+
+    def step(self) -> None:
+        """Goes to the next step."""
+        if self._next:
+            self._shown.update(self._next)
+            self._next.clear()
