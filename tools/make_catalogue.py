@@ -127,8 +127,10 @@ def library() -> dict[str, Any]:
         *_abstract(actions, classes),
         *_unmatched("action", actions, classes),
         *_unmatched("modifier", _by_short_name(modifiers), kinds),
-        *_without_statement("action", {name.rpartition(".")[2] for name in classes}),
-        *_without_statement("modifier", {n for n in kinds if _owner(modifiers, n) != "map"}),
+        *_without_statement("action", {name.rpartition(".")[2] for name in classes}, set()),
+        *_without_statement(
+            "modifier", set(kinds), {n for n in kinds if _owner(modifiers, n) == "map"}
+        ),
     ]
     if wrong:
         raise CatalogueError("\n".join(wrong))
@@ -140,7 +142,7 @@ def library() -> dict[str, Any]:
 
 
 def _by_short_name(modifiers: Declarations) -> Declarations:
-    """Return modifiers by the names under which they are applied, but for those that are lowered."""
+    """Return modifiers that are carried out, by the names under which they are applied."""
     return {each.short: each for each in modifiers.values() if each.word in ("", "abstract")}
 
 
@@ -182,10 +184,13 @@ def _unmatched(what: str, found: Declarations, classes: Mapping[str, Any]) -> It
                 yield f"{what} {name}: its class takes `{parameter}`, which is not declared"
 
 
-def _without_statement(what: str, names: set[str]) -> Iterator[str]:
-    """Yield what XML says nothing of, or has a form of though there is no such thing."""
+def _without_statement(what: xml.What, names: set[str], found_on_map: set[str]) -> Iterator[str]:
+    """Yield what XML says nothing of, or has a form of though there is no such thing.
+
+    Relations of the map need no form of their own: roads are looked for before the XML is written.
+    """
     written = xml.with_form(what)
-    for name in sorted(names - written - xml.WITHOUT_FORM[what].keys()):
+    for name in sorted(names - written - found_on_map - xml.WITHOUT_FORM[what].keys()):
         yield (
             f"{what} {name}: OpenSCENARIO XML has neither a form of it nor a reason why not"
             f" (@{what} or without_form in osc2tx/backends/xosc)"

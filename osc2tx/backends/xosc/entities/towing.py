@@ -14,7 +14,6 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 
-
 at_start("tow_trailer")
 
 

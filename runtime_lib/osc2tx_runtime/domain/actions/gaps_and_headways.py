@@ -242,16 +242,28 @@ class KeepTimeGap(_KeepGap):
     timed = True
 
 
-@action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
-class KeepSpaceHeadway(_KeepGap):
-    """Hold the present distance between fronts."""
+class _KeepHeadway(_KeepGap):
+    """Holds the distance or time between fronts, which is one along the road."""
 
     measure = "headway"
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        reference: Vehicle,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, reference=reference, **options)
+
+
+@action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
+class KeepSpaceHeadway(_KeepHeadway):
+    """Hold the present distance between fronts."""
 
 
 @action("vehicle", "keep_time_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
-class KeepTimeHeadway(_KeepGap):
+class KeepTimeHeadway(_KeepHeadway):
     """Hold the present time between fronts."""
 
-    measure = "headway"
     timed = True

@@ -17,10 +17,10 @@ from .conduct import *  # noqa: F403
 from .lane import *  # noqa: F403
 from .map_base import MapModifier as MapModifier
 from .map_crossings import *  # noqa: F403
+from .map_files import *  # noqa: F403
 from .map_lanes import *  # noqa: F403
 from .map_routes import *  # noqa: F403
+from .orientation import *  # noqa: F403
 from .position import *  # noqa: F403
 from .registry import MODIFIERS as MODIFIERS
-from .map_files import *  # noqa: F403
 from .speed import *  # noqa: F403
-from .orientation import *  # noqa: F403
