@@ -29,7 +29,7 @@ TABLES = REPOSITORY / "osc2tx" / "catalogue"
 NAMES = REPOSITORY / "runtime_lib" / "osc2tx_runtime" / "modifiers.py"
 
 # Words at the end of a declaration in the library: the action is only there to be inherited from;
-# the lowering turns the item into another one; nothing carries it out.
+# the lowering turns the item into something else; nothing carries it out.
 WORDS = ("abstract", "lowered", "unsupported")
 
 SECTION = re.compile(r"# §([\d.]+)")
@@ -135,7 +135,10 @@ def library() -> dict[str, Any]:
     if wrong:
         raise CatalogueError("\n".join(wrong))
     return {
-        "abstract": sorted(name for name, each in actions.items() if each.word == "abstract"),
+        **{
+            word: sorted(name for name, each in actions.items() if each.word == word)
+            for word in ("abstract", "lowered")
+        },
         "actions": {name: _action(name, entry, actions) for name, entry in classes.items()},
         "modifiers": {name: _modifier(name, entry, modifiers) for name, entry in kinds.items()},
     }
@@ -243,12 +246,20 @@ def _dsl(name: str) -> str:
 
 def names() -> str:
     """Return the module with the modifiers by their names in the DSL."""
-    lines = [
-        f"from {kind.__module__} import {kind.__name__} as {name}\n"
-        for name, kind in sorted(MODIFIERS.items(), key=lambda each: (each[1].__module__, each[0]))
-    ]
-    docstring = '"""The modifiers by their names in the DSL; made by tools/make_catalogue.py."""\n'
-    return f"{docstring}\n{''.join(lines)}"
+    kinds = sorted(MODIFIERS.items())
+    return "\n".join(
+        [
+            '"""The modifiers by their names in the DSL; made by tools/make_catalogue.py."""',
+            "",
+            "from osc2tx_runtime.domain import modifiers",
+            "",
+            *(f"{name} = modifiers.{kind.__name__}" for name, kind in kinds),
+            "",
+            "__all__ = [",
+            *(f'    "{name}",' for name, _ in kinds),
+            "]\n",
+        ]
+    )
 
 
 def render() -> dict[Path, str]:

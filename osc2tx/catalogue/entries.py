@@ -24,8 +24,8 @@ class ActionEntry:
         moves: Whether it moves as its modifiers say, so that they must go together.
         physical: Whether it cannot let the actor jump.
         slots: What it controls of the actor itself: `longitudinal`, `lateral`.
-        ends: At its `goal`, `open`: only with its surroundings, or in the `instant` it starts.
-        is_one_step: Whether its goal is there at the next step.
+        ends: At its `goal`, in the `instant` it starts, at the next `step`, or `open`: only with
+            its surroundings.
         places: Whether its arguments say where the actor is.
         paces: Whether it sets or holds the speed of the actor.
         needs: What a world must have to carry it out.
@@ -40,8 +40,7 @@ class ActionEntry:
     moves: bool
     physical: bool
     slots: tuple[str, ...]
-    ends: Literal["goal", "open", "instant"]
-    is_one_step: bool
+    ends: Literal["goal", "open", "instant", "step"]
     places: bool
     paces: bool
     needs: tuple[str, ...]
@@ -51,7 +50,7 @@ class ActionEntry:
     @property
     def is_momentary(self) -> bool:
         """Whether it has no course over time: it is over at once, or at the next step."""
-        return self.ends == "instant" or self.is_one_step
+        return self.ends in ("instant", "step")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,11 +102,13 @@ class Catalogue:
         actions: By actor and name, `vehicle.drive`.
         modifiers: By name; those of different actors have different names.
         abstract: Actions that are only there to be inherited from.
+        lowered: Actions that the lowering turns into the initial placement.
     """
 
     actions: Mapping[str, ActionEntry]
     modifiers: Mapping[str, ModifierEntry]
     abstract: frozenset[str]
+    lowered: frozenset[str]
 
 
 @cache
@@ -118,6 +119,7 @@ def catalogue() -> Catalogue:
         {name: _action(entry) for name, entry in table["actions"].items()},
         {name: _modifier(entry) for name, entry in table["modifiers"].items()},
         frozenset(table["abstract"]),
+        frozenset(table["lowered"]),
     )
 
 

@@ -10,6 +10,7 @@ import pytest
 REPOSITORY = Path(__file__).parents[2]
 COMPILER = REPOSITORY / "osc2tx"
 RUNTIME = REPOSITORY / "runtime_lib" / "osc2tx_runtime"
+RULES = REPOSITORY / "runtime_lib" / "osc2tx_rules"
 
 # Leaves that every stage may use; they import nothing of ours but `diagnostics` itself.
 LEAVES = {"diagnostics", "options", "resources", "support"}
@@ -22,11 +23,12 @@ MAY_IMPORT = {
     "resources": set[str](),
     "syntax": {"syntax", "stdlib"} | LEAVES,
     "stdlib": {"", "stdlib", "syntax"} | LEAVES,
-    "semantics": {"semantics", "syntax.ast", "stdlib"} | LEAVES,
-    "analysis": {"analysis", "semantics", "syntax.ast"} | LEAVES,
+    "catalogue": {"catalogue", "support"},
+    "semantics": {"semantics", "syntax.ast", "stdlib", "catalogue"} | LEAVES,
+    "analysis": {"analysis", "semantics", "syntax.ast", "catalogue"} | LEAVES,
     "ir": {"ir", "diagnostics", "support"},
-    "lowering": {"lowering", "ir", "analysis", "semantics", "syntax.ast"} | LEAVES,
-    "backends": {"backends", "ir"} | LEAVES,
+    "lowering": {"lowering", "ir", "analysis", "semantics", "syntax.ast", "catalogue"} | LEAVES,
+    "backends": {"backends", "ir", "catalogue"} | LEAVES,
     "formatter": {"formatter", "syntax"} | LEAVES,
     # the shell around the stages
     "config": {"config", "options", "diagnostics.suggestions", "support"},
@@ -44,13 +46,15 @@ MAY_IMPORT = {
 # Part or folder -> packages of others that it may import, besides the standard library.
 OTHERS = {
     "syntax": {"antlr4"},
-    "semantics": {"pint"},
-    "backends": {"jinja2", "black", "lxml"},
+    # the rules of calls are one, and need neither the runtime nor anything else
+    "catalogue": {"osc2tx_rules"},
+    "semantics": {"pint", "osc2tx_rules"},
+    "backends": {"jinja2", "black", "lxml", "osc2tx_rules"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "cli": {"click", "rich", "osc2tx_runtime"},
     "testing": {"pytest", "osc2tx_runtime"},
 }
-RUNTIME_OTHERS = {"numpy", "py_trees"}
+RUNTIME_OTHERS = {"numpy", "osc2tx_rules", "py_trees"}
 
 
 def imported_names(path: Path, package: str) -> Iterator[str]:
@@ -100,6 +104,13 @@ def test_compiler(path: Path) -> None:
         elif first not in sys.stdlib_module_names:
             allowed = OTHERS.get(part, set()) | OTHERS.get(folder, set())
             assert first in allowed, f"{part} imports {name}"
+
+
+@pytest.mark.parametrize("path", files_of(RULES), ids=identify)
+def test_rules(path: Path) -> None:
+    for name in imported_names(path, package_of(path, RULES)):
+        first = name.partition(".")[0]
+        assert first == "osc2tx_rules" or first in sys.stdlib_module_names, name
 
 
 @pytest.mark.parametrize("path", files_of(RUNTIME), ids=identify)

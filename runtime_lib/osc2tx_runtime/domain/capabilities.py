@@ -12,7 +12,6 @@ from typing import Any, get_args, get_type_hints
 
 from osc2tx_rules import Rule
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
-from osc2tx_runtime.domain.actions.motion_action import OneStepAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier
@@ -26,9 +25,9 @@ def actions() -> dict[str, dict[str, Any]]:
 
     Returns:
         For each its `arguments`, which of them are `required`, the `modifiers` that it takes, its
-        `slots`, how it `ends` and whether it `is_one_step`, whether it `moves` as its modifiers
-        say and whether that has to be `physical`, whether it `places` and `paces`, what it `needs`
-        of a world, the `rules` of its arguments and why it is `undeclared`.
+        `slots`, how it `ends`, whether it `moves` as its modifiers say and whether that has to be
+        `physical`, whether it `places` and `paces`, what it `needs` of a world, the `rules` of its
+        arguments and why it is `undeclared`.
     """
     return {f"{method.kind}.{method.name}": _action(method) for method in methods.all()}
 
@@ -75,7 +74,6 @@ def _action(method: Method) -> dict[str, Any]:
         "physical": method.factory.physical,
         "slots": list(method.slots),
         "ends": method.ends,
-        "is_one_step": issubclass(method.factory, OneStepAction),
         "places": method.places,
         "paces": method.paces,
         "needs": list(method.needs),

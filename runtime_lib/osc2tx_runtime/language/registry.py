@@ -41,7 +41,7 @@ LATERAL = "lateral"
 
 _OPTIONS = ("duration", "label")  # what every action takes
 
-Ends = Literal["goal", "open", "instant"]
+Ends = Literal["goal", "open", "instant", "step"]
 Need = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
 """What a world must have beside moving actors."""
 
@@ -57,7 +57,8 @@ class Method:
         name: Method name (`change_lane`).
         slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
             moves as its modifiers say controls nothing itself.
-        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once.
+        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once,
+            `step` at the next step, where what it assigns can be seen.
         factory: The class that carries it out.
         places: Whether its arguments say where the actor is.
         paces: Whether it sets or holds the speed of the actor.

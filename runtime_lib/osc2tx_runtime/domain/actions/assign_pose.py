@@ -29,7 +29,12 @@ Target = Point | RoutePoint | OdrPoint
 
 
 @action(
-    "movable_object", "assign_position", slots=(LONGITUDINAL, LATERAL), places=True, paces=False
+    "movable_object",
+    "assign_position",
+    ends="step",
+    slots=(LONGITUDINAL, LATERAL),
+    places=True,
+    paces=False,
 )
 class AssignPosition(OneStepAction):
     """Be somewhere else at the next step; the speed stays.
@@ -83,7 +88,7 @@ class AssignPosition(OneStepAction):
         )
 
 
-@action("movable_object", "assign_orientation", slots=(LATERAL,))
+@action("movable_object", "assign_orientation", ends="step", slots=(LATERAL,))
 class AssignOrientation(OneStepAction):
     """Have a heading, pitch and roll at the next step.
 
