@@ -3,6 +3,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+# Both distributions, from this checkout: given here, the runtime is not looked up in an index.
+INSTALL := $(BIN)/python -m pip install --quiet -e runtime_lib
 ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
@@ -39,7 +41,7 @@ docs: $(VENV)/.docs
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs --quiet build
 
 $(VENV)/.docs: $(STAMP)
-	$(BIN)/python -m pip install --quiet -e ".[docs]"
+	$(INSTALL) -e ".[docs]"
 	touch $@
 
 docs-diagnostics: $(STAMP)
@@ -62,9 +64,9 @@ tables: $(STAMP)
 	$(BIN)/python tools/make_readme_example.py
 	$(BIN)/python tools/make_coverage.py
 
-$(STAMP): pyproject.toml
+$(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet -e ".[test]"
+	$(INSTALL) -e ".[test]"
 	touch $@
 
 clean:

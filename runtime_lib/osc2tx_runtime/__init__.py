@@ -136,7 +136,7 @@ def require_api(level: int) -> None:
         ImportError: If this runtime does not have the level.
     """
     if level != API_LEVEL:
-        advice = "upgrade osc2tx" if level > API_LEVEL else "build the module again"
+        advice = "upgrade osc2tx-runtime" if level > API_LEVEL else "build the module again"
         raise ImportError(
             f"the module needs level {level} of osc2tx_runtime, this is {API_LEVEL}: {advice}"
         )

@@ -170,7 +170,7 @@ def test_an_interrupt_is_no_traceback(
 
 def test_require_api() -> None:
     osc2tx_runtime.require_api(osc2tx_runtime.API_LEVEL)
-    with pytest.raises(ImportError, match="upgrade osc2tx"):
+    with pytest.raises(ImportError, match="upgrade osc2tx-runtime"):
         osc2tx_runtime.require_api(99)
     with pytest.raises(ImportError, match="build the module again"):
         osc2tx_runtime.require_api(0)
