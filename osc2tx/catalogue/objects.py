@@ -22,6 +22,7 @@ class ObjectTables:
         unknown: Members of actors that only the scenario can say.
         reserved: What actors of the runtime have besides actions.
         lane_bound: Types of actors that follow lanes.
+        enums: Names of the types of the library's enums.
     """
 
     methods: Mapping[str, frozenset[str]]
@@ -31,6 +32,7 @@ class ObjectTables:
     unknown: frozenset[str]
     reserved: frozenset[str]
     lane_bound: frozenset[str]
+    enums: frozenset[str]
 
 
 @cache
@@ -49,4 +51,5 @@ def object_tables() -> ObjectTables:
         unknown=frozenset(table["unknown"]),
         reserved=frozenset(table["reserved"]),
         lane_bound=frozenset(table["lane_bound"]),
+        enums=frozenset(table["enums"]),
     )

@@ -123,6 +123,9 @@ NESTED_OBJECTS: Mapping[tuple[str, str], str] = {
     ("xyz_point", "position"): "position_3d",
 }
 
+# Members that are texts in a dialect and enums elsewhere, with the class of such texts.
+TEXTS: Mapping[tuple[str, str], str] = {("physical_object", "color"): "Rgb"}
+
 # Lists of which a constructor takes single elements, `axles={0: Axle(…)}`, with the types of these;
 # `None` for plain values.
 LIST_ELEMENTS: Mapping[tuple[str, str], str | None] = {
@@ -132,8 +135,7 @@ LIST_ELEMENTS: Mapping[tuple[str, str], str | None] = {
 
 # Python types of plain values, by what sort of value they are.
 ANNOTATIONS = {"bool": "bool", "int": "int", "float": "float", "quantity": "float"} | {
-    "enum": "str",
-    "string": "str",
+    "string": "str"
 }
 
 
@@ -147,6 +149,12 @@ def nested_object(lineage: Sequence[str], member: str) -> str | None:
     """Return the type of a member that is a value of a struct of the library."""
     found = (NESTED_OBJECTS.get((type_, member)) for type_ in lineage)
     return next((type_ for type_ in found if type_ is not None), None)
+
+
+def text_class(lineage: Sequence[str], member: str) -> str | None:
+    """Return the class of the runtime for a text where the library has an enum."""
+    found = (TEXTS.get((type_, member)) for type_ in lineage)
+    return next((name for name in found if name is not None), None)
 
 
 def list_element(lineage: Sequence[str], member: str) -> tuple[str, ...] | None:

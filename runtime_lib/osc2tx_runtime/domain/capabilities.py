@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, get_args, get_type_hints
 
 from osc2tx_rules import Rule
+from osc2tx_runtime import enums
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
@@ -49,7 +50,8 @@ def objects() -> dict[str, Any]:
         `methods`: `physical_object.object_distance` to its parameters; `fields`: name to type;
         `objects`: actor or value type to what its constructor takes; `needed`: what that cannot do
         without; `unknown`: members of actors that only the scenario can say; `reserved`: what
-        actors have besides actions; `lane_bound`: actors that follow lanes.
+        actors have besides actions; `lane_bound`: actors that follow lanes; `enums`: types of the
+        library's enums.
     """
     return {
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
@@ -58,6 +60,7 @@ def objects() -> dict[str, Any]:
         "needed": {name: _needed(name) for name in sorted(OBJECTS)},
         "unknown": sorted(UNKNOWN),
         "reserved": sorted(_members()),
+        "enums": sorted(enums.__all__),
         "lane_bound": sorted(
             name for name, kind in OBJECTS.items() if getattr(kind, "lane_bound", False)
         ),

@@ -7,10 +7,8 @@ the DSL; `osc2tx_runtime.modifiers` has them by these names, as scenarios import
 
 from __future__ import annotations
 
-from .base import At as At
 from .base import Modifier as Modifier
 from .base import MovementModifier as MovementModifier
-from .base import Side as Side
 from .base import Value as Value
 from .base import value_of as value_of
 from .conduct import *  # noqa: F403

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from osc2tx_rules import Sort
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.enums import MovementOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, now
@@ -34,9 +35,7 @@ __all__ = [
 class PhysicalMovement(Modifier):
     """Whether a quantity may jump to its value."""
 
-    option: Literal["prefer_physical", "prefer_non_physical", "must_be_physical"] = (
-        "must_be_physical"
-    )
+    option: MovementOptions = "must_be_physical"
 
 
 @modifier(

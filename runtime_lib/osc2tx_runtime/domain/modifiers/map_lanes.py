@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.domain.routes.lane_types import Directionality, LaneType, LaneUse, kind_of_lane
+from osc2tx_runtime.domain.routes.lane_types import kind_of_lane
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse, SideLeftRight
 
-from .base import Side
 from .map_base import Known, MapModifier, Row, fits
 from .registry import modifier
 
@@ -80,7 +80,7 @@ class LaneSide(MapModifier):
     """
 
     lane1: RoadPart
-    side: Side
+    side: SideLeftRight
     lane2: RoadPart
     count: int = 1
     lane_section: RoadPart | None = None
@@ -98,7 +98,7 @@ class LaneSide(MapModifier):
 
 
 def _beside(
-    lanes: tuple[Stretch, ...], side: Side, count: int
+    lanes: tuple[Stretch, ...], side: SideLeftRight, count: int
 ) -> Iterator[tuple[Stretch, Stretch]]:
     """Pairs of lanes, given from the right, of which one is so many beside the other."""
     step = count if side == "left" else -count
@@ -121,7 +121,7 @@ class CompoundLaneSide(MapModifier):
     """
 
     lane1: RoadPart
-    side: Side
+    side: SideLeftRight
     lane2: RoadPart
     count: int = 1
     route: RoadPart | None = None
