@@ -12,9 +12,9 @@ from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.argument_rules import GivenValues
 
 if TYPE_CHECKING:
-    from .modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 
-__all__ = ["check_modifiers", "check_options", "is_start"]
+__all__ = ["check_modifiers", "check_options"]
 
 RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
 
@@ -50,12 +50,7 @@ def at_of(modifier: Modifier) -> str:
     return str(getattr(modifier, "at", "all"))
 
 
-def is_start(modifier: Modifier) -> bool:
-    """Return whether a modifier is a demand on the start alone."""
-    return at_of(modifier) == "start" and modifier.facts.rules.starts
-
-
-def check_modifiers(action: ShapedAction) -> None:
+def check_modifiers(action: ModifiedMotion) -> None:
     """Refuse modifiers that contradict each other, or have no effect here.
 
     Raises:
@@ -84,7 +79,7 @@ def _error(action: str, clash: _Clash) -> ScenarioError:
             return ScenarioError(f"{action}: {last.name}: {clash.text}")
 
 
-def check_options(action: ShapedAction) -> None:
+def check_options(action: ModifiedMotion) -> None:
     """Refuse what only vehicles on lanes can do; called when the actor is known to be one or not.
 
     Raises:
@@ -95,7 +90,7 @@ def check_options(action: ShapedAction) -> None:
             raise UnsupportedError(f"{action.action_name}: {text}", action.source or None)
 
 
-def _bound_to_lanes(action: ShapedAction) -> Iterator[str]:
+def _bound_to_lanes(action: ModifiedMotion) -> Iterator[str]:
     for modifier in action.modifiers:
         if is_across(_Call(modifier), RULES):
             yield "only vehicles on lanes have a lateral speed"

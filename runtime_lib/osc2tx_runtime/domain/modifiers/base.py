@@ -140,6 +140,11 @@ class Modifier:
         if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
             raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")
 
+    @property
+    def is_start(self) -> bool:
+        """Whether it is a demand on the start alone."""
+        return getattr(self, "at", "all") == "start" and self.facts.rules.starts
+
     def given(self) -> dict[str, Any]:
         """Parameters with values that are not those of a modifier without arguments."""
         values = ((field, getattr(self, field.name)) for field in fields(self))
