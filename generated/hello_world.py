@@ -30,8 +30,6 @@ require_api(1)
 
 
 class HelloWorld(Scenario):
-    """Scenario `hello_world` (hello_world.osc:4)."""
-
     name = "hello_world"
     source = "hello_world.osc"
 
@@ -69,14 +67,14 @@ class HelloWorld(Scenario):
         )
         self.place(self.obstacle, position(x=478.93, y=-14.07, z=0.0, h=-1.57 * rad, frame="carla"))
 
-    def behavior(self) -> Behaviour:  # hello_world.osc:34
+    def behavior(self) -> Behaviour:
         return Serial(
             "hello_world",
             self.do_serial(),
             self.do_parallel(),
         )
 
-    def do_serial(self) -> Behaviour:  # hello_world.osc:34
+    def do_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             # --- TWILIGHT SETTINGS ---
@@ -84,7 +82,7 @@ class HelloWorld(Scenario):
             self.hero.set_lights(mode="auto"),
         )
 
-    def do_parallel(self) -> Behaviour:  # hello_world.osc:51
+    def do_parallel(self) -> Behaviour:
         return Parallel(
             "do parallel",
             self.hero_serial(),
@@ -94,7 +92,7 @@ class HelloWorld(Scenario):
     # ==========================
     # --- HERO LOGIC ---
     # ==========================
-    def hero_serial(self) -> Behaviour:  # hello_world.osc:55
+    def hero_serial(self) -> Behaviour:
         return Serial(
             "hero: serial",
             Wait(self.go_signal),
@@ -123,13 +121,13 @@ class HelloWorld(Scenario):
             ),
             # --- Phase 3: Approach & Synchronize ---
             OneOf(
-                "hero: drive or wait",
+                "hero: drive or wait 2",
                 self.hero.drive(speed(self.v_hero)),
                 Wait(self.OBSTACLE_DETECTED),
             ),
             # --- Phase 4: Approach NPC smoothly and pull alongside ---
             Serial(
-                "hero: serial",
+                "hero: serial 2",
                 self.hero.change_speed(target=25 * kph, rate_profile="smooth"),
                 OneOf(
                     "hero: one_of",
@@ -149,7 +147,7 @@ class HelloWorld(Scenario):
     # ==========================
     # --- NPC LOGIC ---
     # ==========================
-    def npc_serial(self) -> Behaviour:  # hello_world.osc:100
+    def npc_serial(self) -> Behaviour:
         return Serial(
             "npc: serial",
             Wait(self.go_signal),
@@ -158,7 +156,7 @@ class HelloWorld(Scenario):
                 "npc: one_of",
                 self.npc.drive(speed(self.v_npc_fast)),
                 Serial(
-                    "wait",
+                    "wait 2",
                     Wait(rise(lambda: self.npc.position.ahead_of(self.hero) >= self.lag * 2)),
                 ),
             ),
@@ -172,10 +170,10 @@ class HelloWorld(Scenario):
             ),
             # --- Phase 4: Recover & Approach Obstacle ---
             OneOf(
-                "npc: one_of",
+                "npc: one_of 2",
                 self.npc.drive(speed(self.v_npc_catchup, rate_profile="smooth")),
                 Serial(
-                    "wait",
+                    "wait 3",
                     Wait(
                         rise(
                             lambda: self.npc.object_distance(

@@ -29,8 +29,8 @@ class End(Leaf):
 
     instant = True
 
-    def __init__(self, *, label: str | None = None) -> None:
-        super().__init__("end of the scenario")
+    def __init__(self, label: str | None = None, /) -> None:
+        super().__init__(label or "end of the scenario")
         self.label = label
 
     def update(self) -> Status:
