@@ -23,10 +23,10 @@ from osc2tx_runtime.domain.actions.combinations import (
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
-from osc2tx_runtime.domain.modifiers import MAP_MODIFIERS, MODIFIERS, Modifier
+from osc2tx_runtime.domain.modifiers import MAP_MODIFIERS, MODIFIERS, Modifier, MovementModifier
 from osc2tx_runtime.domain.placing.initializer import PLACEMENT_MODIFIERS
 from osc2tx_runtime.language.argument_rules import Rule
-from osc2tx_runtime.language.registry import Method, methods
+from osc2tx_runtime.language.registry import RegisteredMethod, methods
 
 __all__ = ["capabilities"]
 
@@ -79,7 +79,7 @@ def capabilities() -> dict[str, Any]:
         "shapes": {
             name: kind.shaped_by.kind
             for name, kind in sorted(MODIFIERS.items())
-            if kind.shaped_by is not None
+            if issubclass(kind, MovementModifier) and kind.shaped_by is not None
         },
         "rules": {
             "a start": _rules(STARTING),
@@ -97,7 +97,7 @@ def _members() -> set[str]:
     return {name for actor in actors for name in (*dir(actor),) if not name.startswith("_")}
 
 
-def _action(method: Method) -> dict[str, Any]:
+def _action(method: RegisteredMethod) -> dict[str, Any]:
     accepted = [kind.name for kind in method.factory.accepts if issubclass(kind, Modifier)]
     return {
         "arguments": _arguments(method.factory.__init__),

@@ -6,7 +6,7 @@ import difflib
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, TypeVar
 
 from osc2tx_runtime.errors import (
     USER_CODE_ERRORS,
@@ -15,21 +15,20 @@ from osc2tx_runtime.errors import (
     blame,
     is_own,
 )
+from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.argument_rules import check_arguments
+from osc2tx_runtime.language.declared import BaseActor
+from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method
+from osc2tx_runtime.language.refused_action import RefusedAction
 from osc2tx_runtime.language.tree.base import split_label
 from osc2tx_runtime.language.tree.module_text import call_arguments
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Actor
-    from osc2tx_runtime.language.action import Action
 
 __all__ = [
     "ENTRY_POINTS",
     "LATERAL",
     "LONGITUDINAL",
-    "Ends",
-    "Method",
     "MethodRegistry",
+    "RegisteredMethod",
     "action",
     "methods",
 ]
@@ -37,31 +36,19 @@ __all__ = [
 ENTRY_POINTS = "osc2tx.methods"
 """Group of entry points; each names a module that registers actions. See docs/extending.md."""
 
-LONGITUDINAL = "longitudinal"
-LATERAL = "lateral"
-
 _OPTIONS = ("duration",)  # what every action takes
 
-Ends = Literal["goal", "open", "instant"]
 ActionT = TypeVar("ActionT", bound="type[Action]")
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
-    """One registered action.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegisteredMethod(Method):
+    """An action with the class that carries it out.
 
     Attributes:
-        kind: Actor kind of the DSL (`vehicle`).
-        name: Method name (`change_lane`).
-        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing.
-        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once.
-        factory: The class that carries it out.
+        factory: The class.
     """
 
-    kind: str
-    name: str
-    slots: tuple[str, ...]
-    ends: Ends
     factory: type[Action]
 
     def signature(self) -> str:
@@ -74,7 +61,7 @@ class MethodRegistry:
     """Finds action classes by actor kind and method name."""
 
     def __init__(self) -> None:
-        self._methods: dict[tuple[str, str], Method] = {}
+        self._methods: dict[tuple[str, str], RegisteredMethod] = {}
         self._extended = False
 
     def extend(self) -> None:
@@ -111,7 +98,7 @@ class MethodRegistry:
         """Register the decorated `Action` class as method `name` of actors of `kind`.
 
         Args:
-            kind: Actor kind of the DSL, such as `vehicle`.
+            kind: BaseActor kind of the DSL, such as `vehicle`.
             name: Method name.
             slots: Slots the action claims for as long as it runs.
             ends: When it ends.
@@ -128,7 +115,7 @@ class MethodRegistry:
                     f"{kind}.{name} is registered already, by {known.factory.__qualname__};"
                     " pass replace=True to take its place"
                 )
-            method = Method(kind, name, tuple(slots), ends, factory)
+            method = RegisteredMethod(kind, name, tuple(slots), ends, factory=factory)
             self._methods[kind, name] = method
             if "method" not in vars(factory):  # for instances made without the registry
                 factory.method = method
@@ -136,7 +123,7 @@ class MethodRegistry:
 
         return register
 
-    def find(self, kinds: Iterable[str], name: str) -> Method | None:
+    def find(self, kinds: Iterable[str], name: str) -> RegisteredMethod | None:
         """Return the method of the first of `kinds` (most derived first) that has it."""
         for kind in kinds:
             method = self._methods.get((kind, name))
@@ -153,7 +140,7 @@ class MethodRegistry:
         """Return up to three method names that look like `name`."""
         return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
 
-    def bind(self, actor: Actor, name: str) -> Callable[..., Action]:
+    def bind(self, actor: BaseActor, name: str) -> Callable[..., Action]:
         """Return the constructor of the action `name` for one actor.
 
         What it cannot make refuses the run at its line, before the first step: an action that
@@ -165,8 +152,6 @@ class MethodRegistry:
         found = self.find(kinds, name)
 
         def create(*args: Any, **kwargs: Any) -> Action:
-            from osc2tx_runtime.language.refused_action import RefusedAction  # it needs this module
-
             label, modifiers = split_label(args)
             try:
                 if found is None:
@@ -194,12 +179,14 @@ class MethodRegistry:
         """Return how a method is called, as text."""
         return self._methods[kind, name].signature()
 
-    def all(self) -> tuple[Method, ...]:
+    def all(self) -> tuple[RegisteredMethod, ...]:
         """Return every method, sorted by kind and name."""
         return tuple(self._methods[key] for key in sorted(self._methods))
 
 
-def make(method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> Action:
+def make(
+    method: RegisteredMethod, actor: BaseActor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+) -> Action:
     """Make an action.
 
     Raises:
@@ -214,7 +201,7 @@ def make(method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[st
 
 
 def _check_arguments(
-    method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+    method: RegisteredMethod, actor: BaseActor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> None:
     """Compare a call with the signature and the rules of the class.
 

@@ -9,8 +9,9 @@ import pytest
 
 from osc2tx_runtime.domain.actors import Environment, Map, Vehicle
 from osc2tx_runtime.domain.modifiers import lane, position, speed
+from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
-from osc2tx_runtime.language.scenario import Scenario, within
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
     Emit,
@@ -24,8 +25,8 @@ from osc2tx_runtime.language.tree import (
     elapsed,
     rise,
 )
+from osc2tx_runtime.language.tree.parameters import within
 from osc2tx_runtime.running.runner import run_scenario
-from osc2tx_runtime.running.settings import RunSettings
 
 
 class Approach(Scenario):

@@ -35,7 +35,8 @@ from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
 from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, Method
+from osc2tx_runtime.language.method import Method
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import Careful, Command
 

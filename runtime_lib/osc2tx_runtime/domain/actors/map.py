@@ -28,6 +28,7 @@ class Map(Actor, RoadNetwork, TrafficLightControl):
     """
 
     kinds = ("map", *Actor.kinds)
+    one_per_run = True
 
     def __init__(
         self,
