@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from osc2tx import __version__
 from osc2tx.resources import resource_dir
+from osc2tx.version import __version__
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
@@ -24,8 +24,8 @@ _STARTED = time.time_ns()
 
 
 def digest(data: bytes) -> str:
-    """Return the digest of a text."""
-    return hashlib.sha256(data).hexdigest()
+    """Return the digest of a text: half of SHA-256, so that lines of the manifest stay short."""
+    return hashlib.sha256(data).hexdigest()[:32]
 
 
 def tool_stamp() -> str | None:

@@ -57,7 +57,7 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTrajectorySt,
     Trajectory,
 )
-from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, Rgb, RoutePoint, XyzPoint
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
@@ -115,7 +115,7 @@ from osc2tx_runtime.language.tree import (
     rise,
 )
 from osc2tx_runtime.language.tree.coverage import Unit
-from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, within
+from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.world.velocities import (
@@ -156,6 +156,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "as_type",
     "at_least",
     "at_most",
+    "fixed",
     "inf",
     "within",
     # actors: the cast and its values
@@ -217,6 +218,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "RelativeTrajectoryOdr",
     "RelativeTrajectoryPose3d",
     "RelativeTrajectorySt",
+    "Rgb",
     "RoutePoint",
     "Trajectory",
     "XyzPoint",

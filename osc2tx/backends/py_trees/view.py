@@ -30,12 +30,13 @@ class CallView:
 
 @dataclass(frozen=True, slots=True)
 class StatementView:
-    """`target = value`, or the value alone."""
+    """`target: annotation = value`, or the value alone."""
 
     target: PyExpr | None
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
     blank_before: bool = False
+    annotation: PyExpr | None = None
 
 
 def signature(name: PyName, parameters: Iterable[str], result: PyExpr) -> PyExpr:
@@ -76,6 +77,14 @@ class UnitView:
 
     name: PyName
     factor: PyExpr
+
+
+@dataclass(frozen=True, slots=True)
+class EnumView:
+    """An enum that the scenario's own files declare or extend, as a type of the module."""
+
+    name: PyName
+    members: tuple[PyExpr, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +141,7 @@ class ModuleView:
         imports: What it takes from the runtime.
         api_level: Level of the runtime it is made for.
         units: Units it defines.
+        enums: Enums it defines.
         standard_imports: What it takes from Python's standard library.
         types: Classes for the types of its objects.
         scenarios: Its classes.
@@ -143,6 +153,7 @@ class ModuleView:
     imports: tuple[ImportView, ...]
     api_level: int
     units: tuple[UnitView, ...]
+    enums: tuple[EnumView, ...]
     scenarios: tuple[ScenarioView, ...]
     mains: tuple[PyName, ...]
     shown: PyName

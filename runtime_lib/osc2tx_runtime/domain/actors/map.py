@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
 
 from osc2tx_runtime.domain.actors.road_network import RoadNetwork
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightControl, TrafficLightCycle
+from osc2tx_runtime.enums import DrivingRule
 
 from .base import Actor
 
 __all__ = ["Map"]
-
-DrivingRule = Literal["left_hand_traffic", "right_hand_traffic"]
 
 
 class Map(Actor, RoadNetwork, TrafficLightControl):

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.paths.path_curves import PathInterpolation
 from osc2tx_runtime.domain.paths.path_values import (
     NetworkPath,
     NetworkTrajectory,
     Path,
     RelativePath,
     RelativeTrajectory,
-    RelativeTransform,
     Trajectory,
 )
 from osc2tx_runtime.domain.paths.relative_paths import absolute
@@ -25,7 +23,7 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.composed_routes import ConnectPointsBy, MadeRoute
+from osc2tx_runtime.domain.routes.composed_routes import MadeRoute
 from osc2tx_runtime.domain.routes.lane_coordinates import (
     place_of_odr,
     place_of_route,
@@ -36,6 +34,12 @@ from osc2tx_runtime.domain.routes.network_paths import path_in_world
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
+from osc2tx_runtime.enums import (
+    ConnectRoutePoints,
+    PathInterpolation,
+    RelativeTransform,
+    SideLeftRight,
+)
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
@@ -44,8 +48,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["RoadNetwork"]
-
-Side = Literal["left", "right"]
 
 
 class RoadNetwork:
@@ -106,11 +108,11 @@ class RoadNetwork:
 
     # --- the network --------------------------------------------------------------------------
 
-    def outer_side(self) -> Side:
+    def outer_side(self) -> SideLeftRight:
         """The side away from opposing traffic."""
         return "right" if self._right_hand() else "left"
 
-    def inner_side(self) -> Side:
+    def inner_side(self) -> SideLeftRight:
         """The side towards opposing traffic."""
         return "left" if self._right_hand() else "right"
 
@@ -186,7 +188,7 @@ class RoadNetwork:
     def create_route(
         self,
         routes: Sequence[NetworkPoint | Route | Path],
-        connect_points_by: ConnectPointsBy = "waypoint",
+        connect_points_by: ConnectRoutePoints = "waypoint",
         legal_route: bool = True,
     ) -> MadeRoute:
         """The way through points, roads, lanes, crossings and paths, in order (DSL 8.5.7).

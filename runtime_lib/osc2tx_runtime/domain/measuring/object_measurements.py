@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
 
 from osc2tx_runtime.domain.measuring.object_position import MeasuredObject, RoutePosition
 from osc2tx_runtime.domain.paths.path_values import Path
@@ -18,19 +17,19 @@ from osc2tx_runtime.domain.points_and_poses import (
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
-from osc2tx_runtime.domain.routes.route_coordinates import (
-    RouteType,
-    between_on_crossing,
-    place_in_route,
+from osc2tx_runtime.domain.routes.route_coordinates import between_on_crossing, place_in_route
+from osc2tx_runtime.enums import (
+    DistanceDirection,
+    DistanceMode,
+    OnRouteType,
+    RoadDistanceDirection,
+    RouteDistanceEnum,
 )
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.distances import (
-    DistanceDirection,
-    DistanceMode,
-    RoadDirection,
     along_lanes,
     gap_between,
     headway_between,
@@ -44,7 +43,7 @@ from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.velocities import Acceleration, Velocity
 
-__all__ = ["Measures", "RouteType"]
+__all__ = ["Measures"]
 
 
 class Measures(MeasuredObject):
@@ -98,9 +97,9 @@ class Measures(MeasuredObject):
     def road_distance(
         self,
         reference: Measures,
-        direction: RoadDirection,
+        direction: RoadDistanceDirection,
         mode: DistanceMode = "reference_points",
-        route_type: RouteType = "on_road",
+        route_type: OnRouteType = "on_road",
     ) -> float:
         """Distance (m) along or across the road; positive if the reference is ahead or left.
 
@@ -108,7 +107,7 @@ class Measures(MeasuredObject):
         """
         return Measured(self._road_distance_to(reference.state, direction, mode, route_type))
 
-    def space_gap(self, reference: Measures, direction: RoadDirection) -> float:
+    def space_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space (m) between facing ends or sides; positive if the caller is ahead or left.
 
         0 while both overlap in this direction. Lateral moves are free: vehicles in neighbouring
@@ -119,7 +118,7 @@ class Measures(MeasuredObject):
             return Measured(gap_between(-self._distance_along(reference), shape, other))
         return Measured(side_gap(self._distance_across(reference), shape, other))
 
-    def time_gap(self, reference: Measures, direction: RoadDirection) -> float:
+    def time_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""
         gap = self.space_gap(reference, direction)
         if direction == "longitudinal":
@@ -144,15 +143,15 @@ class Measures(MeasuredObject):
         """Time (s) until the boxes touch at constant velocities; infinite if they never do."""
         return Measured(time_to_collision(self.state, reference.state))
 
-    def get_s_coord(self, route_type: RouteType = "on_road") -> float:
+    def get_s_coord(self, route_type: OnRouteType = "on_road") -> float:
         """Own s (m) on the road, or along the centre line of the lane from where it begins."""
         return Measured(self.get_route_point(route_type).s)
 
-    def get_t_coord(self, route_type: RouteType = "on_road") -> float:
+    def get_t_coord(self, route_type: OnRouteType = "on_road") -> float:
         """Own t (m): left of the reference line of the road, or of the lane's centre line."""
         return Measured(self.get_route_point(route_type).t)
 
-    def get_route_point(self, route_type: RouteType = "on_road") -> RoutePoint:
+    def get_route_point(self, route_type: OnRouteType = "on_road") -> RoutePoint:
         """Own place in coordinates of the road, lane section, lane or crossing."""
         try:
             return place_in_route(self.context, self.state, route_type)
@@ -174,9 +173,9 @@ class Measures(MeasuredObject):
     def distance_to_route_point(
         self,
         point: RoutePoint,
-        direction: RoadDirection,
+        direction: RoadDistanceDirection,
         mode: DistanceMode = "reference_points",
-        route_type: RouteType = "on_road",
+        route_type: OnRouteType = "on_road",
     ) -> float:
         """As `road_distance`, to a point."""
         there = self._at_place(place_of_route(self.context.world.map, point))
@@ -185,16 +184,16 @@ class Measures(MeasuredObject):
     def distance_to_odr_point(
         self,
         point: OdrPoint,
-        direction: RoadDirection,
+        direction: RoadDistanceDirection,
         mode: DistanceMode = "reference_points",
-        route_type: RouteType = "on_road",
+        route_type: OnRouteType = "on_road",
     ) -> float:
         """As `road_distance`, to a point."""
         there = self._at_place(place_of_odr(self.context.world.map, point))
         return Measured(self._road_distance_to(there, direction, mode, route_type))
 
     def distance_along_route(
-        self, route: Path | RoadPart, from_: Literal["from_start", "from_end"] = "from_start"
+        self, route: Path | RoadPart, from_: RouteDistanceEnum = "from_start"
     ) -> float:
         """Metres from the start of a route to this object, or from it to the end of the route.
 
@@ -210,7 +209,11 @@ class Measures(MeasuredObject):
     # --- internals ----------------------------------------------------------------------------
 
     def _road_distance_to(
-        self, there: ActorState, direction: RoadDirection, mode: DistanceMode, route_type: RouteType
+        self,
+        there: ActorState,
+        direction: RoadDistanceDirection,
+        mode: DistanceMode,
+        route_type: OnRouteType,
     ) -> float:
         here, road_map = self.state, self.context.world.map
         ahead = direction == "longitudinal"

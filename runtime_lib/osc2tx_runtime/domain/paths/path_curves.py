@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Literal
 
 from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.curve import Curve, Knot
 
-__all__ = ["PathError", "PathInterpolation", "path_curve", "stretch", "trajectory_curve"]
-
-PathInterpolation = Literal["straight_line", "smooth"]
+__all__ = ["PathError", "path_curve", "stretch", "trajectory_curve"]
 
 _SAME = 1e-6  # m: points so near are one
 

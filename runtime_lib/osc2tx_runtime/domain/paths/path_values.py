@@ -6,11 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal, Protocol
 
-from osc2tx_runtime.domain.paths.path_curves import (
-    PathInterpolation,
-    path_curve,
-    trajectory_curve,
-)
+from osc2tx_runtime.domain.paths.path_curves import path_curve, trajectory_curve
 from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,
     OdrPoint,
@@ -18,13 +14,13 @@ from osc2tx_runtime.domain.points_and_poses import (
     RouteAxis,
     RoutePoint,
 )
+from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.world.curve import Curve
 
 __all__ = [
     "NetworkPath",
     "NetworkTrajectory",
     "Path",
-    "PathInterpolation",
     "PathPoint",
     "RelativePath",
     "RelativePathOdr",
@@ -34,12 +30,10 @@ __all__ = [
     "RelativeTrajectoryOdr",
     "RelativeTrajectoryPose3d",
     "RelativeTrajectorySt",
-    "RelativeTransform",
     "Trajectory",
 ]
 
 PathPoint = Pose | RoutePoint | OdrPoint
-RelativeTransform = Literal["world_relative", "object_relative", "road_relative", "lane_relative"]
 
 
 @dataclass(frozen=True, slots=True)

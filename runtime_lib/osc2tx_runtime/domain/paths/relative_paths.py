@@ -15,8 +15,9 @@ import math
 from collections.abc import Sequence
 
 from osc2tx_runtime.domain.paths.path_curves import PathError
-from osc2tx_runtime.domain.paths.path_values import PathPoint, RelativeTransform
+from osc2tx_runtime.domain.paths.path_values import PathPoint
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Pose, RoutePoint
+from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.state import ActorState

@@ -12,7 +12,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
-from typing import Literal
 
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import NetworkPath, Path
@@ -22,12 +21,12 @@ from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.domain.routes.route_elements import Route
+from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 
-__all__ = ["ConnectPointsBy", "Element", "MadeRoute", "poses_of_route"]
+__all__ = ["Element", "MadeRoute", "poses_of_route"]
 
-ConnectPointsBy = Literal["road", "lane_section", "lane", "crossing", "waypoint"]
 
 Place = LanePosition | MapPose
 Element = Place | Stretch | Path
@@ -47,7 +46,7 @@ class MadeRoute(NetworkPath):
     """
 
     route_elements: Sequence[NetworkPoint | Route | Path] = ()
-    connect_points_by: ConnectPointsBy = "waypoint"
+    connect_points_by: ConnectRoutePoints = "waypoint"
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,7 @@ class _Way:
 
 
 def poses_of_route(
-    road_map: RoadMap, elements: Sequence[Element], connect_by: ConnectPointsBy = "waypoint"
+    road_map: RoadMap, elements: Sequence[Element], connect_by: ConnectRoutePoints = "waypoint"
 ) -> tuple[Pose, ...]:
     """Poses along a route.
 
@@ -95,7 +94,7 @@ def poses_of_route(
 # --- elements ---------------------------------------------------------------------------------
 
 
-def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectPointsBy) -> Element:
+def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectRoutePoints) -> Element:
     """What a point stands for; other elements as they are."""
     if not isinstance(element, LanePosition | MapPose) or connect_by == "waypoint":
         return element

@@ -24,8 +24,8 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLightGroup,
     TrafficLightPhase,
 )
+from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.world.traffic_light_lamps import BulbState, Meaning
 
 __all__ = ["read_control_file"]
 
@@ -85,7 +85,7 @@ def _phase(entry: Any, group: TrafficLightGroup) -> TrafficLightPhase:
 
 
 def _state(value: Any) -> Bulbs:
-    if value in get_args(Meaning):
+    if value in get_args(SemanticTrafficLightState):
         return Shown(value)
     if isinstance(value, list) and value and all(each in get_args(BulbState) for each in value):
         return value
