@@ -101,16 +101,16 @@ class HelloWorld(Scenario):
             Wait(self.go_signal),
             # --- Phase 1: Cruise ---
             OneOf(
-                "hero: drive or wait",
+                "hero: drive or wait npc ahead_of",
                 self.hero.drive(speed(self.v_hero)),
                 Wait(fall(lambda: self.npc.position.ahead_of(self.hero) > self.safety_gap)),
             ),
             # --- Phase 2: Hazard Detected - Flash High Beams & Swerve ---
             Parallel(
-                "hero: parallel",
+                "hero: change_lane with set_lights",
                 # Task A: The evasive physical maneuver
                 Serial(
-                    "hero: change_lane, emit",
+                    "hero: change_lane, emit CRASH_AVOIDED",
                     self.hero.change_lane(num_of_lanes=1, side="right"),
                     Emit(self.CRASH_AVOIDED),
                 ),
@@ -124,19 +124,19 @@ class HelloWorld(Scenario):
             ),
             # --- Phase 3: Approach & Synchronize ---
             OneOf(
-                "hero: drive or wait 2",
+                "hero: drive or wait OBSTACLE_DETECTED",
                 self.hero.drive(speed(self.v_hero)),
                 Wait(self.OBSTACLE_DETECTED),
             ),
             # --- Phase 4: Approach NPC smoothly and pull alongside ---
             Serial(
-                "hero: serial 2",
+                "hero: change_speed, drive",
                 self.hero.change_speed(target=25 * kph, rate_profile="smooth"),
                 OneOf(
-                    "hero: one_of",
+                    "hero: drive or wait hero ahead_of",
                     self.hero.drive(speed(25 * kph)),
                     Serial(
-                        "wait",
+                        "wait hero ahead_of",
                         Wait(rise(lambda: self.hero.position.ahead_of(self.npc) >= -1 * m)),
                     ),
                 ),
@@ -156,10 +156,10 @@ class HelloWorld(Scenario):
             Wait(self.go_signal),
             # --- Phase 1: Accelerate UNTIL ahead of Hero ---
             OneOf(
-                "npc: one_of",
+                "npc: drive or wait npc ahead_of",
                 self.npc.drive(speed(self.v_npc_fast)),
                 Serial(
-                    "wait 2",
+                    "wait npc ahead_of",
                     Wait(rise(lambda: self.npc.position.ahead_of(self.hero) >= self.lag * 2)),
                 ),
             ),
@@ -167,16 +167,16 @@ class HelloWorld(Scenario):
             self.npc.change_lane(num_of_lanes=1, side="left"),
             # --- Phase 3: Brake Check UNTIL Ego swerves ---
             OneOf(
-                "npc: drive or wait",
+                "npc: drive or wait CRASH_AVOIDED",
                 self.npc.drive(speed(self.v_npc_slow)),
                 Wait(self.CRASH_AVOIDED),
             ),
             # --- Phase 4: Recover & Approach Obstacle ---
             OneOf(
-                "npc: one_of 2",
+                "npc: drive or wait npc object_distance",
                 self.npc.drive(speed(self.v_npc_catchup, rate_profile="smooth")),
                 Serial(
-                    "wait 3",
+                    "wait npc object_distance",
                     Wait(
                         rise(
                             lambda: self.npc.object_distance(

@@ -6,7 +6,6 @@ stand inline, nested as they are in the source.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import replace
 from typing import assert_never
 
@@ -21,6 +20,12 @@ from osc2tx.backends.py_trees.code import (
     self_attribute,
 )
 from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.node_names import (
+    InvocationName,
+    composition_names,
+    invocation_names,
+    method_name,
+)
 from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
@@ -59,10 +64,12 @@ class BehaviorTreeBuilder:
         self._written: list[MethodView] = []
         self._wanted: set[str] = set()
         self._compositions: dict[ir.Behavior, str] = {}
+        self._invocations: dict[ir.Behavior, InvocationName] = {}
 
     def write(self, scenario: ir.Scenario) -> tuple[MethodView, ...]:
         """Return `behavior` and the methods it calls, in source order."""
         self._compositions = composition_names(scenario.body)
+        self._invocations = invocation_names(scenario.body)
         self._method(PyName("behavior"), scenario.body)
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
         return (first, *self._written[1:])
@@ -165,11 +172,14 @@ class BehaviorTreeBuilder:
         return CallView(action, arguments)
 
     def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
-        arguments = [*self._label(node.label), code(name_expression(self._classes[node.key]))]
+        name = self._invocations[node]
+        arguments = [*self._label(name.label), code(name_expression(self._classes[node.key]))]
         if node.actor is not None:
             arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
         arguments += self._calls.keywords(node.arguments)
         arguments += self._calls.duration(node.duration)
+        if name.known_as is not None:
+            arguments.append(code(literal(name.known_as), "known_as"))
         return CallView(self_attribute(PyName("invoke")), tuple(arguments))
 
     def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
@@ -181,21 +191,3 @@ def _override(override: ir.Override) -> StatementView:
     mode = () if override.mode == "on_start" else (code(literal(override.mode), "mode"),)
     call = CallView(self_attribute(PyName("override")), (*labels, *mode))
     return StatementView(None, ArgumentView(call=call))
-
-
-def composition_names(body: ir.Behavior) -> dict[ir.Behavior, str]:
-    """Name the compositions of a scenario, each by another name: label, else what it does."""
-    nodes = list(ir.walk_behaviors(body))
-    taken = {node.label for node in nodes if node.label is not None}
-    names: dict[ir.Behavior, str] = {}
-    for node in nodes:
-        if isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
-            numbered = (node.name if n == 1 else f"{node.name} {n}" for n in itertools.count(1))
-            names[node] = node.label or next(name for name in numbered if name not in taken)
-            taken.add(names[node])
-    return names
-
-
-def method_name(name: str) -> str:
-    """Return the name of the method for a phase."""
-    return identifier(name.replace(": ", "_").replace(" ", "_"))

@@ -110,6 +110,7 @@ class BaseScenario(ScenarioParts):
         *,
         actor: BaseActor | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour: ...
     @overload
@@ -121,6 +122,7 @@ class BaseScenario(ScenarioParts):
         *,
         actor: BaseActor | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour: ...
     def invoke(
@@ -129,6 +131,7 @@ class BaseScenario(ScenarioParts):
         *label_and_scenario: Any,
         actor: BaseActor | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour:
         """Invoke another scenario: `self.invoke("p1", Approach, actor=self.ego, lead=self.car1)`.
@@ -141,6 +144,8 @@ class BaseScenario(ScenarioParts):
                 `@label.end`, for settings (`--set label.gap=12`) and in the trace.
             actor: Its `actor`, for a scenario of an actor.
             duration: Seconds, or (least, most) seconds, that it takes.
+            known_as: Its name in settings and in the trace if it has no label; else that of the
+                scenario, numbered in the order of the calls.
             **arguments: Its parameters (a range is drawn from) and actors.
 
         Raises:
@@ -150,7 +155,7 @@ class BaseScenario(ScenarioParts):
         check_recursion(self, scenario)
         given = arguments if actor is None else {"actor": actor, **arguments}
         short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
-        name = unique_name(label or short, self._invoked)
+        name = unique_name(label or known_as or short, self._invoked)
         path = f"{self._path}.{name}" if self._path else name
         key = label or draw_key(self, scenario, actor, arguments)
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
@@ -200,7 +205,7 @@ class BaseScenario(ScenarioParts):
                 sorted(self.actors.items(), key=lambda item: item[0].rpartition(".")[0])
             )
             self.placements[self._own_placements :] = invoked_placements(self, tree)
-            number_nodes(tree, self.actors.values())
+            number_nodes(self, tree)
             check_settings(self)
         return tree
 

@@ -34,7 +34,7 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     The trees of the scenarios it invokes are assembled already.
     """
     apply_lines(tree, scenario._source_map)
-    name_nodes(tree)
+    name_nodes(scenario, tree)
     for node in own_nodes(tree):
         node.scope, node.listeners = scenario._path, scenario.label_events
     for path, event in scenario._inner_events.items():
@@ -67,14 +67,17 @@ def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
         node.source = source_map.place(line)
 
 
-def name_nodes(tree: Behaviour) -> None:
+def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
     """Give the nodes of a scenario names that differ, and what their random values depend on.
 
     That are names of the module: of the composition around, and of the node or what it does.
     """
+    own = set(own_nodes(tree))
     names: dict[str, None] = {}
     draws: dict[str, None] = {}
-    for node in own_nodes(tree):
+    for node in in_order(tree, scenario._root.actors.values()):
+        if not isinstance(node, Node) or node not in own:
+            continue
         if not isinstance(node, Composition) and node.name != node.label:
             node.name = unique_name(node.name, names)
         what = node.action_name if isinstance(node, Action) and not node.label else node.name
@@ -180,8 +183,15 @@ def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placeme
     return found
 
 
-def number_nodes(tree: Behaviour, actors: Iterable[BaseActor]) -> None:
-    """Note where each node stands in the whole tree, those of invoked scenarios included.
+def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
+    """Note where each node stands in the whole tree, those of invoked scenarios included."""
+    for position, node in enumerate(in_order(tree, scenario.actors.values())):
+        if isinstance(node, Node):
+            node.position = position
+
+
+def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
+    """Return the nodes of a tree, parents first, in an order that its meaning decides.
 
     Members that run together are ordered by their actors as these are declared, then by name:
     the order of the members in the module must not show.
@@ -189,19 +199,16 @@ def number_nodes(tree: Behaviour, actors: Iterable[BaseActor]) -> None:
     declared = {id(actor): index for index, actor in enumerate(actors)}
 
     def key(member: Behaviour) -> tuple[int, str]:
-        acting = [node.actor for node in member.iterate() if isinstance(node, Action)]
+        acting = [id(node.actor) for node in member.iterate() if isinstance(node, Action)]
         return (
-            min(
-                (declared.get(id(actor), len(declared)) for actor in acting), default=len(declared)
-            ),
+            min((declared.get(actor, len(declared)) for actor in acting), default=-1),
             member.name,
         )
 
-    waiting, position = [tree], 0
+    found, waiting = [], [tree]
     while waiting:
         node = waiting.pop()
-        if isinstance(node, Node):
-            node.position = position
-        position += 1
+        found.append(node)
         together = isinstance(node, Parallel | OneOf)
         waiting += reversed(sorted(node.children, key=key) if together else node.children)
+    return found
