@@ -9,7 +9,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.scenario import BaseScenario
 
-__all__ = ["Scenario"]
+__all__ = ["Scenario", "bind_all"]
 
 
 class Scenario(BaseScenario):
@@ -18,15 +18,6 @@ class Scenario(BaseScenario):
     def require(self, road_map: Map, *modifiers: MapModifier) -> None:
         """Say what the declared roads and lanes of the map are like."""
         self.place(road_map, *modifiers)
-
-    def bind(self, context: ExecutionContext) -> None:
-        """Let the actors and the objects of the map join a run."""
-        for actor in self.actors.values():
-            if isinstance(actor, Actor):
-                actor.bind(context)
-        for each in self.map_objects:
-            if isinstance(each, MapObject):
-                each.bind(context)
 
     def map_file(self) -> str | None:
         """Return the map file the scenario names; None if it leaves the map open.
@@ -46,3 +37,13 @@ class Scenario(BaseScenario):
             if file != named[0][0]:
                 raise ScenarioError(f"two maps are named: {named[0][0]} and {file}", source)
         return named[0][0] if named else None
+
+
+def bind_all(scenario: Scenario, context: ExecutionContext) -> None:
+    """Let the actors of a scenario and what it declares of the map join a run."""
+    for actor in scenario.actors.values():
+        if isinstance(actor, Actor):
+            actor.bind(context)
+    for each in scenario.map_objects:
+        if isinstance(each, MapObject):
+            each.bind(context)

@@ -116,8 +116,9 @@ def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
     """Put the actors where the scenario wants them."""
     from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
     from osc2tx_runtime.domain.routes.geodetic_points import check_globe
+    from osc2tx_runtime.domain.scenario import bind_all
 
-    scenario.bind(context)
+    bind_all(scenario, context)
     check_globe(scenario, context.world.map)
     ScenarioInitializer(context, scenario.map_objects).run(scenario.placements)
 
