@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
-from osc2tx_runtime.language.argument_rules import Rule, check_arguments
+from osc2tx_rules import Rule
+from osc2tx_runtime.language.argument_rules import check_arguments
+from osc2tx_runtime.language.modifier_facts import ModifierFacts
 
 __all__ = ["Modifier"]
 
@@ -16,10 +18,12 @@ class Modifier:
 
     Attributes:
         name: Name in the DSL.
+        facts: What is stated of it at its registration.
         rules: Which parameters go together; the compiler knows them as well.
     """
 
     name: ClassVar[str] = ""
+    facts: ClassVar[ModifierFacts] = ModifierFacts()
     rules: ClassVar[tuple[Rule, ...]] = ()
 
     def __post_init__(self) -> None:
@@ -29,6 +33,11 @@ class Modifier:
 
     def check(self) -> None:
         """Checks what rules cannot say."""
+
+    @property
+    def is_start(self) -> bool:
+        """Whether it is a demand on the start alone."""
+        return getattr(self, "at", "all") == "start" and self.facts.rules.starts
 
     def given(self) -> dict[str, Any]:
         """Parameters with values that are not those of a modifier without arguments."""

@@ -18,7 +18,7 @@ from osc2tx_runtime.errors import (
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.argument_rules import check_arguments
 from osc2tx_runtime.language.declared import BaseActor
-from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method
+from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method, Need
 from osc2tx_runtime.language.refused_action import RefusedAction
 from osc2tx_runtime.language.tree.base import split_label
 from osc2tx_runtime.language.tree.module_text import call_arguments
@@ -93,6 +93,10 @@ class MethodRegistry:
         *,
         slots: Iterable[str] = (),
         ends: Ends = "goal",
+        places: bool = False,
+        paces: bool | None = None,
+        needs: Iterable[Need] = (),
+        undeclared: str = "",
         replace: bool = False,
     ) -> Callable[[ActionT], ActionT]:
         """Register the decorated `Action` class as method `name` of actors of `kind`.
@@ -102,6 +106,10 @@ class MethodRegistry:
             name: Method name.
             slots: Slots the action claims for as long as it runs.
             ends: When it ends.
+            places: Its arguments say where the actor is.
+            paces: It sets or holds the speed; by default if it claims the longitudinal slot.
+            needs: What a world must have to carry it out.
+            undeclared: Why the library does not declare an action of ours.
             replace: Take the place of a registered class instead of reporting it.
 
         Raises:
@@ -115,7 +123,15 @@ class MethodRegistry:
                     f"{kind}.{name} is registered already, by {known.factory.__qualname__};"
                     " pass replace=True to take its place"
                 )
-            method = RegisteredMethod(kind, name, tuple(slots), ends, factory=factory)
+            claimed = tuple(slots)
+            method = RegisteredMethod(
+                *(kind, name, claimed, ends),
+                places=places,
+                paces=LONGITUDINAL in claimed if paces is None else paces,
+                needs=tuple(needs),
+                undeclared=undeclared,
+                factory=factory,
+            )
             self._methods[kind, name] = method
             if "method" not in vars(factory):  # for instances made without the registry
                 factory.method = method
