@@ -51,7 +51,7 @@ class Compositions(Scenario):
             self.ego.drive(duration=2 * s),
             # deep inside
             OneOf(
-                "ego: one_of",
+                "ego: keep_speed or inner",
                 self.ego.keep_speed(duration=4 * s),
                 self.inner(),
                 # nothing below

@@ -92,7 +92,7 @@ class Extensions(Scenario):
         return Serial(
             "extensions",
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.commute_top),
-            self.invoke(Commute, actor=self.ego, habit=self.fast),
+            self.invoke(Commute, actor=self.ego, habit=self.fast, known_as="commute_2"),
             Wait(
                 lambda: self.habits_is_thrifty(self.economical)
                 and {"calm": 0, "brisk": 1, "hurried": 7, "reckless": 8}[self.state] == 8

@@ -67,7 +67,7 @@ class Top(Scenario):
         return Serial(
             "top",
             self.invoke(Haul, who=self.ego, hands=2),
-            self.invoke(Haul, who=self.other, hands=1),
+            self.invoke(Haul, who=self.other, hands=1, known_as="haul_2"),
             Wait(lambda: as_type(self.ego, LoadedLorry).weight > 7.0 and self.other.load != "full"),
         )
 
