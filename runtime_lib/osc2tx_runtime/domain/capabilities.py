@@ -15,7 +15,7 @@ from osc2tx_runtime import enums
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
-from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier
+from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
 from osc2tx_runtime.language.registry import RegisteredMethod, methods
 
 __all__ = ["actions", "modifiers", "objects"]
