@@ -11,9 +11,9 @@ from osc2tx_runtime.domain.modifiers import (
     SetTrafficLightsControlFile,
 )
 from osc2tx_runtime.domain.placing.initial_state import Spot
+from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of
-from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
