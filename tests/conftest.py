@@ -1,12 +1,22 @@
-"""Shared fixtures: golden files and the optional test data."""
+"""Shared fixtures: golden files and the optional test data; how properties are tried."""
 
 import os
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 DATA_VARIABLE = "OSC2TX_TEST_DATA"
+
+# The same examples each time, and no clock decides: the machine may be busy.
+settings.register_profile(
+    "osc2tx",
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
+)
+settings.load_profile("osc2tx")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

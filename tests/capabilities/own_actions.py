@@ -11,6 +11,7 @@ from pathlib import Path
 from osc2tx.backends.py_trees import emit
 from tests.capabilities.kit import CAPABILITIES
 from tests.end_to_end.harness import REPOSITORY, compile_scenario
+from tests.processes import HANGING
 
 
 def install(folder: Path) -> None:
@@ -37,7 +38,7 @@ def run_with_own_actions(name: str, folder: Path) -> subprocess.CompletedProcess
         [sys.executable, str(module), "--trace", str(folder / "trace.jsonl")],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=HANGING,
         env={**os.environ, "PYTHONPATH": path},
         check=False,
     )

@@ -17,7 +17,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from osc2tx import ir
@@ -200,11 +200,7 @@ def outcome(scenario: type[Scenario]) -> str:
 
 
 @pytest.mark.slow
-@settings(
-    max_examples=60,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-)
+@settings(max_examples=60)
 @given(trees, st.integers(0, 2**16))
 def test_the_members_of_a_written_parallel_have_no_order(
     load: Load, tmp_path: Path, text: str, seed: int

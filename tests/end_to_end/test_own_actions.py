@@ -14,6 +14,7 @@ import pytest
 
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
+from tests.processes import HANGING
 
 ROOT = Path(__file__).parents[2]
 ENTRY_POINTS = "[osc2tx.methods]\nmy_actions = my_actions\n"
@@ -53,7 +54,7 @@ def run(project: Path, *packages: Path) -> subprocess.CompletedProcess[str]:
         [sys.executable, str(module), "--trace", str(project / "t.jsonl")],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=HANGING,
         env={**os.environ, "PYTHONPATH": path},
         check=False,
     )

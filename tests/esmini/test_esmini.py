@@ -21,6 +21,7 @@ from osc2tx.backends.xosc import emit
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
+from tests.processes import HANGING
 from tests.unit.backends.xosc.played import (
     PLAIN,
     Played,
@@ -71,7 +72,7 @@ def play(given: Given, document: str, dt: float, folder: Path) -> Played:
     file.write_text(document, encoding="utf-8")
     told = [LIBRARY, str(file), str(given.maps), str(dt), "300", str(result)]
     script = [sys.executable, str(HERE / "headless.py"), *told]
-    subprocess.run(script, check=True, capture_output=True, timeout=240)
+    subprocess.run(script, check=True, capture_output=True, timeout=HANGING)
     data = json.loads(result.read_text(encoding="utf-8"))
     assert "error" not in data, data["error"]
     starts: dict[str, float] = {}

@@ -4,19 +4,14 @@ import math
 from collections.abc import Callable
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 
 NAMES = ("crossing", "curve", "highway", "left_hand", "merge", "urban_crossing")
 Own = Callable[[str], RoadMap]
-quick = settings(
-    max_examples=60,
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-    derandomize=True,
-)
+quick = settings(max_examples=60)
 
 
 def place(road_map: RoadMap, pick: float, share: float, offset: float) -> LanePosition:

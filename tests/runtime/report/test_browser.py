@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx_runtime.report import write_report
+from tests.processes import HANGING
 from tests.runtime.report.test_surroundings import lit_highway, maker
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -78,7 +79,7 @@ found.driven = "true";
 def attributes_of(path: Path, profile: Path, fragment: str = "") -> dict[str, str]:
     """Attributes of the document's root once the page has settled."""
     command = [str(CHROMIUM), *FLAGS, f"--user-data-dir={profile}", path.as_uri() + fragment]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=HANGING, check=True)
     root = re.search(r"<html([^>]*)>", done.stdout)
     assert root is not None, done.stderr
     return dict(re.findall(r'data-([a-z-]+)="([^"]*)"', root[1]))

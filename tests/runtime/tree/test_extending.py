@@ -12,6 +12,8 @@ from typing import Any
 
 import pytest
 
+from tests.processes import HANGING
+
 ROOT = Path(__file__).parents[3]
 DOCUMENT = ROOT / "docs/extending.md"
 
@@ -57,7 +59,7 @@ def run(folder: Path, body: str, *, actions: str | None = None) -> Any:
         [sys.executable, str(script), "--trace", str(folder / "t.jsonl")],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=HANGING,
         env={**os.environ, "PYTHONPATH": path},
         check=False,
     )

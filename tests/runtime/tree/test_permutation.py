@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
@@ -219,7 +219,7 @@ def run(spec: Spec, shuffle: random.Random | None) -> tuple[list[str], list[obje
     return result.lines, list(builder.world.commands), result
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150)
 @given(trees, st.integers(0, 2**16))
 def test_permuting_members_changes_no_byte(spec: Spec, seed: int) -> None:
     lines, commands, result = run(spec, None)

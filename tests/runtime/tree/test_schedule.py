@@ -47,7 +47,7 @@ def keeps(starts: list[int], ends: list[int], kind: Overlap, sts: Span, ete: Spa
     return max(starts) <= min(ends)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(kinds, st.lists(st.integers(1, 5), min_size=2, max_size=3), offsets, offsets)
 def test_known_lengths_are_scheduled_if_and_only_if_that_is_possible(
     kind: Overlap, lengths: list[int], start: Span | None, end: Span | None
@@ -78,7 +78,7 @@ def test_known_lengths_are_scheduled_if_and_only_if_that_is_possible(
 texts = st.sampled_from(["1", "2", "4", "?1", "?3", "?4", "open"])
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(kinds, st.lists(texts, min_size=2, max_size=4), offsets, offsets)
 def test_what_succeeds_has_kept_the_rule(
     kind: Overlap, lengths: list[str], start: Span | None, end: Span | None

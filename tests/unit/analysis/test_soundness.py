@@ -211,7 +211,7 @@ def is_left(value: float, domain: Domain) -> bool:
     return domain.contains(value) or close(value, domain.lower) or close(value, domain.upper)
 
 
-@settings(max_examples=int(os.environ.get("OSC2TX_EXAMPLES", "80")), deadline=None)
+@settings(max_examples=int(os.environ.get("OSC2TX_EXAMPLES", "80")))
 @given(st.lists(CONDITIONS, min_size=1, max_size=4))
 def test_no_solution_is_excluded(conditions: list[Term]) -> None:
     lines = ["struct s:", *(f"    {name}: {type_}" for name, (type_, _) in GRID.items())]

@@ -14,6 +14,7 @@ import pytest
 
 from osc2tx.building import write as writing
 from osc2tx.building.manifest import MANIFEST_NAME, read_manifest
+from tests.processes import HANGING
 from tests.unit.building.projects import Project, contents
 
 ROOT = Path(__file__).parents[3]
@@ -180,7 +181,7 @@ def test_no_worker_outlives_a_killed_build(tmp_path: Path) -> None:
     process.kill()
     process.wait()
     assert len(workers) == 2
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + HANGING
     while any(is_running(pid) for pid in workers) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not any(is_running(pid) for pid in workers)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.processes import HANGING
 from tests.unit.building.test_revision import git
 from tests.unit.cli.shell import DRIVE, Shell
 
@@ -269,7 +270,7 @@ def test_watch_builds_again(tmp_path: Path) -> None:
         stderr=subprocess.PIPE,
         text=True,
     )
-    timer = threading.Timer(20, process.kill)
+    timer = threading.Timer(HANGING, process.kill)
     timer.start()
     assert process.stdout is not None and process.stderr is not None
     try:

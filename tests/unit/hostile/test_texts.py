@@ -4,7 +4,7 @@ from itertools import cycle
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from osc2tx.compilation.driver import Compilation
@@ -70,9 +70,7 @@ def test_strings(tmp_path: Path, harmless: str, text: str) -> None:
     assert_only_the_strings_differ(module(tmp_path, text), harmless, text)
 
 
-@settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=60)
 @given(text=st.text(st.characters(exclude_categories=["Cs"]), max_size=40))
 def test_any_string(tmp_path: Path, harmless: str, text: str) -> None:
     assert_only_the_strings_differ(module(tmp_path, text), harmless, text)

@@ -146,14 +146,14 @@ WORDS = [
 TOKENS = st.sampled_from([*WORDS, "\n", "\n    ", "\n        ", "\n\t", ":\n    ", "\r", "("])
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(st.lists(TOKENS, max_size=80).map(" ".join) | st.text(max_size=200))
 def test_any_text_can_be_parsed(text: str) -> None:
     file, _ = parsed(text)
     assert dump_ast(file)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.data())
 def test_damaged_scenarios_can_be_parsed(data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(GOOD)))

@@ -94,7 +94,7 @@ MARKS = ["'", '"', '"""', "|x|", "|", "/*", "*/", "//", "²", "\0"]
 PIECES = st.sampled_from([*BLANKS, *MARKS, *PUNCTUATION, "scenario", "a", "5m", "0x1", "1.5"])
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.lists(PIECES | st.characters(), max_size=60).map("".join))
 def test_tokens_tile_the_text(text: str) -> None:
     """Tokens come in order and do not overlap; what lies between them is no code, or reported."""

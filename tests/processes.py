@@ -1,0 +1,66 @@
+"""Processes that tests start."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from tempfile import TemporaryFile
+from typing import NoReturn
+
+HANGING = 600
+"""Seconds after which a process counts as hanging; how long one takes decides no test."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a process ended.
+
+    Attributes:
+        code: Its exit code; the signal that ended it is negative.
+        out: What it printed.
+        err: What it printed as errors.
+    """
+
+    code: int
+    out: str
+    err: str
+
+
+def forked(main: Callable[[], object]) -> Ended:
+    """Call something that may end its process in a copy of this one; nothing is imported again."""
+    with (
+        TemporaryFile("w+", encoding="utf-8") as out,
+        TemporaryFile("w+", encoding="utf-8") as err,
+    ):
+        process = os.fork()
+        if process == 0:
+            os.dup2(out.fileno(), 1)
+            os.dup2(err.fileno(), 2)
+            _end_with(main)
+        _, status = os.waitpid(process, 0)
+        out.seek(0)
+        err.seek(0)
+        return Ended(os.waitstatus_to_exitcode(status), out.read(), err.read())
+
+
+def _end_with(main: Callable[[], object]) -> NoReturn:
+    signal.alarm(HANGING)
+    sys.stdout, sys.stderr = (
+        os.fdopen(number, "w", encoding="utf-8", closefd=False) for number in (1, 2)
+    )
+    code = 1
+    try:
+        main()
+        code = 0
+    except SystemExit as ended:
+        code = ended.code if isinstance(ended.code, int) else 1
+    except BaseException:  # as the interpreter does it
+        traceback.print_exc()
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
