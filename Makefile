@@ -59,6 +59,7 @@ parser: $(STAMP)
 # Everything that is written by a script of ours from something else in the repository.
 tables: $(STAMP)
 	$(BIN)/python tools/make_maps.py
+	$(BIN)/python tools/make_enums.py
 	$(BIN)/python tools/make_runtime_api.py
 	$(BIN)/osc2tx build scenarios/ -o generated/
 	$(BIN)/python tools/make_readme_example.py

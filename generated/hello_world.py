@@ -12,6 +12,7 @@ from osc2tx_runtime import (
     Map,
     OneOf,
     Parallel,
+    Rgb,
     Scenario,
     Serial,
     StationaryObject,
@@ -41,7 +42,9 @@ class HelloWorld(Scenario):
         self.carla_map = Map(map_file="Town06")
         self.env = Environment()
         self.hero = Vehicle(model="vehicle.tesla.model3", name="hero")
-        self.npc = Vehicle(model="vehicle.carlamotors.european_hgv", name="npc", color="0,128,0")
+        self.npc = Vehicle(
+            model="vehicle.carlamotors.european_hgv", name="npc", color=Rgb("0,128,0")
+        )
         self.obstacle = StationaryObject(name="obstacle", model="static.prop.trafficwarning")
 
         # --- GLOBAL VARIABLES ---

@@ -9,11 +9,12 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from osc2tx.version import __version__
+
 if TYPE_CHECKING:
     from osc2tx.api import CompileResult, compile_file, compile_text
     from osc2tx.diagnostics import Diagnostic
 
-__version__ = "0.1.0"
 __all__ = ["CompileResult", "Diagnostic", "__version__", "compile_file", "compile_text"]
 
 # Loaded when they are asked for: the command line starts without them.

@@ -15,7 +15,7 @@ USED = (
     *("actions", "modifiers", "placement", "exclusive"),
     *("conflicts", "no_start", "rules", "sorts", "contradictions", "shapes"),
     *("on_lanes", "lane_bound"),
-    *("methods", "fields", "objects", "needed", "asked", "unknown", "reserved"),
+    *("methods", "fields", "objects", "needed", "asked", "unknown", "reserved", "enums"),
 )
 
 

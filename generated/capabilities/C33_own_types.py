@@ -8,6 +8,7 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
 from osc2tx_runtime.modifiers import lane, position, speed
@@ -18,12 +19,15 @@ require_api(1)
 # Units that the scenario declares
 knot = 0.514444
 
+# Enums that the scenario declares
+Mood: TypeAlias = Literal["calm", "hasty"]
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
     """Struct `plan` (capabilities/C33_own_types.osc:12)."""
 
-    mood: str
+    mood: Mood
     cruise: float
     peak: float
 

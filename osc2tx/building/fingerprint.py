@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from osc2tx import __version__
 from osc2tx.resources import resource_dir
+from osc2tx.version import __version__
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")

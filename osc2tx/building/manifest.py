@@ -24,8 +24,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from osc2tx import __version__
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.version import __version__
 
 MANIFEST_NAME = ".osc2tx-manifest.json"
 FORMAT = 1

@@ -20,10 +20,10 @@ from typing import NoReturn
 
 import click
 
-from osc2tx import __version__
 from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, complain, report_failure
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
+from osc2tx.version import __version__
 
 # Command -> where it is, and its line in the help page.
 COMMANDS: Mapping[str, tuple[str, str]] = {

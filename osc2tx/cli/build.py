@@ -17,6 +17,7 @@ from osc2tx.cli.options import compile_options, target_options
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import PRODUCT_NAMES, ProductName
@@ -266,7 +267,7 @@ def _print_product(
     def dump(compilation: Compilation) -> None:
         if emit == "xosc":
             compilation.check()
-        text = compilation.dump(emit)
+        text = dump_product(compilation, emit)
         if text is not None:
             texts.append(f"# {compilation.path}\n{text}" if len(compilations) > 1 else text)
 

@@ -17,9 +17,9 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
-from osc2tx import __version__
 from osc2tx.compilation.file_reports import Reported, settle_all
 from osc2tx.diagnostics.report import Report, make_report
+from osc2tx.version import __version__
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)

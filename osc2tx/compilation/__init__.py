@@ -1,1 +1,1 @@
-"""From source files to products: `driver` runs the stages, `products` says what they make."""
+"""From source files to products: `driver` runs the stages, `products` are files, `dump` prints."""

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 
 from osc2tx.compilation.file_reports import LossEntry, settle_all
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
-from osc2tx.compilation.products import DUMPS, Output, files_of_module, files_of_xml
+from osc2tx.compilation.products import Output, files_of_module, files_of_xml
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx.options import CompileOptions, ProductName
+from osc2tx.options import CompileOptions
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import parse, read_source
 
@@ -274,10 +274,6 @@ class Compilation:
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""
         return self.is_supported
-
-    def dump(self, product: ProductName) -> str | None:
-        """Return a product as text; `None` where it does not exist."""
-        return DUMPS[product](self)
 
     def _failed(self) -> bool:
         return self.sink.has_errors

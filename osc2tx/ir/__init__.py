@@ -1,8 +1,8 @@
 """The intermediate representation: what a program means, ready for any backend.
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `values`, `expressions`, `operations`, `behaviors`, `coverage`, `nodes`;
-then `rewrite`, `verify` (the invariants) and `dump` (the printable form).
+Modules, in reading order: `values`, `expressions`, `behaviors`, `coverage`, `nodes`; then
+`traversal`, `rewrite`, `verify` (the invariants) and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -40,24 +40,32 @@ from osc2tx.ir.expressions import (
     Argument,
     Attribute,
     Binary,
+    Choices,
     Conditional,
+    Conversion,
     Domain,
+    Downcast,
+    Element,
     EnumValue,
     EventArgument,
     Expression,
     FieldRef,
+    HalfRange,
+    Index,
     InvokedValue,
+    ListOperation,
+    ListOperator,
     ListValue,
     Literal,
+    Lookup,
     MethodCall,
+    OwnShape,
     ParameterRef,
     Quantity,
     RangeValue,
     ScenarioSelf,
+    TypeTest,
     Unary,
-    children,
-    is_live,
-    walk,
 )
 from osc2tx.ir.nodes import (
     Actor,
@@ -80,20 +88,8 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
-from osc2tx.ir.operations import (
-    Choices,
-    Conversion,
-    Downcast,
-    Element,
-    HalfRange,
-    Index,
-    ListOperation,
-    ListOperator,
-    Lookup,
-    OwnShape,
-    TypeTest,
-)
 from osc2tx.ir.rewrite import rewrite
+from osc2tx.ir.traversal import children, is_live, walk
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 

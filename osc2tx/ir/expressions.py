@@ -2,21 +2,10 @@
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.ir.operations import (
-    Choices,
-    Conversion,
-    Downcast,
-    Element,
-    HalfRange,
-    Index,
-    ListOperation,
-    Lookup,
-    OwnShape,
-    TypeTest,
-)
 from osc2tx.ir.values import ExpressionBase, Unit
 from osc2tx.support.light_dataclass import dataclass
 
@@ -174,6 +163,104 @@ class RangeValue(ExpressionBase):
     upper: Expression
 
 
+class ListOperator(Enum):
+    """The operators of lists (§7.4.2.7)."""
+
+    SIZE = "size"
+    FILTER = "filter"
+    FIRST_INDEX = "first_index"
+    COUNT = "count"
+    HAS = "has"
+    MAP = "map"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Element(ExpressionBase):
+    """The element that an operator of a list looks at; `depth` counts those around it."""
+
+    depth: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ListOperation(ExpressionBase):
+    """An operator of a list; `argument` is computed for each element."""
+
+    base: Expression
+    operator: ListOperator
+    argument: Expression | None
+    depth: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Index(ExpressionBase):
+    """An element of a list, counted from zero."""
+
+    base: Expression
+    index: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Conversion(ExpressionBase):
+    """A number as a number of another type, the one that `type` names."""
+
+    operand: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Lookup(ExpressionBase):
+    """What a table has for a value: an enum member for its number, or the other way round."""
+
+    operand: Expression
+    table: tuple[tuple[int | str, int | str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TypeTest(ExpressionBase):
+    """Whether an actor is of the actor type `tested`, or one derived from it."""
+
+    operand: Expression
+    tested: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Downcast(ExpressionBase):
+    """An actor as one of the more special type that `type` names; an error if it is none."""
+
+    operand: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OwnShape(ExpressionBase):
+    """A shape with methods of the scenario's own, as the course of what a modifier controls.
+
+    Attributes:
+        operand: The object.
+        kind: The shape of the library that it derives from, `any_speed_shape`.
+        compute: Name of its method `compute`, as that of the scenario.
+        duration: Likewise; `None`: it goes on as long as the action.
+    """
+
+    operand: Expression
+    kind: str
+    compute: str
+    duration: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class HalfRange(ExpressionBase):
+    """A range with one bound; `is_lower` if that is the lower one."""
+
+    bound: Expression
+    is_lower: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Choices(ExpressionBase):
+    """A set of values of which one holds."""
+
+    elements: tuple[Expression, ...]
+
+
 Domain: TypeAlias = RangeValue | HalfRange | Choices
 """What a parameter may be."""
 
@@ -204,69 +291,3 @@ Expression: TypeAlias = (
     | Downcast
     | OwnShape
 )
-
-
-def children(expression: Expression) -> tuple[Expression, ...]:
-    """Return the direct sub-expressions, left to right."""
-    match expression:
-        case (
-            Literal()
-            | Quantity()
-            | EnumValue()
-            | FieldRef()
-            | ParameterRef()
-            | ScenarioSelf()
-            | EventArgument()
-            | InvokedValue()
-            | Element()
-        ):
-            return ()
-        case Attribute(base=base):
-            return (base,)
-        case MethodCall(base=base, arguments=arguments):
-            values = tuple(argument.value for argument in arguments)
-            return values if expression.needs_no_object else (base, *values)
-        case ListOperation(base=base, argument=argument):
-            return (base,) if argument is None else (base, argument)
-        case Index(base=base, index=index):
-            return (base, index)
-        case (
-            Unary(operand=operand)
-            | Conversion(operand=operand)
-            | Lookup(operand=operand)
-            | TypeTest(operand=operand)
-            | Downcast(operand=operand)
-            | OwnShape(operand=operand)
-        ):
-            return (operand,)
-        case Binary(left=left, right=right):
-            return (left, right)
-        case Conditional(condition=condition, when_true=when_true, when_false=when_false):
-            return (condition, when_true, when_false)
-        case ListValue(elements=elements) | Choices(elements=elements):
-            return elements
-        case HalfRange(bound=bound):
-            return (bound,)
-        case RangeValue(lower=lower, upper=upper):
-            return (lower, upper)
-
-
-def walk(expression: Expression) -> tuple[Expression, ...]:
-    """Return the expression and everything below it, without recursion."""
-    found: list[Expression] = []
-    pending = [expression]
-    while pending:
-        current = pending.pop()
-        found.append(current)
-        pending.extend(reversed(children(current)))
-    return tuple(found)
-
-
-def is_live(expression: Expression) -> bool:
-    """Whether the value depends on the state of the world, so that it must be read late."""
-    return any(
-        isinstance(part, EventArgument)
-        or (isinstance(part, MethodCall) and not part.is_pure)
-        or (isinstance(part, Attribute | FieldRef) and part.is_variable)
-        for part in walk(expression)
-    )

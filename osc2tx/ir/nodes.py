@@ -7,8 +7,7 @@ from typing import TypeAlias
 from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Behavior, ModifierCall, Trigger
 from osc2tx.ir.coverage import Coverage
-from osc2tx.ir.expressions import Domain, Expression, RangeValue
-from osc2tx.ir.operations import Choices
+from osc2tx.ir.expressions import Choices, Domain, Expression, RangeValue
 from osc2tx.ir.values import ValueType
 from osc2tx.support.light_dataclass import dataclass
 

@@ -31,11 +31,13 @@ class ValueType:
         kind: What sort of value it is.
         name: The declared name (`speed`, `vehicle`, `color`, …).
         element: For a list or range the type of what is in it.
+        members: For an enum that the standard library does not have in this form what it may be.
     """
 
     kind: Kind
     name: str
     element: ValueType | None = None
+    members: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         """The declared name."""

@@ -27,7 +27,7 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
-from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef, walk
+from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef
 from osc2tx.ir.nodes import (
     Actor,
     Event,
@@ -37,6 +37,7 @@ from osc2tx.ir.nodes import (
     Struct,
     Variable,
 )
+from osc2tx.ir.traversal import walk
 from osc2tx.ir.values import Kind
 
 

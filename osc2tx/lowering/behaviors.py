@@ -9,10 +9,11 @@ from typing import TypedDict, assert_never
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.ir.source_text import condensed, statement_name
+from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.calls import lower_call
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
-from osc2tx.lowering.expressions import lower_arguments, lower_expression
+from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.invocations import InvocationLowering, label_of
 from osc2tx.lowering.node_names import composition_name
 from osc2tx.lowering.triggers import declares_event, lower_trigger, lower_until

@@ -1,8 +1,4 @@
-"""Calls of methods (§7.3.7): the library's, the scenario's own, and those of its types.
-
-A method of the scenario becomes a method of its class, and so does one of a user's struct or actor,
-or one added to a plain type: its first parameter then is the object, which is `it` in the body.
-"""
+"""Calls of methods (§7.3.7): the library's, the scenario's own, and those of its types."""
 
 from __future__ import annotations
 
@@ -11,21 +7,19 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx import ir
+from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext, Receiver
-from osc2tx.lowering.expressions import lower_arguments, lower_expression
-from osc2tx.lowering.external import lower_external
-from osc2tx.lowering.method_overriding import dispatched, overriding_methods
+from osc2tx.lowering.method_overriding import overriding_methods
+from osc2tx.lowering.methods import default_of, is_pure, is_undefined, method_name
 from osc2tx.lowering.shape_arguments import is_left_open
-from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.value_types import SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
 
 CallNode: TypeAlias = ast.Call | ast.CallDirective
-
-SELF = ir.ValueType(ir.Kind.STRUCT, "scenario")
 
 # Methods of the library that make a value of their arguments; all others ask world or map.
 PURE_METHODS = frozenset(
@@ -76,7 +70,7 @@ def _lower_operator(
     ctx: LoweringContext, node: ast.Call, binding: Binding, callee: sym.MethodSymbol
 ) -> ir.Expression | None:
     """Lower an operator of lists or ranges."""
-    base = None if binding.receiver is None else lower_expression(ctx, binding.receiver)
+    base = None if binding.receiver is None else ctx.lower(binding.receiver)
     if base is None or binding.receiver is None:
         return None
     type_ = lower_type(ctx.model.type_of(node))
@@ -96,7 +90,7 @@ def _lower_operator(
     if binding.arguments:
         ((_, value),) = binding.arguments
         element = ir.Element(span=node.span, type=lower_type(receiver.element), depth=depth)
-        argument = lower_expression(ctx.with_it(element), value)
+        argument = ctx.with_it(element).lower(value)
         if argument is None:
             return None
     operator = ir.ListOperator(callee.name)
@@ -108,7 +102,7 @@ def _lower_operator(
 def _lower_own(
     ctx: LoweringContext, node: CallNode, binding: Binding, callee: sym.MethodSymbol
 ) -> ir.Expression | None:
-    if _is_undefined(callee) and not overriding_methods(ctx, callee):
+    if is_undefined(callee) and not overriding_methods(ctx, callee):
         _report_undefined(ctx, node, callee)
         return None
     arguments = lower_arguments(ctx, binding, node.arguments)
@@ -131,7 +125,7 @@ def _lower_own(
     return ir.MethodCall(
         span=node.span,
         type=lower_type(callee.result),
-        base=ir.ScenarioSelf(span=node.span, type=SELF),
+        base=ir.ScenarioSelf(span=node.span, type=SCENARIO),
         owner="" if callee.owner is None else callee.owner.name,
         method=name,
         arguments=arguments,
@@ -145,24 +139,13 @@ def _late_defaults(
     """Yield what a call leaves out and only the call can compute (§7.3.7)."""
     names = {argument.parameter for argument in given}
     for parameter in callee.parameters:
-        if parameter.name in names or parameter.default is None or _default(ctx, parameter):
+        if parameter.name in names or parameter.default is None or default_of(ctx, parameter):
             continue
-        value = lower_expression(ctx, parameter.default)
+        value = ctx.lower(parameter.default)
         if value is not None:
             yield ir.Argument(
                 parameter=parameter.name, value=value, is_positional=False, span=value.span
             )
-
-
-def _default(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.Expression | None:
-    """Return the default of a parameter if the function itself can have it: a constant."""
-    if parameter.default is None:
-        return None
-    lowered = lower_expression(ctx.quiet(), parameter.default)
-    late = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
-    if lowered is None or any(isinstance(part, late) for part in ir.walk(lowered)):
-        return None
-    return None if ir.is_live(lowered) else lowered
 
 
 def _in_place(
@@ -184,7 +167,7 @@ def _in_place(
     ctx = replace(ctx, expanding=(*ctx.expanding, callee.name))
     for argument in _in_order(ctx, callee, given):
         ctx = ctx.with_local(argument.parameter, argument.value)
-    return lower_expression(ctx, body.expression)
+    return ctx.lower(body.expression)
 
 
 def _report_undefined(ctx: LoweringContext, node: CallNode, callee: sym.MethodSymbol) -> None:
@@ -196,10 +179,6 @@ def _report_undefined(ctx: LoweringContext, node: CallNode, callee: sym.MethodSy
     )
 
 
-def _is_undefined(method: sym.MethodSymbol) -> bool:
-    return method.node is None or isinstance(method.node.body, ast.UndefinedBody)
-
-
 def _in_order(
     ctx: LoweringContext, callee: sym.MethodSymbol, given: tuple[ir.Argument, ...]
 ) -> tuple[ir.Argument, ...]:
@@ -209,7 +188,7 @@ def _in_order(
     for parameter in callee.parameters:
         argument = by_name.get(parameter.name)
         if argument is None and parameter.default is not None:
-            value = lower_expression(ctx, parameter.default)
+            value = ctx.lower(parameter.default)
             if value is None:
                 continue
             argument = ir.Argument(
@@ -220,87 +199,12 @@ def _in_order(
     return tuple(ordered)
 
 
-def method_name(method: sym.MethodSymbol) -> str:
-    """Return the name of a type's method as a method of the scenario."""
-    return method.name if method.owner is None else f"{method.owner.name}.{method.name}"
-
-
-def is_pure(ctx: LoweringContext, method: sym.MethodSymbol) -> bool:
-    """Whether a method computes its result from its arguments and from constants alone."""
-    if method not in ctx.purity:
-        ctx.purity[method] = False  # one that calls itself
-        lowered = lower_method(ctx.quiet(), method)
-        ctx.purity[method] = (
-            lowered is not None
-            and lowered.expression is not None
-            and not ir.is_live(lowered.expression)
-        )
-    return ctx.purity[method]
-
-
-def lower_method(
-    ctx: LoweringContext, method: sym.MethodSymbol, comments: tuple[str, ...] = ()
-) -> ir.Method | None:
-    """Lower a method with a body; one of a type takes the object as its first parameter."""
-    node = method.node
-    overriding = overriding_methods(ctx, method)
-    if node is None or (_is_undefined(method) and not overriding):
-        return None
-    parameters = tuple(_parameter(ctx, parameter) for parameter in method.parameters)
-    name = method.name
-    if method.owner is not None and not is_composed(method.owner):
-        name = method_name(method)
-        is_plain = isinstance(method.owner, sym.PrimitiveSymbol)
-        own = ir.MethodParameter(
-            name="value" if is_plain else method.owner.name,
-            type=_type_of(method.owner),
-            default=None,
-        )
-        parameters = (own, *parameters)
-        it = ir.ParameterRef(span=node.span, type=own.type, name=own.name)
-        ctx = ctx.inside(Receiver(method.owner, it))
-    expression, external = None, None
-    if isinstance(node.body, ast.ExternalBody):
-        external = lower_external(ctx, method, node.body)
-    elif isinstance(node.body, ast.ExpressionBody):
-        expression = lower_expression(ctx, node.body.expression)
-    if expression is None and external is None and not _is_undefined(method):
-        return None
-    if overriding and ctx.receiver is not None:
-        expression = dispatched(ctx, ctx.receiver.value, parameters, overriding, expression)
-    return ir.Method(
-        name=name,
-        span=node.span,
-        parameters=parameters,
-        result=None if method.result == types.VOID else lower_type(method.result),
-        expression=expression,
-        external=external,
-        comments=comments,
-    )
-
-
-def _parameter(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.MethodParameter:
-    return ir.MethodParameter(
-        name=parameter.name, type=lower_type(parameter.type), default=_default(ctx, parameter)
-    )
-
-
-def _type_of(owner: sym.TypeSymbol) -> ir.ValueType:
-    match owner:
-        case sym.ActorSymbol():
-            return lower_type(types.ActorType(owner))
-        case sym.PrimitiveSymbol(name=name) if name in types.PRIMITIVES:
-            return lower_type(types.PRIMITIVES[name])
-        case _:
-            return ir.ValueType(ir.Kind.STRUCT, owner.name)
-
-
 def _receiver(
     ctx: LoweringContext, node: CallNode, receiver: ast.Expression | None
 ) -> ir.Expression | None:
     """Return the object of a call; without one it is the object around the call."""
     if receiver is not None:
-        return lower_expression(ctx, receiver)
+        return ctx.lower(receiver)
     if ctx.receiver is not None:
         return ctx.receiver.value
-    return ir.ScenarioSelf(span=node.span, type=SELF)
+    return ir.ScenarioSelf(span=node.span, type=SCENARIO)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TypeVar
 
@@ -44,6 +44,7 @@ class LoweringContext:
         model: The program.
         analysis: What its constraints allow.
         sink: Where complaints go.
+        lower_with: The function that lowers expressions of any kind.
         globals: The global parameters that the scenario uses, in order of use.
         own_names: Names of the members of the scenario.
         event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
@@ -70,6 +71,7 @@ class LoweringContext:
     model: SemanticModel
     analysis: ConstraintAnalysis
     sink: DiagnosticSink
+    lower_with: Callable[[LoweringContext, ast.Expression], ir.Expression | None]
     globals: dict[str, FieldSymbol] = field(default_factory=dict)
     own_names: frozenset[str] = frozenset()
     event_fields: dict[int, str] = field(default_factory=dict)
@@ -91,6 +93,13 @@ class LoweringContext:
     handed_in: frozenset[Symbol] = frozenset()
     computed: frozenset[Symbol] = frozenset()
     object_types: tuple[TypeSymbol, ...] = ()
+
+    def lower(self, node: ast.Expression) -> ir.Expression | None:
+        """Return an expression as the IR has it; `None` if a part of it was refused.
+
+        For modules that `expressions` itself imports.
+        """
+        return self.lower_with(self, node)
 
     def of_scenario(self, own_names: frozenset[str]) -> LoweringContext:
         """Return the context for another scenario of the same program, with such members."""

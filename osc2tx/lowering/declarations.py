@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
-from osc2tx.lowering.calls import lower_method
 from osc2tx.lowering.carla_paths import is_path, path_declarations, path_members
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
@@ -15,6 +14,7 @@ from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.list_constraints import lower_list
 from osc2tx.lowering.map_fields import asks_the_map
+from osc2tx.lowering.methods import lower_method
 from osc2tx.lowering.objects import ObjectLowering, lineage
 from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.triggers import event_parameter, lower_trigger

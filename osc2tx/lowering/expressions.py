@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.calls import lower_call
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.references import lower_key, lower_member, lower_name
+from osc2tx.lowering.type_conversions import lower_cast, lower_type_test
 from osc2tx.lowering.value_types import lower_type, lower_unit
-from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
 
 
@@ -33,8 +33,12 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
             return lower_name(ctx, node, type_)
         case ast.MemberAccess(base=base, name=name):
             return lower_member(ctx, node, base, name, type_)
-        case ast.Call() | ast.Cast() | ast.TypeTest():
-            return _lower_beyond(ctx, node)
+        case ast.Call():
+            return lower_call(ctx, node)
+        case ast.Cast():
+            return lower_cast(ctx, node)
+        case ast.TypeTest():
+            return lower_type_test(ctx, node)
         case ast.Index(base=base, index=index):
             lowered, which = lower_expression(ctx, base), lower_expression(ctx, index)
             if lowered is None or which is None:
@@ -84,47 +88,10 @@ def ordered_range(
     return ir.RangeValue(span=span, type=type_, lower=one, upper=other)
 
 
-def _lower_beyond(
-    ctx: LoweringContext, node: ast.Call | ast.Cast | ast.TypeTest
-) -> ir.Expression | None:
-    """Lower what is made of expressions itself: modules that import this one."""
-    from osc2tx.lowering.calls import lower_call
-    from osc2tx.lowering.type_conversions import lower_cast, lower_type_test
-
-    match node:
-        case ast.Call():
-            return lower_call(ctx, node)
-        case ast.Cast():
-            return lower_cast(ctx, node)
-        case ast.TypeTest():
-            return lower_type_test(ctx, node)
-
-
 def _is_sign(node: ast.Unary, operand: ast.Expression) -> bool:
     """Return whether a minus stands right before a number, so that it belongs to the literal."""
     is_minus = node.operator is ast.UnaryOperator.NEGATE
     return is_minus and operand.span.start == node.span.start + 1
-
-
-def lower_arguments(
-    ctx: LoweringContext, binding: Binding, written: Sequence[ast.Argument]
-) -> tuple[ir.Argument, ...]:
-    """Lower the arguments of a call, each with the parameter it is for."""
-    nodes = {id(argument.value): argument for argument in written}
-    lowered = []
-    for parameter, value in binding.arguments:
-        expression = lower_expression(ctx, value)
-        argument = nodes.get(id(value))
-        if expression is not None:
-            lowered.append(
-                ir.Argument(
-                    parameter=parameter.name,
-                    value=expression,
-                    is_positional=argument is not None and argument.name is None,
-                    span=argument.span if argument else value.span,
-                )
-            )
-    return tuple(lowered)
 
 
 def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | None:

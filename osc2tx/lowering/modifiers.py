@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.dialects import dialect_defaults, set_position
-from osc2tx.lowering.expressions import lower_arguments
 from osc2tx.lowering.shape_arguments import with_shapes
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import types

@@ -11,7 +11,7 @@ from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.global_names import global_name
 from osc2tx.lowering.map_fields import says_the_map
-from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.value_types import SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
@@ -57,8 +57,6 @@ def lower_member(
     type_: ir.ValueType,
 ) -> ir.Expression | None:
     """Lower `base.name`."""
-    from osc2tx.lowering.expressions import lower_expression
-
     event = ctx.event_fields.get(id(ctx.model.symbol_of(base)))
     if event is not None:
         return ir.EventArgument(span=node.span, type=type_, event=event, parameter=name.text)
@@ -72,7 +70,7 @@ def lower_member(
     key = ctx.place.locate(node) if ctx.place is not None else None
     if key is not None and not isinstance(key[0], sym.FieldSymbol):
         return lower_key(ctx, key, node.span)
-    lowered = lower_expression(ctx, base)
+    lowered = ctx.lower(base)
     return None if lowered is None else member_of(ctx, lowered, field, node.span)
 
 
@@ -119,7 +117,7 @@ def member_of(
 def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | None:
     """Return what a path of the analysis stands for; an empty one is the scenario itself."""
     if not key:
-        return ir.ScenarioSelf(span=span, type=ir.ValueType(ir.Kind.STRUCT, "scenario"))
+        return ir.ScenarioSelf(span=span, type=SCENARIO)
     first, *rest = key
     expression: ir.Expression
     if isinstance(first, sym.FieldSymbol):

@@ -61,6 +61,7 @@ def lower(
         model,
         analysis,
         sink,
+        lower_expression,
         types=used,
         actions=actions,
         mentioned=mentioned_fields(model),

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.value_types import SCENARIO
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
@@ -71,7 +72,7 @@ def first_value(modifier: ir.ModifierCall) -> ir.ModifierCall:
     value = ir.MethodCall(
         span=shape.span,
         type=ir.ValueType(ir.Kind.QUANTITY, "speed" if parameter == "speed" else "length"),
-        base=ir.ScenarioSelf(span=shape.span, type=ir.ValueType(ir.Kind.STRUCT, "scenario")),
+        base=ir.ScenarioSelf(span=shape.span, type=SCENARIO),
         owner=shape.kind,
         method=shape.compute,
         arguments=tuple(

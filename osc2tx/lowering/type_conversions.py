@@ -7,21 +7,18 @@ from collections.abc import Iterator
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.references import member_of
-from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.value_types import BOOL, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.syntax import ast
 
-BOOL = ir.ValueType(ir.Kind.BOOL, "bool")
-
 
 def lower_cast(ctx: LoweringContext, node: ast.Cast) -> ir.Expression | None:
     """Lower `.as(T)`."""
-    operand = lower_expression(ctx, node.base)
+    operand = ctx.lower(node.base)
     source, target = ctx.model.type_of(node.base), ctx.model.type_of(node)
     if operand is None:
         return None
@@ -55,7 +52,7 @@ def lower_cast(ctx: LoweringContext, node: ast.Cast) -> ir.Expression | None:
 
 def lower_type_test(ctx: LoweringContext, node: ast.TypeTest) -> ir.Expression | None:
     """Lower `.is(T)`: what is known when compiling, the conditions of `T`, or a test."""
-    operand = lower_expression(ctx, node.base)
+    operand = ctx.lower(node.base)
     given = symbol_of(ctx.model.type_of(node.base))
     wanted = symbol_of(ctx.model.types[node.type])
     if operand is None:
@@ -87,7 +84,7 @@ def _tests(
             yield ir.TypeTest(span=span, type=BOOL, operand=operand, tested=type_.name)
             continue
         field = ctx.model.symbol_of(condition.field)
-        value = lower_expression(ctx, condition.value)
+        value = ctx.lower(condition.value)
         if isinstance(field, sym.FieldSymbol) and value is not None:
             left = member_of(ctx, operand, field, span)
             yield ir.Binary(span=span, type=BOOL, operator="==", left=left, right=value)

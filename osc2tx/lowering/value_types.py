@@ -15,6 +15,10 @@ PRIMITIVE_KINDS = {
 }
 
 
+BOOL = ir.ValueType(ir.Kind.BOOL, "bool")
+SCENARIO = ir.ValueType(ir.Kind.STRUCT, "scenario")
+
+
 def lower_type(type_: types.Type) -> ir.ValueType:
     """Return the IR's view of a type."""
     match type_:
@@ -22,8 +26,8 @@ def lower_type(type_: types.Type) -> ir.ValueType:
             return ir.ValueType(PRIMITIVE_KINDS[name], name)
         case types.PhysicalType():
             return ir.ValueType(ir.Kind.QUANTITY, str(type_))
-        case types.EnumType():
-            return ir.ValueType(ir.Kind.ENUM, str(type_))
+        case types.EnumType(symbol=enum):
+            return ir.ValueType(ir.Kind.ENUM, str(type_), members=_own_members(enum))
         case types.ActorType():
             return ir.ValueType(ir.Kind.ACTOR, str(type_))
         case types.ListType(element=element):
@@ -32,6 +36,16 @@ def lower_type(type_: types.Type) -> ir.ValueType:
             return ir.ValueType(ir.Kind.RANGE, str(type_), lower_type(element))
         case _:
             return ir.ValueType(ir.Kind.STRUCT, str(type_))
+
+
+def _own_members(enum: sym.EnumSymbol) -> tuple[str, ...]:
+    """Return the members of an enum that the library does not have, or not all of them.
+
+    Members of one value are one: the first name stands for it, as in `ir.EnumValue`.
+    """
+    if all(member.origin == "library" for member in enum.members.values()):
+        return ()
+    return tuple({m.value: m.name for m in reversed(enum.members.values())}.values())[::-1]
 
 
 def lower_unit(unit: sym.UnitSymbol) -> ir.Unit:

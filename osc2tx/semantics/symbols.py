@@ -1,7 +1,8 @@
-"""Symbols: the named things of a program.
+"""Symbols, the named things of a program, and the types that refer to them.
 
-The definition pass makes them; the resolution pass fills `type`, `base` and the like. After
-that nobody writes to a symbol any more.
+The definition pass makes symbols; the resolution pass fills `type`, `base` and the like. After
+that nobody writes to a symbol any more. Symbols have types and types have symbols, so both are
+here; `types` has all types.
 """
 
 from __future__ import annotations
@@ -10,7 +11,16 @@ from dataclasses import field
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.semantics.types import DIMENSIONLESS, ERROR, Dimension, Type
+from osc2tx.semantics.basic_types import (
+    DIMENSIONLESS,
+    ERROR,
+    Dimension,
+    ErrorType,
+    EventType,
+    PhysicalType,
+    PrimitiveType,
+    VoidType,
+)
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
@@ -204,3 +214,84 @@ class PrimitiveSymbol(TypeSymbol):
 
 
 MemberOwner: TypeAlias = TypeSymbol
+
+
+@dataclass(frozen=True, slots=True)
+class EnumType:
+    """The type that an enum declaration defines."""
+
+    symbol: EnumSymbol
+
+    def __str__(self) -> str:
+        """The enum's name."""
+        return self.symbol.name
+
+
+@dataclass(frozen=True, slots=True)
+class StructType:
+    """The type that a struct declaration defines."""
+
+    symbol: StructSymbol
+
+    def __str__(self) -> str:
+        """The struct's name."""
+        return self.symbol.name
+
+
+@dataclass(frozen=True, slots=True)
+class ActorType:
+    """The type that an actor declaration defines."""
+
+    symbol: ActorSymbol
+
+    def __str__(self) -> str:
+        """The actor's name."""
+        return self.symbol.name
+
+
+@dataclass(frozen=True, slots=True)
+class BehaviorType:
+    """The type of an invocation of a scenario or action."""
+
+    symbol: ScenarioSymbol | ActionSymbol
+
+    def __str__(self) -> str:
+        """The behavior's name, with its actor."""
+        return self.symbol.qualified_name
+
+
+@dataclass(frozen=True, slots=True)
+class ListType:
+    """`list of T`."""
+
+    element: Type
+
+    def __str__(self) -> str:
+        """As written."""
+        return f"list of {self.element}"
+
+
+@dataclass(frozen=True, slots=True)
+class RangeType:
+    """A range of numeric values; in 2.1 only the type of range expressions."""
+
+    element: Type
+
+    def __str__(self) -> str:
+        """As written."""
+        return f"range of {self.element}"
+
+
+Type: TypeAlias = (
+    PrimitiveType
+    | PhysicalType
+    | EnumType
+    | StructType
+    | ActorType
+    | BehaviorType
+    | ListType
+    | RangeType
+    | EventType
+    | VoidType
+    | ErrorType
+)

@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-from osc2tx import __version__
 from osc2tx.diagnostics import SourceFile
 from osc2tx.support.user_cache import cache_folder, read_own, write_own
 from osc2tx.syntax import ast
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
+from osc2tx.version import __version__
 
 __all__ = ["cache_folder", "load_snapshot", "save_snapshot"]
 

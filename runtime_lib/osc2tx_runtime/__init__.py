@@ -57,7 +57,7 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTrajectorySt,
     Trajectory,
 )
-from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, RoutePoint, XyzPoint
+from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, Rgb, RoutePoint, XyzPoint
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
@@ -92,7 +92,15 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods
-from osc2tx_runtime.language.scenario import Range, Scenario, any_of, at_least, at_most, within
+from osc2tx_runtime.language.scenario import (
+    Range,
+    Scenario,
+    any_of,
+    at_least,
+    at_most,
+    fixed,
+    within,
+)
 from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
@@ -154,6 +162,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "as_type",
     "at_least",
     "at_most",
+    "fixed",
     "inf",
     "within",
     # actors: the cast and its values
@@ -215,6 +224,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "RelativeTrajectoryOdr",
     "RelativeTrajectoryPose3d",
     "RelativeTrajectorySt",
+    "Rgb",
     "RoutePoint",
     "Trajectory",
     "XyzPoint",

@@ -13,6 +13,7 @@ from traceback import extract_tb, format_exception
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.dump import dump_product
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
@@ -75,7 +76,7 @@ def is_built(text: str, options: CompileOptions) -> bool:
 def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
     compilation = Compilation(path, path.name, options)
     for product in PRODUCT_NAMES:
-        compilation.dump(product)
+        dump_product(compilation, product)
     diagnostics = compilation.diagnostics
     render_all(diagnostics, color=False, folder=path.parent)
     for diagnostic in diagnostics:

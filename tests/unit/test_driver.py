@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.diagnostics import SourceFile
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
@@ -46,7 +47,7 @@ def codes(compilation: Compilation) -> list[str]:
 
 def test_every_product_can_be_printed(tmp_path: Path) -> None:
     compilation = compile_file(drive(tmp_path / "a.osc"))
-    texts = {name: compilation.dump(name) for name in PRODUCT_NAMES}
+    texts = {name: dump_product(compilation, name) for name in PRODUCT_NAMES}
     assert not compilation.diagnostics
     assert all(text and "top" in text for text in texts.values())
     assert "class Top(Scenario):" in str(texts["py"])
@@ -70,7 +71,7 @@ def test_errors_of_meaning_stop_before_the_ir(tmp_path: Path) -> None:
     compilation = compile_file(write(tmp_path / "a.osc", "scenario top:\n  x: unknown\n"))
     assert compilation.model is not None
     assert compilation.ir is None
-    assert compilation.dump("py") is None
+    assert dump_product(compilation, "py") is None
     assert codes(compilation) == ["OSC202"]
 
 

@@ -11,7 +11,12 @@ from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.own_types import write_types
-from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, API_LEVEL, STRUCT_CLASSES
+from osc2tx.backends.py_trees.runtime_api import (
+    ACTOR_CLASSES,
+    API_LEVEL,
+    STRUCT_CLASSES,
+    runtime_support,
+)
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
@@ -35,6 +40,7 @@ RUNTIME_CLASSES = frozenset(
         "OwnShape",
         "Parallel",
         "Range",
+        "Rgb",
     }
     | {"Any", "Scenario", "Serial", "Unit", "Until", "Wait"}
 )
@@ -64,7 +70,7 @@ class GeneratedModule:
 def emit(module: ir.Module) -> GeneratedModule:
     """Write the module for one source file with at least one scenario."""
     uses = Uses()
-    classes = NameTable(RUNTIME_CLASSES)
+    classes = NameTable(RUNTIME_CLASSES | runtime_support().enums)
     for scenario in module.scenarios:
         plain = scenario.name.rpartition(".")[2]
         classes.add(scenario.key, class_name(plain), "Scenario")
@@ -79,6 +85,7 @@ def emit(module: ir.Module) -> GeneratedModule:
         imports=uses.imports(),
         api_level=API_LEVEL,
         units=uses.units(),
+        enums=uses.enums(),
         scenarios=scenarios,
         mains=tuple(classes[scenario.key] for scenario in own_scenarios(module)),
         shown=classes[shown_scenario(module).key],

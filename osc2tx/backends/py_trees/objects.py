@@ -9,7 +9,12 @@ from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import name_expression
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.list_elements import write_elements
-from osc2tx.backends.py_trees.runtime_api import constructor_path, list_element, nested_object
+from osc2tx.backends.py_trees.runtime_api import (
+    constructor_path,
+    list_element,
+    nested_object,
+    text_class,
+)
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
 
@@ -41,10 +46,7 @@ class ObjectWriter:
                 write = self._expressions.write
                 arguments[first] = write_elements(class_of_it, inside, write)
             elif inner is None or len(value.path) == 1:
-                arguments[".".join(value.path)] = ArgumentView(
-                    code=self._expressions.write(value.value),
-                    comments=comments(value.comments),
-                )
+                arguments[".".join(value.path)] = self._plain(lineage, value)
             elif first not in arguments:
                 below = tuple(replace(v, path=v.path[1:]) for v in keyed if v.path[0] == first)
                 arguments[first] = self.write(inner, below)
@@ -57,6 +59,16 @@ class ObjectWriter:
         )
         class_ = name_expression(self._types.class_of(lineage))
         return ArgumentView(call=CallView(class_, tuple(written)))
+
+    def _plain(self, lineage: tuple[str, ...], value: ir.FieldValue) -> ArgumentView:
+        """Write a value that no constructor makes, or one that says what sort of text it is."""
+        written = self._expressions.write(value.value)
+        above = comments(value.comments)
+        class_ = text_class(lineage, value.path[0])
+        if class_ is None or value.value.type.kind is not ir.Kind.STRING:
+            return ArgumentView(code=written, comments=above)
+        callee = name_expression(self._types.runtime_class(class_))
+        return ArgumentView(call=CallView(callee, (ArgumentView(code=written),)), comments=above)
 
     def _member_lineage(self, lineage: tuple[str, ...], member: str) -> tuple[str, ...] | None:
         """Return the types of a member that is an object itself; `None` if it is none."""

@@ -129,6 +129,9 @@ NESTED_OBJECTS: Mapping[tuple[str, str], str] = {
     ("xyz_point", "position"): "position_3d",
 }
 
+# Members that are texts in a dialect and enums elsewhere, with the class of such texts.
+TEXTS: Mapping[tuple[str, str], str] = {("physical_object", "color"): "Rgb"}
+
 # Lists of which a constructor takes single elements, `axles={0: Axle(…)}`, with the types of these;
 # `None` for plain values.
 LIST_ELEMENTS: Mapping[tuple[str, str], str | None] = {
@@ -138,8 +141,7 @@ LIST_ELEMENTS: Mapping[tuple[str, str], str | None] = {
 
 # Python types of plain values, by what sort of value they are.
 ANNOTATIONS = {"bool": "bool", "int": "int", "float": "float", "quantity": "float"} | {
-    "enum": "str",
-    "string": "str",
+    "string": "str"
 }
 
 
@@ -153,6 +155,12 @@ def nested_object(lineage: Sequence[str], member: str) -> str | None:
     """Return the type of a member that is a value of a struct of the library."""
     found = (NESTED_OBJECTS.get((type_, member)) for type_ in lineage)
     return next((type_ for type_ in found if type_ is not None), None)
+
+
+def text_class(lineage: Sequence[str], member: str) -> str | None:
+    """Return the class of the runtime for a text where the library has an enum."""
+    found = (TEXTS.get((type_, member)) for type_ in lineage)
+    return next((name for name in found if name is not None), None)
 
 
 def list_element(lineage: Sequence[str], member: str) -> tuple[str, ...] | None:
@@ -251,6 +259,7 @@ class RuntimeSupport:
         shapes: Modifiers to the base of the shapes that they take.
         rules: Modifier or action to which of its arguments go together.
         reserved: What actors of the runtime have besides actions.
+        enums: Names of the types of the library's enums.
     """
 
     actions: Mapping[str, ActionSupport]
@@ -272,6 +281,7 @@ class RuntimeSupport:
     shapes: Mapping[str, str]
     rules: Mapping[str, tuple[ArgumentRule, ...]]
     reserved: frozenset[str]
+    enums: frozenset[str]
 
 
 @cache
@@ -317,6 +327,7 @@ def runtime_support() -> RuntimeSupport:
             for name, rules in table["rules"].items()
         },
         reserved=frozenset(table["reserved"]),
+        enums=frozenset(table["enums"]),
     )
 
 

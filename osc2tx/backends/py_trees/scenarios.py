@@ -131,7 +131,15 @@ class ScenarioWriter:
             value=self._declared_value(declaration),
             comments=comments(lines),
             blank_before=bool(lines) and not is_first,
+            annotation=self._declared_type(declaration),
         )
+
+    def _declared_type(self, declaration: ir.Declaration) -> PyExpr | None:
+        """Write the type of a value that alone does not show it: Python takes a member for text."""
+        if not isinstance(declaration, ir.Parameter | ir.Variable):
+            return None
+        is_enum = (declaration.type.element or declaration.type).kind is ir.Kind.ENUM
+        return self._types.annotation(declaration.type) if is_enum else None
 
     def _constraints(self) -> tuple[StatementView, ...]:
         """Write what must hold between the values, below them."""
@@ -203,7 +211,7 @@ class ScenarioWriter:
         writer = self._calls.expressions
         initial = [code(writer.write(v)) for v in (variable.value,) if v is not None]
         if variable.sample is None:
-            return initial[0]  # the verifier saw to it that there is one
+            return self._fixed(variable.type, initial[0])  # the verifier saw that there is one
         what = code(writer.late(writer.write(variable.sample.expression)))
         when, *condition = self._calls.trigger(variable.sample.trigger)
         only_if = (replace(part, keyword=PyName("condition")) for part in condition)
@@ -226,7 +234,7 @@ class ScenarioWriter:
         """Write a constant as its value, anything else so that `--set` can reach it."""
         write = self._calls.expressions.write
         if parameter.value is not None and self._is_constant(parameter):
-            return code(write(parameter.value))
+            return self._fixed(parameter.type, code(write(parameter.value)))
         if parameter.value is not None and parameter.type.element is not None:
             name, value = code(literal(parameter.name)), code(write(parameter.value))
             return ArgumentView(call=CallView(_self("argument"), (name, value)))
@@ -242,6 +250,12 @@ class ScenarioWriter:
             arguments.append(code(self._types.annotation(parameter.type)))
         arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
         return ArgumentView(call=CallView(_self(method), tuple(arguments)))
+
+    def _fixed(self, type_: ir.ValueType, value: ArgumentView) -> ArgumentView:
+        """Write a constant; that of an enum so that it may be compared with other members."""
+        if type_.kind is not ir.Kind.ENUM:
+            return value
+        return ArgumentView(call=self._calls.runtime_call("fixed", value))
 
     def _externals(self) -> tuple[StatementView, ...]:
         """Write the methods that are code of the user: the runtime asks whether they may run."""

@@ -79,7 +79,8 @@ class _SupportCheck:
         if type_.element is not None:
             return self.is_known(type_.element)
         known = (ANNOTATIONS, ACTOR_CLASSES, STRUCT_CLASSES, self.own)
-        return type_.kind.value in ANNOTATIONS or any(type_.name in names for names in known)
+        is_plain = type_.kind is ir.Kind.ENUM or type_.kind.value in ANNOTATIONS
+        return is_plain or any(type_.name in names for names in known)
 
     def method(self, method: ir.Method) -> None:
         for type_ in (method.result, *(parameter.type for parameter in method.parameters)):

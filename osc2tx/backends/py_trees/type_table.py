@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, name_expression
-from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
@@ -49,6 +49,10 @@ class TypeTable:
             return self._classes[class_key(lineage[0])]
         return self._uses.name(next(CLASSES[name] for name in lineage if name in CLASSES))
 
+    def runtime_class(self, name: str) -> PyName:
+        """Name a class of the runtime."""
+        return self._uses.name(name)
+
     def base_of(self, own: ir.OwnType) -> PyName | None:
         """Name the base class of an own type; an actor of no special kind is an `Actor`."""
         if own.is_actor and own.base in (None, ROOT):
@@ -81,11 +85,23 @@ class TypeTable:
             is_list = type_.kind is ir.Kind.LIST
             outer = "list" if is_list else str(self._uses.name("Range"))
             return PyExpr(f"{outer}[{self.annotation(type_.element, later)}]", Level.ATOM)
+        if type_.kind is ir.Kind.ENUM:
+            return name_expression(self._uses.enum(type_, self._enum_name(type_)))
         plain = ANNOTATIONS.get(type_.kind.value)
         if plain is not None:
             return name_expression(PyName(plain))
         name = self.class_of((type_.name,))
         return literal(str(name)) if type_.name in later else name_expression(name)
+
+    def _enum_name(self, type_: ir.ValueType) -> PyName:
+        """Name an enum: as the runtime does, or as is free in the module."""
+        wanted = class_name(type_.name)
+        if not type_.members:
+            return PyName(wanted)
+        key = f"enum {type_.name}: {', '.join(type_.members)}"
+        if key not in self._classes:
+            self._classes.add(key, wanted, "Enum")
+        return self._classes[key]
 
     def field(self, lineage: Sequence[str], name: str) -> ir.OwnField | None:
         """Return a field that an own type of a lineage declares."""
@@ -112,7 +128,9 @@ class TypeTable:
 def _seen_by_classes(own: Sequence[ir.OwnType]) -> Iterator[str]:
     """Yield the names that annotations and defaults in classes of structs use."""
     yield from {*ANNOTATIONS.values(), "list", "dataclass", *CLASSES.values(), "Range"}
-    defaults = (field.default for type_ in own for field in type_.fields)
+    fields = [field for type_ in own for field in type_.fields]
+    yield from (class_name(f.type.name) for f in fields if f.type.kind is ir.Kind.ENUM)
+    defaults = (field.default for field in fields)
     for part in (part for default in defaults if default is not None for part in ir.walk(default)):
         if isinstance(part, ir.Quantity):
             yield identifier(part.unit.name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import PyName, literal
 from osc2tx.backends.py_trees.naming import identifier
-from osc2tx.backends.py_trees.view import ImportView, UnitView
+from osc2tx.backends.py_trees.view import EnumView, ImportView, UnitView
 
 RUNTIME = "osc2tx_runtime"
 
@@ -20,6 +20,8 @@ class Uses:
         self._standard: dict[str, set[str]] = {}
         self._standard_units: set[str] = set()
         self._own_units: dict[str, ir.Unit] = {}
+        self._standard_enums: set[str] = set()
+        self._own_enums: dict[str, ir.ValueType] = {}
 
     def name(self, name: str) -> PyName:
         """Use a public name of the runtime library."""
@@ -44,6 +46,16 @@ class Uses:
             self._own_units[name.text] = unit
         return name
 
+    def enum(self, type_: ir.ValueType, name: PyName) -> PyName:
+        """Use an enum by a name: the runtime's type, or one that the module defines itself."""
+        if type_.members:
+            self._own_enums[name.text] = type_
+            self.standard("typing", "Literal")
+            self.standard("typing", "TypeAlias")
+        else:
+            self._standard_enums.add(name.text)
+        return name
+
     def standard_imports(self) -> tuple[ImportView, ...]:
         """Return the import lines for Python's standard library."""
         return tuple(
@@ -55,6 +67,7 @@ class Uses:
         """Return the import lines, sorted as isort sorts them."""
         groups = (
             (RUNTIME, self._names),
+            (f"{RUNTIME}.enums", self._standard_enums),
             (f"{RUNTIME}.modifiers", self._modifiers),
             (f"{RUNTIME}.units", self._standard_units),
         )
@@ -69,6 +82,13 @@ class Uses:
         return tuple(
             UnitView(PyName(name), literal(unit.factor))
             for name, unit in sorted(self._own_units.items())
+        )
+
+    def enums(self) -> tuple[EnumView, ...]:
+        """Return the enums that the module defines, by name."""
+        return tuple(
+            EnumView(PyName(name), tuple(literal(member) for member in type_.members))
+            for name, type_ in sorted(self._own_enums.items())
         )
 
 

@@ -32,12 +32,13 @@ class CallView:
 
 @dataclass(frozen=True, slots=True)
 class StatementView:
-    """`target = value`, or the value alone."""
+    """`target: annotation = value`, or the value alone."""
 
     target: PyExpr | None
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
     blank_before: bool = False
+    annotation: PyExpr | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +96,14 @@ class UnitView:
 
 
 @dataclass(frozen=True, slots=True)
+class EnumView:
+    """An enum that the scenario's own files declare or extend, as a type of the module."""
+
+    name: PyName
+    members: tuple[PyExpr, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class FieldView:
     """A field of a class."""
 
@@ -148,6 +157,7 @@ class ModuleView:
         imports: What it takes from the runtime.
         api_level: Level of the runtime it is made for.
         units: Units it defines.
+        enums: Enums it defines.
         standard_imports: What it takes from Python's standard library.
         types: Classes for the types of its objects.
         scenarios: Its classes.
@@ -159,6 +169,7 @@ class ModuleView:
     imports: tuple[ImportView, ...]
     api_level: int
     units: tuple[UnitView, ...]
+    enums: tuple[EnumView, ...]
     scenarios: tuple[ScenarioView, ...]
     mains: tuple[PyName, ...]
     shown: PyName

@@ -10,6 +10,7 @@ import inspect
 from collections.abc import Callable, Sequence
 from typing import Any, get_args, get_type_hints
 
+from osc2tx_runtime import enums
 from osc2tx_runtime.domain.actions.combinations import (
     CONFLICTS,
     CONTRADICTIONS,
@@ -43,9 +44,10 @@ def capabilities() -> dict[str, Any]:
         `physical_object.object_distance` to parameters; `fields`: name to type; `exclusive`: groups
         of modifiers of which an action takes one;
         `objects`: actor or value type to what its constructor takes; `needed`: what it cannot do
-        without; `reserved`: what actors have besides actions; `rules`: which arguments of a
-        modifier or action go together, as written in `argument_rules`; `unknown`: members of actors
-        that only the scenario can say; `conflicts`: modifiers to those that they leave no room for;
+        without; `reserved`: what actors have besides actions; `enums`: types of the library's
+        enums; `rules`: which arguments of a modifier or action go together, as written in
+        `argument_rules`; `unknown`: members of actors that only the scenario can say;
+        `conflicts`: modifiers to those that they leave no room for;
         `no_start`: modifiers that say nothing of a start; `on_lanes`: those for actors that follow
         lanes, which are `lane_bound`; `sorts` of modifiers, under which `conflicts` lists them as
         well; `contradictions`: pairs of an argument and its value; `shapes`: modifiers to the base
@@ -66,6 +68,7 @@ def capabilities() -> dict[str, Any]:
         "asked": {name: _mandatory(MODIFIERS[name]) for name in sorted(MODIFIERS)},
         "unknown": sorted(UNKNOWN),
         "reserved": sorted(_members()),
+        "enums": sorted(enums.__all__),
         "conflicts": {
             name: [kind.name for kind in kinds] for name, kinds in sorted(CONFLICTS.items())
         },

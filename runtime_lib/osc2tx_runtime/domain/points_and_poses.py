@@ -19,10 +19,17 @@ __all__ = [
     "Orientation",
     "Point",
     "Pose",
+    "Rgb",
     "RoadRoute",
     "RoutePoint",
     "XyzPoint",
 ]
+
+
+class Rgb(str):
+    """A colour as red, green and blue from 0 to 255: `0,128,0`."""
+
+    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,13 +13,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
 from osc2tx_runtime.world.function_profiles import Computed
 from osc2tx_runtime.world.profiles import (
     QUINTIC_PEAK,
     Cosine,
-    DynamicProfile,
     Linear,
     Profile,
     Quintic,

@@ -23,7 +23,7 @@ from osc2tx_runtime.language.tree.invocation import (
     unique_name,
 )
 from osc2tx_runtime.language.tree.override import Mode
-from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, within
+from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
 from osc2tx_runtime.language.tree.variables import MISSING, Sampled
 from osc2tx_runtime.running.settings import RunSettings, near
 from osc2tx_runtime.running.sidecar import read_source_map
@@ -38,6 +38,7 @@ __all__ = [
     "any_of",
     "at_least",
     "at_most",
+    "fixed",
     "within",
 ]
 

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal
+
+from osc2tx_runtime.enums import SideLeftRight
 
 from .crosswalks import Crosswalk
 from .lane_advance import Forks, advance
@@ -174,7 +175,7 @@ class RoadMap:
         return tuple(ids if direction > 0 else reversed(ids))
 
     def neighbour(
-        self, p: LanePosition, side: Literal["left", "right"], count: int = 1
+        self, p: LanePosition, side: SideLeftRight, count: int = 1
     ) -> LanePosition | None:
         """Place beside `p`, `count` drivable lanes of the same direction away; None if absent.
 

@@ -8,6 +8,9 @@ and wheelbases are not published there; they are typical shares of the length (`
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
+
+from osc2tx_runtime.enums import VehicleCategory
 
 __all__ = [
     "CATEGORIES",
@@ -21,6 +24,7 @@ __all__ = [
     "VEHICLE_CATEGORIES",
     "Limits",
     "Shape",
+    "category_of",
     "limits_of",
     "shape_of",
 ]
@@ -173,6 +177,11 @@ MODELS: dict[str, tuple[str, float, float, float]] = {
     "vehicle.volkswagen.t2": ("van", 4.48, 2.07, 2.04),
     "static.prop.trafficwarning": ("stationary_object", 2.37, 2.87, 3.57),
 }
+
+
+def category_of(model: str | None) -> VehicleCategory | None:
+    """The category of a model of a vehicle; None if the model is not known."""
+    return cast(VehicleCategory, MODELS[model][0]) if model in MODELS else None
 
 
 def _category(kind: str, category: str | None, model: str | None) -> str:

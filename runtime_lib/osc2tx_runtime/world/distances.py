@@ -7,8 +7,8 @@ above) the caller. Gaps are positive if the caller is ahead (left), headways if 
 from __future__ import annotations
 
 import math
-from typing import Literal
 
+from osc2tx_runtime.enums import DistanceDirection, DistanceMode
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 
@@ -17,9 +17,6 @@ from .collision import Box, box_of, contact_interval
 from .state import ActorState
 
 __all__ = [
-    "DistanceDirection",
-    "DistanceMode",
-    "RoadDirection",
     "along_lanes",
     "gap_between",
     "headway_between",
@@ -29,10 +26,6 @@ __all__ = [
     "time_to_collision",
     "time_to_cover",
 ]
-
-DistanceDirection = Literal["longitudinal", "lateral", "vertical", "euclidean"]
-DistanceMode = Literal["reference_points", "bounding_boxes"]
-RoadDirection = Literal["longitudinal", "lateral"]
 
 
 # --- in the axes of an object ------------------------------------------------------------------

@@ -8,8 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+from osc2tx_runtime.enums import DynamicProfile
+
 from .actor_dimensions import COMFORT
-from .profiles import DynamicProfile, Linear, Profile, Quintic
+from .profiles import Linear, Profile, Quintic
 
 __all__ = ["Computed", "Mapped", "Peaks", "change_profile", "turns_back"]
 

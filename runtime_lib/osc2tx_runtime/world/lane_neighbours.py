@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
 
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 
@@ -17,11 +17,9 @@ __all__ = [
     "offset_from",
 ]
 
-Side = Literal["left", "right"]
-
 
 def lane_with_number(
-    road_map: RoadMap, place: LanePosition, number: int, edge: Side
+    road_map: RoadMap, place: LanePosition, number: int, edge: SideLeftRight
 ) -> LanePosition | None:
     """Centre of the lane with a number (1: outermost on `edge`), at the height of `place`."""
     lanes = road_map.lanes(place.road, place.s, like=place.lane)
@@ -31,7 +29,7 @@ def lane_with_number(
     return LanePosition(place.road, lane, place.s)
 
 
-def number_of_lane(road_map: RoadMap, place: LanePosition, edge: Side) -> int:
+def number_of_lane(road_map: RoadMap, place: LanePosition, edge: SideLeftRight) -> int:
     """Number of the lane of `place`, counted from `edge`; 0 if it is no driving lane."""
     lanes = road_map.lanes(place.road, place.s, like=place.lane)
     if place.lane not in lanes:

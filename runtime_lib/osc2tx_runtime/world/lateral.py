@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
@@ -28,7 +29,7 @@ from .commands import (
 from .lane_neighbours import neighbouring, offset_from
 from .lateral_feedback import BesideRun, SidewaysRun
 from .lateral_limits import HEADING_LIMIT, SIDEWAYS
-from .profiles import DynamicProfile, Linear, Profile, Quintic, quintic_duration
+from .profiles import Linear, Profile, Quintic, quintic_duration
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 from .step_inputs import Senses

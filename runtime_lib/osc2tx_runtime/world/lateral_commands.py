@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.opendrive import LanePosition
 
 from .command import Command
 from .curve import Curve
-from .profiles import DynamicProfile, Profile
+from .profiles import Profile
 
 __all__ = [
     "Beside",

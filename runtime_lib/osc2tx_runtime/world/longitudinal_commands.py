@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_runtime.enums import DynamicProfile
+
 from .command import Command
 from .curve import Curve
-from .profiles import DynamicProfile, Profile
+from .profiles import Profile
 
 __all__ = [
     "Accelerate",

@@ -19,12 +19,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Protocol, get_args
+
+from osc2tx_runtime.enums import DynamicProfile
 
 __all__ = [
     "PROFILES",
     "Cosine",
-    "DynamicProfile",
     "Linear",
     "Profile",
     "Quintic",
@@ -33,8 +34,7 @@ __all__ = [
     "quintic_duration",
 ]
 
-DynamicProfile = Literal["none", "constant", "smooth", "asap"]
-PROFILES: tuple[DynamicProfile, ...] = ("none", "constant", "smooth", "asap")
+PROFILES: tuple[DynamicProfile, ...] = get_args(DynamicProfile)
 
 COSINE_PEAK = math.pi / 2.0  # peak rate of half a cosine, in units of change / duration
 QUINTIC_PEAK = 1.875  # peak rate of the quintic, in units of change / duration

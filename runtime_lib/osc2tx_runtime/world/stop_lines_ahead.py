@@ -6,18 +6,18 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
 
+from osc2tx_runtime.enums import SemanticTrafficLightState
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route, SignalPlace, signal_places
 from osc2tx_runtime.opendrive.lane_line import lane_line
 
-from .traffic_light_lamps import Meaning
 from .traffic_light_states import LaneLines, Signals
 
 __all__ = ["StopLine", "StopLines"]
 
-STOP: frozenset[Meaning] = frozenset({"stop", "attention"})
+STOP: frozenset[SemanticTrafficLightState] = frozenset({"stop", "attention"})
 """What forbids to pass."""
 
-STOP_IF_POSSIBLE: frozenset[Meaning] = frozenset({"stop_attention"})
+STOP_IF_POSSIBLE: frozenset[SemanticTrafficLightState] = frozenset({"stop_attention"})
 """What forbids to pass for those who can still stop comfortably."""
 
 _STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one

@@ -7,23 +7,16 @@ lamps of a box itself (`traffic_light.bulbs`).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
+
+from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 
 __all__ = [
     "BOXES",
     "MEANINGS",
-    "BulbColor",
-    "BulbState",
     "Lamp",
-    "Meaning",
     "lamps_that_mean",
     "meaning_of",
-]
-
-BulbColor = Literal["unknown", "red", "yellow", "green", "blue", "white"]
-BulbState = Literal["unknown", "is_off", "is_on", "is_flashing"]
-Meaning = Literal[
-    "off", "stop", "attention", "caution", "stop_attention", "go", "go_exclusive", "non_functional"
 ]
 
 
@@ -36,7 +29,7 @@ class Lamp(NamedTuple):
     """
 
     color: BulbColor
-    icon: str
+    icon: BulbIcon
 
     @property
     def is_arrow(self) -> bool:
@@ -57,7 +50,9 @@ BOXES: Mapping[str, tuple[Lamp, ...]] = {
 
 # Meaning -> color, whether the lamp must (not) be an arrow, and how it is lit; what is not named
 # is off. The order decides where two meanings light the same lamps.
-MEANINGS: Mapping[Meaning, tuple[tuple[BulbColor, bool | None, BulbState], ...]] = {
+MEANINGS: Mapping[
+    SemanticTrafficLightState, tuple[tuple[BulbColor, bool | None, BulbState], ...]
+] = {
     "off": (),
     "stop": (("red", None, "is_on"),),
     "attention": (("red", None, "is_on"), ("yellow", None, "is_on")),
@@ -69,7 +64,9 @@ MEANINGS: Mapping[Meaning, tuple[tuple[BulbColor, bool | None, BulbState], ...]]
 """How a box says what (the lights of most of Europe)."""
 
 
-def lamps_that_mean(lamps: Sequence[Lamp], meaning: Meaning) -> tuple[BulbState, ...] | None:
+def lamps_that_mean(
+    lamps: Sequence[Lamp], meaning: SemanticTrafficLightState
+) -> tuple[BulbState, ...] | None:
     """States of the lamps for a meaning; None if the box has no lamps for it."""
     broken = meaning == "non_functional"
     states: list[BulbState] = ["unknown" if broken else "is_off" for _ in lamps]
@@ -86,7 +83,7 @@ def lamps_that_mean(lamps: Sequence[Lamp], meaning: Meaning) -> tuple[BulbState,
     return tuple(states)
 
 
-def meaning_of(lamps: Sequence[Lamp], states: Sequence[BulbState]) -> Meaning:
+def meaning_of(lamps: Sequence[Lamp], states: Sequence[BulbState]) -> SemanticTrafficLightState:
     """What a box says; `non_functional` where no rule of traffic covers what it shows."""
     shown = tuple(states)
     for meaning in MEANINGS:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Controller, RoadMap, SignalPlace
 
-from .traffic_light_lamps import BOXES, BulbState, Lamp, Meaning, meaning_of
+from .traffic_light_lamps import BOXES, Lamp, meaning_of
 
 __all__ = ["Signals"]
 
@@ -125,7 +126,7 @@ class Signals:
         """States that the lamps have or will have at the next step."""
         return self._next.get(signal) or self.states(signal)
 
-    def meaning(self, signal: str) -> Meaning:
+    def meaning(self, signal: str) -> SemanticTrafficLightState:
         """What the light says at the present step."""
         return meaning_of(self.lamps(signal), self.states(signal))
 

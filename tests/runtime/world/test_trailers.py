@@ -21,6 +21,7 @@ from osc2tx_runtime import (
 from osc2tx_runtime.domain.actors import Point, Pose, Trailer
 from osc2tx_runtime.domain.modifiers import lane, position, speed, tow_trailer
 from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import ScenarioError
 from tests.runtime.world.two_cars import TwoCars
 
@@ -147,13 +148,13 @@ class Hitches(Towing):
     [
         ("ball", "ball", True),
         ("none", "pintle", True),
-        ("ball", "", True),
+        ("ball", None, True),
         ("ball", "pintle", False),
     ],
     ids=["same", "receiver not said", "coupler not said", "different"],
 )
 def test_halves_of_a_hitch_must_be_of_one_type(
-    run: Run, receives: str, couples: str, fits: bool
+    run: Run, receives: str, couples: HitchType | None, fits: bool
 ) -> None:
     class Made(Hitches):
         receiver, coupler = HitchReceiver(receives), HitchCoupler(couples)

@@ -2,11 +2,13 @@
 
 import runpy
 from pathlib import Path
+from typing import get_args
 
 import osc2tx_runtime
 import osc2tx_runtime.domain.modifiers
+import osc2tx_runtime.enums
 import osc2tx_runtime.units
-from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, identifier
+from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     API_LEVEL,
@@ -16,7 +18,7 @@ from osc2tx.backends.py_trees.runtime_api import (
     runtime_support,
 )
 from osc2tx.semantics.library import shared_library
-from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol, StructSymbol
+from osc2tx.semantics.symbols import ActorSymbol, EnumSymbol, FieldSymbol, StructSymbol
 from osc2tx.semantics.types import StructType
 from osc2tx_runtime.domain.capabilities import capabilities
 
@@ -26,6 +28,21 @@ REPOSITORY = Path(__file__).parent.parent.parent.parent
 def test_the_table_is_fresh() -> None:
     tool = runpy.run_path(str(REPOSITORY / "tools" / "make_runtime_api.py"))
     assert tool["TABLE"].read_text(encoding="utf-8") == tool["render"]()
+
+
+def test_the_enums_are_fresh() -> None:
+    tool = runpy.run_path(str(REPOSITORY / "tools" / "make_enums.py"))
+    assert tool["TARGET"].read_text(encoding="utf-8") == tool["render"]()
+
+
+def test_enums_have_the_members_of_the_library() -> None:
+    for standard in ("2.1", "2.2"):
+        scope = shared_library(standard, "asam", "all").scope
+        symbols = [s for group in scope.types.values() for s in group if isinstance(s, EnumSymbol)]
+        assert {class_name(symbol.name) for symbol in symbols} <= set(osc2tx_runtime.enums.__all__)
+        for symbol in symbols:
+            alias = getattr(osc2tx_runtime.enums, class_name(symbol.name))
+            assert set(symbol.members) <= set(get_args(alias))
 
 
 def test_level_and_classes_exist() -> None:

@@ -10,10 +10,11 @@ from itertools import pairwise
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import modified
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.points_and_lines import Line, line_of, line_of_way, relative_line
 from osc2tx.backends.xosc.actions.registry import action, modifier
-from osc2tx.backends.xosc.actions.routes import assign_route, line_of_way
+from osc2tx.backends.xosc.actions.routes import assign_route
 from osc2tx.backends.xosc.actions.speed_modifiers import may_jump
-from osc2tx.backends.xosc.actions.xml_positions import Line, at_place, line_of, relative_line
+from osc2tx.backends.xosc.actions.xml_positions import at_place
 from osc2tx.backends.xosc.entities.declared_roads import stretch_of
 from osc2tx.backends.xosc.facts.curves import Waypoint, drawn
 from osc2tx.backends.xosc.facts.map_search import Stretch, crossing_of

@@ -8,13 +8,13 @@ from dataclasses import replace
 from osc2tx.backends.xosc.actions.apply_modifiers import modified
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.paths import follow
+from osc2tx.backends.xosc.actions.points_and_lines import spot_of
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.actions.xml_positions import (
     REACHED,
     Spot,
     at_place,
-    spot_of,
     world_position,
 )
 from osc2tx.backends.xosc.entities.cast import CastMember

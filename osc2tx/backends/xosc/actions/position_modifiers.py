@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.gaps import Gap, hold
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
+from osc2tx.backends.xosc.actions.points_and_lines import spot_of
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
-from osc2tx.backends.xosc.actions.xml_positions import REACHED, at_place, spot_of
+from osc2tx.backends.xosc.actions.xml_positions import REACHED, at_place
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import Linear
 from osc2tx.backends.xosc.report import Inexpressible

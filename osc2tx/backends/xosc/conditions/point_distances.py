@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.xml_positions import spot_of
+from osc2tx.backends.xosc.actions.points_and_lines import spot_of
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible

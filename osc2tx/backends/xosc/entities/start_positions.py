@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.lateral_offsets import offset_in_lane
 from osc2tx.backends.xosc.actions.leaf import Arguments
-from osc2tx.backends.xosc.actions.routes import start_of_way
+from osc2tx.backends.xosc.actions.points_and_lines import start_of_way
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import required_roads

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.world.acceleration import acceleration_profile
 from osc2tx_runtime.world.actor_dimensions import (
     CATEGORIES,
@@ -25,14 +26,7 @@ from osc2tx_runtime.world.commands import AccelerationChange, SpeedChange
 from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.longitudinal import speed_profile
-from osc2tx_runtime.world.profiles import (
-    Cosine,
-    DynamicProfile,
-    Linear,
-    Profile,
-    Quintic,
-    SCurve,
-)
+from osc2tx_runtime.world.profiles import Cosine, Linear, Profile, Quintic, SCurve
 from osc2tx_runtime.world.towing import DRAWBAR
 from osc2tx_runtime.world.weather_effects import Surroundings
 

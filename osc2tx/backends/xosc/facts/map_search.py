@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.modifiers.map_files import MAP_MODIFIERS, MapModifier
-from osc2tx_runtime.domain.paths.path_values import ConnectPointsBy
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
@@ -28,6 +27,7 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import (
     RoadPart,
     Route,
 )
+from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.tree.parameters import Range
 
@@ -172,7 +172,9 @@ def way_of_route(
         Inexpressible: There is no such way.
     """
     parts = [_element(each) for each in elements]
-    kind: ConnectPointsBy | None = next((known for known in CONNECT if known == connect_by), None)
+    kind: ConnectRoutePoints | None = next(
+        (known for known in CONNECT if known == connect_by), None
+    )
     if kind is None:
         raise Inexpressible(f"`{connect_by}` is nothing that points can stand for")
     try:
@@ -182,7 +184,7 @@ def way_of_route(
     return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in poses)
 
 
-CONNECT: tuple[ConnectPointsBy, ...] = ("road", "lane_section", "lane", "crossing", "waypoint")
+CONNECT: tuple[ConnectRoutePoints, ...] = get_args(ConnectRoutePoints)
 
 
 def _element(

@@ -11,6 +11,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 
+from osc2tx.backends.xosc.xml.numbers import number_text
 from osc2tx.diagnostics import InternalCompilerError
 
 LONGEST = 160
@@ -123,8 +124,6 @@ def _joined(
 def _operand(value: float, binding: int, is_strict: bool) -> str:
     """Return the text of an operand, in brackets where the operator binds more tightly."""
     if not isinstance(value, Symbol):
-        from osc2tx.backends.xosc.xml.tree import number_text
-
         text = number_text(float(value))
         return f"({text})" if text.startswith("-") else text
     is_loose = value.binding < binding or (is_strict and value.binding == binding)

@@ -14,6 +14,7 @@ from lxml import etree
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
+from osc2tx.backends.xosc.xml.numbers import number_text
 from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, ElementType, element_type, literals
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion
@@ -87,19 +88,6 @@ def _require_plain_text(text: str) -> None:
         raise Inexpressible(f"{text!r} begins with `$`, so it would be taken for a parameter")
     if _NOT_XML.search(text):
         raise Inexpressible(f"{text!r} has characters that XML cannot hold")
-
-
-def number_text(value: float) -> str:
-    """Return the shortest plain decimal that reads back as nearly this number.
-
-    Twelve digits hide the noise of conversions of units: 70 km/h is 19.4444444444.
-    """
-    short = f"{value:.12g}"
-    if "e" in short:
-        short = f"{float(short):.15f}".rstrip("0")
-        short = short + "0" if short.endswith(".") else short
-    whole = short.removesuffix(".0")
-    return "0" if whole == "-0" else whole
 
 
 def serialize(root: Element, version: XmlVersion) -> str:

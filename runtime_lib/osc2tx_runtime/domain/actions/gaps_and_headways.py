@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.planning.arrival_time import arrival
+from osc2tx_runtime.enums import GapDirection, RoadDistanceDirection
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Beside, KeepGap
-from osc2tx_runtime.world.distances import RoadDirection
 
 from .modifiable import ShapedAction
 from .modifier_groups import SIDE_FREE, SPEED_FREE
@@ -35,8 +35,6 @@ __all__ = [
     "KeepTimeHeadway",
 ]
 
-GapDirection = Literal["ahead", "behind", "left", "right", "inside", "outside"]
-HeadwayDirection = Literal["ahead", "behind"]
 _DIRECTIONS: tuple[GapDirection, ...] = ("ahead", "behind", "left", "right", "inside", "outside")
 
 
@@ -138,7 +136,7 @@ class _ChangeGap(_OneAxis):
     def situation(self) -> str:
         """Return how large the distance is now."""
         unit = "s" if self.timed else "m"
-        direction: RoadDirection = "lateral" if LATERAL in self.own else "longitudinal"
+        direction: RoadDistanceDirection = "lateral" if LATERAL in self.own else "longitudinal"
         kind = "time" if self.timed else "space"
         measure = getattr(self.vehicle, f"{kind}_{self.measure}")
         headway = self.measure == "headway"
@@ -192,7 +190,7 @@ class _KeepGap(_OneAxis):
         actor: Vehicle,
         *modifiers: Modifier,
         reference: Vehicle,
-        direction: Literal["longitudinal", "lateral"] = "longitudinal",
+        direction: RoadDistanceDirection = "longitudinal",
         **options: Unpack[ActionOptions],
     ) -> None:
         across = direction == "lateral"
@@ -201,7 +199,7 @@ class _KeepGap(_OneAxis):
             raise ScenarioError(
                 f"{self.action_name}: direction `{direction}` is neither longitudinal nor lateral"
             )
-        self.direction: RoadDirection = direction
+        self.direction: RoadDistanceDirection = direction
 
     def on_start(self) -> None:
         """Samples the gap and commands it."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar, Literal, Unpack
+from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
 from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
+from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.argument_rules import above, at_least, at_most_one
@@ -18,7 +19,6 @@ from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import LaneChange
 from osc2tx_runtime.world.lane_neighbours import lanes_to_left, neighbouring, offset_from
 from osc2tx_runtime.world.lateral import shift_profile
-from osc2tx_runtime.world.profiles import DynamicProfile
 
 from .modifiable import ShapedAction
 from .modifier_groups import SPEED_FREE
@@ -30,10 +30,9 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
     from osc2tx_runtime.language.tree.parameters import Range
 
-__all__ = ["SIDES", "ChangeLane", "FollowLane", "LaneSide"]
+__all__ = ["SIDES", "ChangeLane", "FollowLane"]
 
-LaneSide = Literal["left", "right", "inside", "outside", "same"]
-SIDES: tuple[LaneSide, ...] = ("left", "right", "inside", "outside", "same")
+SIDES: tuple[LaneChangeSide, ...] = get_args(LaneChangeSide)
 
 
 class _OnLane(ShapedAction):
@@ -128,7 +127,7 @@ class ChangeLane(_OnLane):
         actor: Vehicle,
         *modifiers: Modifier,
         num_of_lanes: int | Callable[[], int] = 1,
-        side: LaneSide | None = None,
+        side: LaneChangeSide | None = None,
         reference: PhysicalObject | None = None,
         offset: Value = 0.0,
         rate_profile: DynamicProfile = "none",

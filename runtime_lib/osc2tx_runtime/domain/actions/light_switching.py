@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.signals.traffic_lights import states_of
+from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action, ActionOptions
 from osc2tx_runtime.language.tree.base import Status
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import TrafficLightController
     from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
     from osc2tx_runtime.domain.signals.traffic_lights import Bulbs
-    from osc2tx_runtime.world.traffic_light_lamps import BulbColor, BulbState, Lamp, Meaning
+    from osc2tx_runtime.world.traffic_light_lamps import Lamp
     from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = ["AllLamps", "OneLamp", "Saying", "SignalAction", "Switch"]
@@ -71,7 +72,7 @@ class OneLamp:
     """One lamp of a box, chosen by its color and symbol."""
 
     color: BulbColor
-    icon: str
+    icon: BulbIcon
     state: BulbState
 
     def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState]:
@@ -100,7 +101,7 @@ class AllLamps:
 class Saying:
     """What boxes tell drivers; those that cannot say it stay as they are (DSL 8.15.9.3)."""
 
-    state: Meaning
+    state: SemanticTrafficLightState
 
     def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState] | None:
         """Those that mean it."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import MovementModifier, PhysicalMovement
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.registry import LONGITUDINAL
@@ -134,10 +135,10 @@ class MotionAction(Action):
         """What is possible on the road at all."""
         return self.world.limits(self.actor.id, of_vehicle=False)
 
-    def drawn_side(self, lanes: int) -> Literal["left", "right"]:
+    def drawn_side(self, lanes: int) -> SideLeftRight:
         """A side on which there are so many lanes, drawn from the seed."""
         own = self.place_of(self.actor.id)
-        sides: tuple[Literal["left", "right"], ...] = ("left", "right")
+        sides: tuple[SideLeftRight, ...] = ("left", "right")
         count = max(abs(lanes), 1)
         free = [s for s in sides if self.world.map.neighbour(own, s, count) is not None]
         return self.generator(self.action_name).choice(free or ["left"])

@@ -16,12 +16,12 @@ from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePath,
     RelativeTrajectory,
-    RelativeTransform,
     Trajectory,
 )
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.path_commands import path_command, trajectory_commands
 from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import action
 
@@ -18,7 +19,6 @@ from .light_switching import AllLamps, OneLamp, Saying, Switch
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import TrafficLightController
     from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, TrafficLight, TrafficLightGroup
-    from osc2tx_runtime.world.traffic_light_lamps import BulbColor, BulbState, Meaning
     from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = [
@@ -45,7 +45,7 @@ class SetBulbState(Switch):
         *modifiers: Modifier,
         traffic_light: TrafficLight,
         bulb_color: BulbColor,
-        bulb_kind: str,
+        bulb_kind: BulbIcon,
         bulb_state: BulbState,
         sync: bool = False,
         **options: Unpack[ActionOptions],
@@ -79,7 +79,7 @@ class SetSemanticState(Switch):
         actor: TrafficLightController,
         *modifiers: Modifier,
         traffic_light: TrafficLight,
-        state: Meaning,
+        state: SemanticTrafficLightState,
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:
@@ -96,7 +96,7 @@ class SetGroupBulbState(Switch):
         *modifiers: Modifier,
         traffic_light: TrafficLight,
         bulb_color: BulbColor,
-        bulb_kind: str,
+        bulb_kind: BulbIcon,
         bulb_state: BulbState,
         sync: bool = False,
         **options: Unpack[ActionOptions],
@@ -130,7 +130,7 @@ class SetGroupSemanticState(Switch):
         actor: TrafficLightController,
         *modifiers: Modifier,
         traffic_light_group: TrafficLightGroup,
-        state: Meaning,
+        state: SemanticTrafficLightState,
         sync: bool = False,
         **options: Unpack[ActionOptions],
     ) -> None:

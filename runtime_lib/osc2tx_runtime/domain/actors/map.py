@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.routes.road_network import RoadNetwork
+from osc2tx_runtime.enums import DrivingRule
 
 from .base import Actor
 
@@ -13,8 +14,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
 
 __all__ = ["Map"]
-
-DrivingRule = Literal["left_hand_traffic", "right_hand_traffic"]
 
 
 class Map(Actor, RoadNetwork):

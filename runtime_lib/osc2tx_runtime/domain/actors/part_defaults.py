@@ -10,6 +10,12 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver
+from osc2tx_runtime.enums import (
+    HitchType,
+    IntendedInfrastructure,
+    TrafficParticipantRole,
+    TrailerCategory,
+)
 from osc2tx_runtime.world.actor_dimensions import MAX_STEERING, Shape
 from osc2tx_runtime.world.towing import DRAWBAR
 
@@ -59,7 +65,7 @@ _HITCH_HEIGHT = {"ball": 0.4, "pintle": 0.8, "fifth_wheel": 1.2}
 """Metres of a hitch above the ground, by its type."""
 
 # `intended_infrastructure` (8.7.19), what something moves on first.
-_INFRASTRUCTURE: Mapping[str, tuple[str, ...]] = {
+_INFRASTRUCTURE: Mapping[str, tuple[IntendedInfrastructure, ...]] = {
     "person": ("sidewalk",),
     "animal": ("sidewalk",),
     "wheelchair": ("sidewalk",),
@@ -72,7 +78,7 @@ _INFRASTRUCTURE: Mapping[str, tuple[str, ...]] = {
     "tram": ("tram",),
 }
 
-_ROLES = {
+_ROLES: Mapping[str, TrafficParticipantRole] = {
     "vehicle.carlamotors.firetruck": "fire",
     "vehicle.dodge.charger_police": "police",
     "vehicle.ford.ambulance": "ambulance",
@@ -91,14 +97,14 @@ def known_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
     return front, rear
 
 
-def known_receiver(shape: Shape, said: str) -> HitchReceiver:
+def known_receiver(shape: Shape, said: HitchType) -> HitchReceiver:
     """Return the hitch of a vehicle: at its rear end, of the type that the scenario says."""
     return HitchReceiver(said, -shape.rear, _HITCH_HEIGHT.get(said, _HITCH_HEIGHT["ball"]))
 
 
-def known_coupler(category: str, shape: Shape, said: str) -> HitchCoupler:
+def known_coupler(category: str, shape: Shape, said: HitchType | None) -> HitchCoupler:
     """Return the coupler of a trailer: before the box, of the type that the scenario says."""
-    kind = said or ("fifth_wheel" if category == "semi_trailer" else "ball")
+    kind: HitchType = said or ("fifth_wheel" if category == "semi_trailer" else "ball")
     height = _HITCH_HEIGHT.get(kind, _HITCH_HEIGHT["ball"])
     return HitchCoupler(kind, shape.front + DRAWBAR, height)
 
@@ -111,21 +117,21 @@ def misfit(receiver: HitchReceiver, coupler: HitchCoupler) -> str | None:
         coupler: Likewise.
     """
     types = receiver.hitch_type, coupler.hitch_type
-    if types[0] == types[1] or types[0] == "none" or not types[1]:
+    if types[0] == types[1] or types[0] == "none" or types[1] is None:
         return None
     return f"a {types[1]} coupler does not fit a {types[0]} receiver"
 
 
-def known_infrastructure(category: str) -> tuple[str, ...]:
+def known_infrastructure(category: str) -> tuple[IntendedInfrastructure, ...]:
     """Return what a category of vehicles or a kind of actors moves on."""
     return _INFRASTRUCTURE.get(category, ("driving",))
 
 
-def known_role(model: str | None) -> str | None:
+def known_role(model: str | None) -> TrafficParticipantRole | None:
     """Return the role of a model that is only made for one."""
     return None if model is None else _ROLES.get(model)
 
 
-def known_trailer_category(category: str) -> str | None:
+def known_trailer_category(category: str) -> TrailerCategory | None:
     """Return what the category of a vehicle says of it as a trailer."""
     return "semi_trailer" if category == "semi_trailer" else None

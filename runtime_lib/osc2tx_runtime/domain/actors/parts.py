@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import TypeVar
 
 from osc2tx_runtime.domain.points_and_poses import Point
+from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import UnsupportedError
 
 __all__ = [
@@ -85,7 +86,7 @@ class HitchReceiver:
         connected: Tells whether something hangs on it now.
     """
 
-    hitch_type: str = "none"
+    hitch_type: HitchType = "none"
     position_x: float = UNSAID
     position_z: float = UNSAID
     max_rotation: float = UNSAID
@@ -103,13 +104,13 @@ class HitchCoupler:
     """The half of a hitch on the trailer.
 
     Attributes:
-        hitch_type: What receivers fit; empty: not said.
+        hitch_type: What receivers fit; None: not said.
         position_x: Metres before the reference point of the trailer.
         position_z: Metres above it.
         connected: Tells whether it hangs on something now.
     """
 
-    hitch_type: str = ""
+    hitch_type: HitchType | None = None
     position_x: float = UNSAID
     position_z: float = UNSAID
     connected: Callable[[], bool] = field(default=lambda: False, compare=False, repr=False)
@@ -130,7 +131,7 @@ def is_open(value: object) -> bool:
     """Whether nobody says a member of a part."""
     if isinstance(value, Point):
         return value.x != value.x
-    return value == "" or value != value
+    return value is None or value != value
 
 
 ENGINES = ("steady_driver", "careful_driver")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, TypedDict, Unpack
+from typing import TYPE_CHECKING, ClassVar, TypedDict, TypeVar, Unpack
 
 from osc2tx_runtime.domain.actors.behavioral_models import leave_to
 from osc2tx_runtime.domain.actors.part_defaults import known_infrastructure, known_role
@@ -15,7 +15,13 @@ from osc2tx_runtime.domain.actors.parts import (
     is_open,
 )
 from osc2tx_runtime.domain.measuring.object_measurements import Measures
-from osc2tx_runtime.domain.points_and_poses import Point
+from osc2tx_runtime.domain.points_and_poses import Point, Rgb
+from osc2tx_runtime.enums import (
+    Color,
+    IntendedInfrastructure,
+    TrafficParticipantRole,
+    VehicleCategory,
+)
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.world.actor_dimensions import MODELS, Shape, limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec
@@ -44,6 +50,9 @@ LIBRARY_KINDS = frozenset(
 )
 """Kinds of physical objects in the domain model."""
 
+ValueT = TypeVar("ValueT")
+Infrastructure = Sequence[IntendedInfrastructure] | Mapping[int, IntendedInfrastructure]
+
 _SAME = 1e-6  # m between what a scenario says and what follows from the rest of it
 
 
@@ -52,7 +61,7 @@ class ObjectFields(TypedDict, total=False):
 
     name: str | None
     model: str | None
-    color: str | None
+    color: Color | Rgb | None
     geometry_reference: str | None
     bounding_box: BoundingBox | None
     center: Point | None
@@ -66,8 +75,8 @@ class ObjectFields(TypedDict, total=False):
 class ParticipantFields(ObjectFields, total=False):
     """Keywords of `TrafficParticipant`."""
 
-    intended_infrastructure: Sequence[str] | Mapping[int, str] | None
-    role: str | None
+    intended_infrastructure: Infrastructure | None
+    role: TrafficParticipantRole | None
 
 
 class PhysicalObject(Actor, Measures):
@@ -76,7 +85,7 @@ class PhysicalObject(Actor, Measures):
     Args:
         name: Role name; default: the field that holds it.
         model: CARLA blueprint or other name of a model.
-        color: Name or `r,g,b`; for viewers.
+        color: Name, or `Rgb` as scenarios for CARLA have it; for viewers.
         geometry_reference: Name of a 3D model.
         bounding_box: Size and place of the box, as far as the next four do not say it.
         center: Middle of the box (m), from the reference point.
@@ -96,7 +105,7 @@ class PhysicalObject(Actor, Measures):
         *,
         name: str | None = None,
         model: str | None = None,
-        color: str | None = None,
+        color: Color | Rgb | None = None,
         geometry_reference: str | None = None,
         bounding_box: BoundingBox | None = None,
         center: Point | None = None,
@@ -126,7 +135,7 @@ class PhysicalObject(Actor, Measures):
     # --- what the scenario or the catalogue says ----------------------------------------------
 
     @property
-    def color(self) -> str:
+    def color(self) -> Color | Rgb:
         """Its colour, for scenarios that ask for it."""
         return self._said("color", self._color)
 
@@ -147,7 +156,7 @@ class PhysicalObject(Actor, Measures):
         """Its centre of gravity (m), from the reference point: that of the box if nobody says."""
         return self._center_of_gravity or self.bounding_box.center
 
-    def _said(self, member: str, value: str | None) -> str:
+    def _said(self, member: str, value: ValueT | None) -> ValueT:
         """Return a value that only the scenario can know.
 
         Raises:
@@ -160,7 +169,7 @@ class PhysicalObject(Actor, Measures):
     # --- for the world ------------------------------------------------------------------------
 
     @property
-    def category(self) -> str | None:
+    def category(self) -> VehicleCategory | None:
         """Category of a vehicle that the scenario names."""
         return None
 
@@ -270,8 +279,8 @@ class TrafficParticipant(MovableObject):
     def __init__(
         self,
         *,
-        intended_infrastructure: Sequence[str] | Mapping[int, str] | None = None,
-        role: str | None = None,
+        intended_infrastructure: Infrastructure | None = None,
+        role: TrafficParticipantRole | None = None,
         **fields: Unpack[ObjectFields],
     ) -> None:
         super().__init__(**fields)
@@ -279,7 +288,7 @@ class TrafficParticipant(MovableObject):
         self._role = role
 
     @property
-    def intended_infrastructure(self) -> list[str]:
+    def intended_infrastructure(self) -> list[IntendedInfrastructure]:
         """What it moves on, in words of OpenDRIVE lane types."""
         said = self._infrastructure or {}
         if not isinstance(said, Mapping):
@@ -294,7 +303,7 @@ class TrafficParticipant(MovableObject):
         return found
 
     @property
-    def role(self) -> str:
+    def role(self) -> TrafficParticipantRole:
         """The role that others can see."""
         return self._said("role", self._role or known_role(self.model))
 

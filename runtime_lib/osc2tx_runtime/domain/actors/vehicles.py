@@ -14,8 +14,9 @@ from osc2tx_runtime.domain.actors.part_defaults import (
     misfit,
 )
 from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver, completed
+from osc2tx_runtime.enums import TrailerCategory, VehicleCategory
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.actor_dimensions import MODELS, VEHICLE_CATEGORIES, Shape
+from osc2tx_runtime.world.actor_dimensions import VEHICLE_CATEGORIES, Shape, category_of
 
 from .physical_objects import ParticipantFields, TrafficParticipant
 
@@ -25,7 +26,7 @@ __all__ = ["Trailer", "Vehicle", "VehicleFields"]
 class VehicleFields(ParticipantFields, total=False):
     """Keywords of `Vehicle`."""
 
-    vehicle_category: str | None
+    vehicle_category: VehicleCategory | None
     axles: Sequence[Axle] | Mapping[int, Axle] | None
     rear_overhang: float | None
     trailer_receiver: HitchReceiver | None
@@ -49,7 +50,7 @@ class Vehicle(TrafficParticipant):
     def __init__(
         self,
         *,
-        vehicle_category: str | None = None,
+        vehicle_category: VehicleCategory | None = None,
         axles: Sequence[Axle] | Mapping[int, Axle] | None = None,
         rear_overhang: float | None = None,
         trailer_receiver: HitchReceiver | None = None,
@@ -65,15 +66,14 @@ class Vehicle(TrafficParticipant):
         self._receiver = trailer_receiver or HitchReceiver()
 
     @property
-    def category(self) -> str | None:
+    def category(self) -> VehicleCategory | None:
         """Category that the scenario names."""
         return self._category
 
     @property
-    def vehicle_category(self) -> str:
+    def vehicle_category(self) -> VehicleCategory:
         """What sort of vehicle it is, as the scenario says or by its model."""
-        model = MODELS[self.model][0] if self.model in MODELS else None
-        return self._said("vehicle_category", self._category or model)
+        return self._said("vehicle_category", self._category or category_of(self.model))
 
     @property
     def rear_overhang(self) -> float:
@@ -128,9 +128,8 @@ class Vehicle(TrafficParticipant):
         return tuple(completed(a, like) for a, like in zip(self._axles, usual, strict=True))
 
     @property
-    def _known_category(self) -> str:
-        model = MODELS[self.model][0] if self.model in MODELS else "car"
-        return self._category or model
+    def _known_category(self) -> VehicleCategory:
+        return self._category or category_of(self.model) or "car"
 
     def _rear(self, known: float) -> float:
         """The rear overhang, or what follows from the middle of the box."""
@@ -160,7 +159,7 @@ class Trailer(Vehicle):
     def __init__(
         self,
         *,
-        trailer_category: str | None = None,
+        trailer_category: TrailerCategory | None = None,
         coupler: HitchCoupler | None = None,
         **fields: Unpack[VehicleFields],
     ) -> None:
@@ -169,7 +168,7 @@ class Trailer(Vehicle):
         self._coupler = coupler or HitchCoupler()
 
     @property
-    def trailer_category(self) -> str:
+    def trailer_category(self) -> TrailerCategory:
         """What sort of trailer it is, as the scenario says or by its category as a vehicle."""
         known = known_trailer_category(self._known_category)
         return self._said("trailer_category", self._trailer_category or known)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
@@ -19,19 +19,20 @@ from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
-from osc2tx_runtime.domain.routes.route_coordinates import (
-    RouteType,
-    between_on_crossing,
-    place_in_route,
+from osc2tx_runtime.domain.routes.route_coordinates import between_on_crossing, place_in_route
+from osc2tx_runtime.enums import (
+    DistanceDirection,
+    DistanceMode,
+    OnRouteType,
+    RoadDistanceDirection,
+    RouteDistanceEnum,
 )
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
+from osc2tx_runtime.world.distances import along_lanes as route_between
 from osc2tx_runtime.world.distances import (
-    DistanceDirection,
-    DistanceMode,
-    RoadDirection,
     gap_between,
     headway_between,
     lateral_on_road,
@@ -40,7 +41,6 @@ from osc2tx_runtime.world.distances import (
     time_to_collision,
     time_to_cover,
 )
-from osc2tx_runtime.world.distances import along_lanes as route_between
 from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.velocities import Acceleration, Velocity
@@ -48,7 +48,7 @@ from osc2tx_runtime.world.velocities import Acceleration, Velocity
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Measures", "RouteType"]
+__all__ = ["Measures"]
 
 
 class Measures:
@@ -114,9 +114,9 @@ class Measures:
     def road_distance(
         self,
         reference: Measures,
-        direction: RoadDirection,
+        direction: RoadDistanceDirection,
         mode: DistanceMode = "reference_points",
-        route_type: RouteType = "on_road",
+        route_type: OnRouteType = "on_road",
     ) -> float:
         """Distance (m) along or across the road; positive if the reference is ahead or left.
 
@@ -124,7 +124,7 @@ class Measures:
         """
         return Measured(self._road_distance_to(reference.state, direction, mode, route_type))
 
-    def space_gap(self, reference: Measures, direction: RoadDirection) -> float:
+    def space_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space (m) between facing ends or sides; positive if the caller is ahead or left.
 
         0 while both overlap in this direction. Lateral moves are free: vehicles in neighbouring
@@ -135,7 +135,7 @@ class Measures:
             return Measured(gap_between(-self._along(reference), shape, other))
         return Measured(side_gap(self._lateral(reference), shape, other))
 
-    def time_gap(self, reference: Measures, direction: RoadDirection) -> float:
+    def time_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""
         gap = self.space_gap(reference, direction)
         if direction == "longitudinal":
@@ -160,15 +160,15 @@ class Measures:
         """Time (s) until the boxes touch at constant velocities; infinite if they never do."""
         return Measured(time_to_collision(self.state, reference.state))
 
-    def get_s_coord(self, route_type: RouteType = "on_road") -> float:
+    def get_s_coord(self, route_type: OnRouteType = "on_road") -> float:
         """Own s (m) on the road, or along the centre line of the lane from where it begins."""
         return Measured(self.get_route_point(route_type).s)
 
-    def get_t_coord(self, route_type: RouteType = "on_road") -> float:
+    def get_t_coord(self, route_type: OnRouteType = "on_road") -> float:
         """Own t (m): left of the reference line of the road, or of the lane's centre line."""
         return Measured(self.get_route_point(route_type).t)
 
-    def get_route_point(self, route_type: RouteType = "on_road") -> RoutePoint:
+    def get_route_point(self, route_type: OnRouteType = "on_road") -> RoutePoint:
         """Own place in coordinates of the road, lane section, lane or crossing."""
         try:
             return place_in_route(self.context, self.state, route_type)
@@ -190,9 +190,9 @@ class Measures:
     def distance_to_route_point(
         self,
         point: RoutePoint,
-        direction: RoadDirection,
+        direction: RoadDistanceDirection,
         mode: DistanceMode = "reference_points",
-        route_type: RouteType = "on_road",
+        route_type: OnRouteType = "on_road",
     ) -> float:
         """As `road_distance`, to a point."""
         there = self._at_place(place_of_route(self.context.world.map, point))
@@ -201,16 +201,16 @@ class Measures:
     def distance_to_odr_point(
         self,
         point: OdrPoint,
-        direction: RoadDirection,
+        direction: RoadDistanceDirection,
         mode: DistanceMode = "reference_points",
-        route_type: RouteType = "on_road",
+        route_type: OnRouteType = "on_road",
     ) -> float:
         """As `road_distance`, to a point."""
         there = self._at_place(place_of_odr(self.context.world.map, point))
         return Measured(self._road_distance_to(there, direction, mode, route_type))
 
     def distance_along_route(
-        self, route: Path | RoadPart, from_: Literal["from_start", "from_end"] = "from_start"
+        self, route: Path | RoadPart, from_: RouteDistanceEnum = "from_start"
     ) -> float:
         """Metres from the start of a route to this object, or from it to the end of the route.
 
@@ -226,7 +226,11 @@ class Measures:
     # --- internals ----------------------------------------------------------------------------
 
     def _road_distance_to(
-        self, there: ActorState, direction: RoadDirection, mode: DistanceMode, route_type: RouteType
+        self,
+        there: ActorState,
+        direction: RoadDistanceDirection,
+        mode: DistanceMode,
+        route_type: OnRouteType,
     ) -> float:
         here, road_map = self.state, self.context.world.map
         ahead = direction == "longitudinal"

@@ -7,7 +7,7 @@ names of the DSL (`speed`, `lane`, ...) are those that scenarios import.
 
 from __future__ import annotations
 
-from .base import At, Modifier, MovementModifier, Side, Value, value_of
+from .base import Modifier, MovementModifier, Value, value_of
 from .conduct import (
     Along,
     AlongTrajectory,
@@ -16,7 +16,7 @@ from .conduct import (
     PhysicalMovement,
     TowTrailer,
 )
-from .lane import ChangeLane, KeepLane, Lane, Lateral, LatMeasure
+from .lane import ChangeLane, KeepLane, Lane, Lateral
 from .map_files import (
     MAP_MODIFIERS,
     CompoundLaneSide,
@@ -105,7 +105,6 @@ __all__ = [
     "Acceleration",
     "Along",
     "AlongTrajectory",
-    "At",
     "AvoidCollisions",
     "ChangeLane",
     "ChangeSpeed",
@@ -118,7 +117,6 @@ __all__ = [
     "KeepSpeed",
     "Lane",
     "LaneSide",
-    "LatMeasure",
     "Lateral",
     "Location",
     "MapModifier",
@@ -135,7 +133,6 @@ __all__ = [
     "RoutesOverlap",
     "SetMapFile",
     "SetTrafficLightsControlFile",
-    "Side",
     "Speed",
     "StartLane",
     "TowTrailer",

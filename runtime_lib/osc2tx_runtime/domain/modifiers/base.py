@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
+from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.argument_rules import Rule, check_arguments
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
@@ -15,14 +16,11 @@ from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.parameters import Range
     from osc2tx_runtime.world.function_profiles import Computed
-    from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = [
-    "At",
     "Modifier",
     "MovementModifier",
     "Shape",
-    "Side",
     "Value",
     "band_of",
     "course_of",
@@ -36,8 +34,6 @@ __all__ = [
 ValueT = TypeVar("ValueT")
 Value = float | Callable[[], float]
 Shape = CommonShape | OwnShape[AnyShape]
-Side = Literal["left", "right"]
-At = Literal["start", "end", "all"]
 
 _SAME = 1e-3  # between what a shape reaches and what is asked for
 
@@ -162,8 +158,8 @@ class MovementModifier(Modifier):
     """
 
     at: At = "all"
-    movement_mode: Literal["monotonous", "other"] = "other"
-    track: Literal["actual", "projected"] = "actual"
+    movement_mode: MovementMode = "other"
+    track: Track = "actual"
 
     @property
     def projected(self) -> bool:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.enums import MovementOptions
 
 from .base import Modifier, MovementModifier, Value, now
 
@@ -30,9 +31,7 @@ class PhysicalMovement(Modifier):
     """Whether a quantity may jump to its value."""
 
     name = "physical_movement"
-    option: Literal["prefer_physical", "prefer_non_physical", "must_be_physical"] = (
-        "must_be_physical"
-    )
+    option: MovementOptions = "must_be_physical"
 
 
 @dataclass(frozen=True, slots=True)

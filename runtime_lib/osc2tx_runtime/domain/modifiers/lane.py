@@ -4,32 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
+from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
 from osc2tx_runtime.language.argument_rules import at_least, at_least_one, at_most_one
 
-from .base import Modifier, MovementModifier, Side, Value, now, wanted
+from .base import Modifier, MovementModifier, Value, now, wanted
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
     from osc2tx_runtime.language.tree.parameters import Range
 
-LatMeasure = Literal[
-    "left_to_left",
-    "left_to_center",
-    "left_to_right",
-    "center_to_left",
-    "center_to_center",
-    "center_to_right",
-    "right_to_left",
-    "right_to_center",
-    "right_to_right",
-    "closest",
-]
 _EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left
 
-__all__ = ["ChangeLane", "KeepLane", "Lane", "LatMeasure", "Lateral"]
+__all__ = ["ChangeLane", "KeepLane", "Lane", "Lateral"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +45,8 @@ class Lane(MovementModifier):
     lane: int | Callable[[], int] | None = None
     same_as: PhysicalObject | None = None
     side_of: PhysicalObject | None = None
-    side: Side | None = None
-    from_: Side = "right"
+    side: SideLeftRight | None = None
+    from_: SideLeftRight = "right"
     shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
@@ -94,8 +83,8 @@ class Lateral(MovementModifier):
     distance: Value | None = None
     distance_range: Range[float] | Callable[[], Range[float]] | None = None
     side_of: Vehicle | None = None
-    side: Side = "left"
-    measure_by: LatMeasure = "center_to_center"
+    side: SideLeftRight = "left"
+    measure_by: LatMeasureBy = "center_to_center"
     shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
@@ -145,7 +134,7 @@ class ChangeLane(MovementModifier):
     name = "change_lane"
     shaped_by = AnyLateralShape
     lane: int | Callable[[], int] = 1
-    side: Side | None = None
+    side: SideLeftRight | None = None
     shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property

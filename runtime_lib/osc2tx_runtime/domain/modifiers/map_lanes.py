@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from osc2tx_runtime.domain.routes.lane_types import Directionality, LaneType, LaneUse, kind_of_lane
+from osc2tx_runtime.domain.routes.lane_types import kind_of_lane
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse, SideLeftRight
 
-from .base import Side
 from .map_base import Known, MapModifier, Row, fits
 
 __all__ = ["CompoundLaneSide", "EndLane", "LaneSide", "NumberOfLanes", "StartLane"]
@@ -79,7 +79,7 @@ class LaneSide(MapModifier):
 
     name = "lane_side"
     lane1: RoadPart
-    side: Side
+    side: SideLeftRight
     lane2: RoadPart
     count: int = 1
     lane_section: RoadPart | None = None
@@ -97,7 +97,7 @@ class LaneSide(MapModifier):
 
 
 def _beside(
-    lanes: tuple[Stretch, ...], side: Side, count: int
+    lanes: tuple[Stretch, ...], side: SideLeftRight, count: int
 ) -> Iterator[tuple[Stretch, Stretch]]:
     """Pairs of lanes, given from the right, of which one is so many beside the other."""
     step = count if side == "left" else -count
@@ -120,7 +120,7 @@ class CompoundLaneSide(MapModifier):
 
     name = "compound_lane_side"
     lane1: RoadPart
-    side: Side
+    side: SideLeftRight
     lane2: RoadPart
     count: int = 1
     route: RoadPart | None = None

@@ -5,20 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.enums import JunctionDirection, LateralOverlapKind, RouteOverlapKind
 from osc2tx_runtime.errors import UnsupportedError
 
 from .map_base import Known, MapModifier, Row, fits
 
 __all__ = ["RoadsFollowInJunction", "RoutesAreInSequence", "RoutesAreOpposite", "RoutesOverlap"]
 
-JunctionDirection = Literal["straight", "right", "u_turn", "left", "other"]
-OverlapKind = Literal["equal", "start", "end", "inside", "any", "other"]
-LateralOverlap = Literal["never", "sometimes", "always"]
 
 _WITHIN = math.radians(10.0)  # of a direction at a junction (DSL 8.12.22)
 _TURNS: Mapping[JunctionDirection, float] = {
@@ -173,7 +170,7 @@ class RoutesOverlap(MapModifier):
     name = "routes_overlap"
     route1: RoadPart
     route2: RoadPart
-    overlap_kind: OverlapKind
+    overlap_kind: RouteOverlapKind
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
         """Pairs that overlap so."""
@@ -247,7 +244,7 @@ class RoutesAreOpposite(MapModifier):
     route1: RoadPart
     route2: RoadPart
     containing_road: RoadPart | None = None
-    lateral_overlap: LateralOverlap = "never"
+    lateral_overlap: LateralOverlapKind = "never"
 
     def __post_init__(self) -> None:
         """Refuses roads, which have no direction, and lanes for both directions."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.shapes import AnyShape, OwnShape
+from osc2tx_runtime.enums import OrientationMeasuredBy, YawMeasureBy
 from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one, none_of
 
 from .base import MovementModifier, Value, value_of, wanted
@@ -15,14 +16,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
-YawMeasure = Literal[
-    "length_to_length",
-    "length_to_width",
-    "width_to_length",
-    "width_to_width",
-    "relative_to_north",
-    "relative_to_road",
-]
 
 BETWEEN_AXES = ("length_to_length", "length_to_width", "width_to_length", "width_to_width")
 
@@ -53,7 +46,7 @@ class Yaw(MovementModifier):
     angle: Value | None = None
     angle_range: Range[float] | Callable[[], Range[float]] | None = None
     relative_to: PhysicalObject | None = None
-    measure_by: YawMeasure = "relative_to_road"
+    measure_by: YawMeasureBy = "relative_to_road"
     shape: OwnShape[AnyShape] | None = None
 
     def angles(self) -> tuple[float, float]:
@@ -90,7 +83,7 @@ class Orient(MovementModifier):
     pitch: Value | None = None
     roll: Value | None = None
     relative_to: PhysicalObject | None = None
-    measure_by: Literal["absolute", "relative_to_reference", "relative_to_road"] | None = None
+    measure_by: OrientationMeasuredBy | None = None
     shape: OwnShape[AnyShape] | None = None
 
     def angles(self) -> tuple[float, float] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
@@ -13,6 +13,7 @@ from osc2tx_runtime.domain.shapes import (
     CommonSpeedShape,
     OwnShape,
 )
+from osc2tx_runtime.enums import DynamicProfile, LonLat
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 
@@ -21,7 +22,6 @@ from .base import Modifier, MovementModifier, Value, course_of, value_of, wanted
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
-    from osc2tx_runtime.world.profiles import DynamicProfile
 
 __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]
 
@@ -57,7 +57,7 @@ class Speed(MovementModifier):
     faster_than: PhysicalObject | None = None
     slower_than: PhysicalObject | None = None
     same_as: PhysicalObject | None = None
-    direction: Literal["longitudinal", "lateral"] = "longitudinal"
+    direction: LonLat = "longitudinal"
     factor: Value = 1.0
     rate_profile: DynamicProfile = "none"
     rate_peak: Value | None = None

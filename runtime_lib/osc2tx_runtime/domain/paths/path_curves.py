@@ -23,10 +23,10 @@ from osc2tx_runtime.domain.paths.path_values import (
     PathPoint,
     RelativePath,
     RelativeTrajectory,
-    RelativeTransform,
     Trajectory,
 )
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Pose, RoutePoint
+from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.domain.points_and_poses import NetworkPoint, OdrPoint, Pose, RoutePoint
+from osc2tx_runtime.enums import ConnectRoutePoints, PathInterpolation
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.road_network import RoadNetwork
@@ -14,12 +15,10 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.curve import Curve
 
 __all__ = [
-    "ConnectPointsBy",
     "MadeRoute",
     "NetworkPath",
     "NetworkTrajectory",
     "Path",
-    "PathInterpolation",
     "PathPoint",
     "RelativePath",
     "RelativePathOdr",
@@ -29,14 +28,10 @@ __all__ = [
     "RelativeTrajectoryOdr",
     "RelativeTrajectoryPose3d",
     "RelativeTrajectorySt",
-    "RelativeTransform",
     "Trajectory",
 ]
 
-ConnectPointsBy = Literal["road", "lane_section", "lane", "crossing", "waypoint"]
 PathPoint = Pose | RoutePoint | OdrPoint
-PathInterpolation = Literal["straight_line", "smooth"]
-RelativeTransform = Literal["world_relative", "object_relative", "road_relative", "lane_relative"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +134,7 @@ class MadeRoute(NetworkPath):
     """
 
     route_elements: Sequence[NetworkPoint | Route | Path] = ()
-    connect_points_by: ConnectPointsBy = "waypoint"
+    connect_points_by: ConnectRoutePoints = "waypoint"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from osc2tx_runtime.domain.modifiers import ChangeLane, Lane, Lateral, MovementM
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.shapes import OwnShape
+from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import Beside, Command, LaneChange, LaneOffset
 from osc2tx_runtime.world.distances import lateral_on_road
@@ -22,7 +23,7 @@ from .lateral_targets import check_shift, jump_aside, lanes_wanted, target_of_sh
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actions.modifiable import ShapedAction
-    from osc2tx_runtime.world.profiles import DynamicProfile, Profile
+    from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["beside_command", "lane_command"]
 

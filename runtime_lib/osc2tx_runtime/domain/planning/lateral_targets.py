@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import Lane
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.lane_neighbours import lane_with_number, lanes_to_left
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["check_shift", "jump_aside", "lanes_to", "lanes_wanted", "target_of_shift"]
 
 
-def _side(lanes: int) -> Literal["left", "right"]:
+def _side(lanes: int) -> SideLeftRight:
     return "left" if lanes > 0 else "right"
 
 

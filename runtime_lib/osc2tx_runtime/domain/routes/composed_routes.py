@@ -14,12 +14,13 @@ from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
 from osc2tx_runtime.domain.paths.path_curves import PathError
-from osc2tx_runtime.domain.paths.path_values import ConnectPointsBy, Path
+from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.paths.road_paths import way_between
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
+from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 
@@ -47,7 +48,7 @@ class _Way:
 
 
 def poses_of_route(
-    road_map: RoadMap, elements: Sequence[Element], connect_by: ConnectPointsBy = "waypoint"
+    road_map: RoadMap, elements: Sequence[Element], connect_by: ConnectRoutePoints = "waypoint"
 ) -> tuple[Pose, ...]:
     """Poses along a route.
 
@@ -78,7 +79,7 @@ def poses_of_route(
 # --- elements ---------------------------------------------------------------------------------
 
 
-def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectPointsBy) -> Element:
+def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectRoutePoints) -> Element:
     """What a point stands for; other elements as they are."""
     if not isinstance(element, LanePosition | MapPose) or connect_by == "waypoint":
         return element

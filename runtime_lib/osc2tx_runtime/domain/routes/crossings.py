@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Route
+from osc2tx_runtime.enums import CrossingElevation, CrossingMarking, CrossingUse
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Crosswalk
 
 __all__ = ["Crossing", "CrossingType"]
 
-CrossingMarking = Literal["unmarked", "marked", "zebra", "other"]
-CrossingUse = Literal["pedestrian", "animal", "bicycle", "rail_road", "other"]
-CrossingElevation = Literal["road_level", "curb_level", "refuge_island", "other"]
 
 _SAME = 0.1  # m between a width that is asked for and that of a crosswalk
 _ON_ROAD = 0.01  # m above the road

@@ -3,36 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
-__all__ = ["LANE_TYPES", "Directionality", "LaneKind", "LaneType", "LaneUse", "kind_of_lane"]
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse
 
-Directionality = Literal["uni_direction", "bi_direction", "split", "free", "none", "other"]
-LaneType = Literal["driving", "non_driving", "vru_vehicles", "pedestrian", "other"]
-LaneUse = Literal[
-    "normal",
-    "exit",
-    "entry",
-    "on_ramp",
-    "off_ramp",
-    "connecting_ramp",
-    "hov",
-    "bus",
-    "mixed_traffic_vru",
-    "parking",
-    "stop",
-    "restricted",
-    "border",
-    "shoulder",
-    "curb",
-    "median",
-    "bicycle",
-    "motorcycle",
-    "sidewalk",
-    "protected_sidewalk",
-    "none",
-    "other",
-]
+__all__ = ["LANE_TYPES", "LaneKind", "kind_of_lane"]
 
 
 class LaneKind(NamedTuple):

@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.paths.network_paths import path_in_world
 from osc2tx_runtime.domain.paths.path_curves import absolute
 from osc2tx_runtime.domain.paths.path_values import (
-    ConnectPointsBy,
     MadeRoute,
     NetworkPath,
     NetworkTrajectory,
     Path,
-    PathInterpolation,
     RelativePath,
     RelativeTrajectory,
-    RelativeTransform,
     Trajectory,
 )
 from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
@@ -34,12 +31,17 @@ from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
+from osc2tx_runtime.enums import (
+    ConnectRoutePoints,
+    PathInterpolation,
+    RelativeTransform,
+    SideLeftRight,
+)
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.measuring.object_measurements import Measures
-    from osc2tx_runtime.domain.modifiers import Side
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["RoadNetwork"]
@@ -103,11 +105,11 @@ class RoadNetwork:
 
     # --- the network --------------------------------------------------------------------------
 
-    def outer_side(self) -> Side:
+    def outer_side(self) -> SideLeftRight:
         """The side away from opposing traffic."""
         return "right" if self._right_hand() else "left"
 
-    def inner_side(self) -> Side:
+    def inner_side(self) -> SideLeftRight:
         """The side towards opposing traffic."""
         return "left" if self._right_hand() else "right"
 
@@ -183,7 +185,7 @@ class RoadNetwork:
     def create_route(
         self,
         routes: Sequence[NetworkPoint | Route | Path],
-        connect_points_by: ConnectPointsBy = "waypoint",
+        connect_points_by: ConnectRoutePoints = "waypoint",
         legal_route: bool = True,
     ) -> MadeRoute:
         """The way through points, roads, lanes, crossings and paths, in order (DSL 8.5.7).

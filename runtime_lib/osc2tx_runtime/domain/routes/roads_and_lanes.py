@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx_runtime.domain.routes.lane_types import Directionality, LaneType, LaneUse
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.route_elements import SAME, PartT, RoadPart, Route
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse
 
 __all__ = [
     "CompoundLane",

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from osc2tx_runtime.domain.routes.lane_types import Directionality
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
+from osc2tx_runtime.enums import Directionality
 
 __all__ = ["axis_lanes", "directionality_of", "length_of", "widths_of"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
 from osc2tx_runtime.domain.routes.crossings import Crossing
@@ -12,6 +12,7 @@ from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection
 from osc2tx_runtime.domain.routes.route_axes import axis_lanes
+from osc2tx_runtime.enums import OnRouteType
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, Pose
 from osc2tx_runtime.world.state import ActorState
@@ -19,16 +20,15 @@ from osc2tx_runtime.world.state import ActorState
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["RouteType", "between_on_crossing", "place_in_route"]
+__all__ = ["between_on_crossing", "place_in_route"]
 
-RouteType = Literal["on_road", "on_lane_section", "on_lane", "on_crossing"]
 
 _EDGE = 0.5  # m beyond the ends of a crossing
 _UNKNOWN_WIDTH = 4.0  # m: of a crossing whose width nothing says
 
 
 def place_in_route(
-    context: ExecutionContext, state: ActorState, route_type: RouteType
+    context: ExecutionContext, state: ActorState, route_type: OnRouteType
 ) -> RoutePoint:
     """The place of an actor on what is under it.
 

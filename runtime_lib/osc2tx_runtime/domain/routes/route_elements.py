@@ -10,12 +10,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import ClassVar, TypeVar
 
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
-from osc2tx_runtime.domain.routes.lane_types import Directionality
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.routes.map_segments import PartKind, Stretch
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.route_axes import directionality_of, length_of, widths_of
+from osc2tx_runtime.enums import Directionality
 from osc2tx_runtime.errors import ScenarioError
 
 __all__ = ["SAME", "PartT", "RoadPart", "Route"]

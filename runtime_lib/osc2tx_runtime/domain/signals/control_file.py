@@ -19,8 +19,8 @@ from typing import Any, get_args
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, Shown, TrafficLightGroup
+from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.world.traffic_light_lamps import BulbState, Meaning
 
 __all__ = ["read_control_file"]
 
@@ -80,7 +80,7 @@ def _phase(entry: Any, group: TrafficLightGroup) -> TrafficLightPhase:
 
 
 def _state(value: Any) -> Bulbs:
-    if value in get_args(Meaning):
+    if value in get_args(SemanticTrafficLightState):
         return Shown(value)
     if isinstance(value, list) and value and all(each in get_args(BulbState) for each in value):
         return value

@@ -5,14 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.traffic_light_lamps import (
-    BulbColor,
-    BulbState,
-    Lamp,
-    Meaning,
-    lamps_that_mean,
-)
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean
 
 __all__ = ["Bulbs", "Shown", "TrafficLightBulb", "states_of"]
 
@@ -30,7 +25,7 @@ class TrafficLightBulb:
     """
 
     color: BulbColor
-    icon: str = "circle"
+    icon: BulbIcon = "circle"
     map_id: str | None = None
     icon_positive: bool = True
     state: BulbState = "unknown"
@@ -44,7 +39,7 @@ class Shown:
         meaning: The meaning.
     """
 
-    meaning: Meaning
+    meaning: SemanticTrafficLightState
 
 
 Bulbs = Sequence[TrafficLightBulb | BulbState] | Shown

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection, Route
 from osc2tx_runtime.domain.routes.route_axes import axis_lanes
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
+from osc2tx_runtime.enums import StopLineMarking
 from osc2tx_runtime.errors import PlacementError, ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import RoadMap, signal_places
 from osc2tx_runtime.world.traffic_light_states import Signals
@@ -17,7 +18,6 @@ from osc2tx_runtime.world.traffic_light_states import Signals
 __all__ = ["TrafficLightStopLine"]
 
 ValueT = TypeVar("ValueT")
-Marking = Literal["none", "solid", "broken"]
 
 
 class TrafficLightStopLine(Route):
@@ -49,8 +49,8 @@ class TrafficLightStopLine(Route):
         leftmost_lane: int | None = None,
         offset: float | None = None,
         secondary_stop_offset: float | None = None,
-        primary_stop_line_marking: Marking | None = None,
-        secondary_stop_line_marking: Marking | None = None,
+        primary_stop_line_marking: StopLineMarking | None = None,
+        secondary_stop_line_marking: StopLineMarking | None = None,
     ) -> None:
         super().__init__()
         self.traffic_light_group = traffic_light_group
@@ -148,7 +148,7 @@ class TrafficLightStopLine(Route):
         return self.offset if self._second is None else self._second
 
     @property
-    def primary_stop_line_marking(self) -> Marking:
+    def primary_stop_line_marking(self) -> StopLineMarking:
         """How it is drawn.
 
         Raises:
@@ -157,7 +157,7 @@ class TrafficLightStopLine(Route):
         return self._known("primary_stop_line_marking", self._marking)
 
     @property
-    def secondary_stop_line_marking(self) -> Marking:
+    def secondary_stop_line_marking(self) -> StopLineMarking:
         """How the second line is drawn; as the first one, if nothing else is said."""
         return self._second_marking or self.primary_stop_line_marking
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, TrafficLightGroup, states_of
+from osc2tx_runtime.enums import BulbState
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.traffic_light_lamps import BulbState, Lamp
+from osc2tx_runtime.world.traffic_light_lamps import Lamp
 
 __all__ = ["Moment", "TrafficLightCycle", "TrafficLightPhase"]
 

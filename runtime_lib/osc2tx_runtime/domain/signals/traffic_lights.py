@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.signals.lamp_states import Bulbs, Shown, TrafficLightBulb, states_of
+from osc2tx_runtime.enums import SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Signal
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, Meaning, meaning_of
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, meaning_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
@@ -121,11 +122,11 @@ class TrafficLight(MapObject):
         wanted = states_of(bulbs, signals.lamps(signal), f"traffic light {signal}")
         return signals.states(signal) == wanted
 
-    def semantic_state_to_state(self, state: Meaning) -> Shown:
+    def semantic_state_to_state(self, state: SemanticTrafficLightState) -> Shown:
         """What the box shows when it means this."""
         return Shown(state)
 
-    def state_to_semantic_state(self, bulbs: Bulbs) -> Meaning:
+    def state_to_semantic_state(self, bulbs: Bulbs) -> SemanticTrafficLightState:
         """What lamps mean; `non_functional` where no rule of traffic covers them."""
         if isinstance(bulbs, Shown):
             return bulbs.meaning

@@ -18,11 +18,12 @@ __all__ = [
     "at_least",
     "at_most",
     "choose",
+    "fixed",
     "within",
 ]
 
 NumberT = TypeVar("NumberT", int, float)
-ValueT = TypeVar("ValueT", bool, int, float, str)
+ValueT = TypeVar("ValueT", bound=bool | int | float | str)
 
 INFINITY: Any = math.inf  # a bound of whole numbers as well
 
@@ -109,6 +110,15 @@ def at_most(bound: NumberT) -> Range[NumberT]:
 def any_of(*values: ValueT) -> Choice[ValueT]:
     """Return the set of some values."""
     return Choice(values)
+
+
+def fixed(value: ValueT) -> ValueT:
+    """Return the only value that the scenario leaves for an enum.
+
+    With `self.mood: Mood = fixed("calm")` a type checker takes it for any value of the type, so
+    it may be compared with others.
+    """
+    return value
 
 
 def choose(

@@ -4,6 +4,8 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
+from typing import Literal, TypeAlias
+
 from osc2tx_runtime import (
     Behaviour,
     Map,
@@ -25,6 +27,9 @@ from osc2tx_runtime.modifiers import lane, speed
 from osc2tx_runtime.units import kph, m, s
 
 require_api(1)
+
+# Enums that the scenario declares
+WeatherKind: TypeAlias = Literal["dry", "wet", "icy"]
 
 
 class Constraints(Scenario):
@@ -66,7 +71,7 @@ class Constraints(Scenario):
 
         # a set of values
         self.lanes = self.parameter("lanes", any_of(1, 2))
-        self.road_state = self.parameter("road_state", any_of("dry", "wet"))
+        self.road_state: WeatherKind = self.parameter("road_state", any_of("dry", "wet"))
 
         # later constraints replace defaults
         self.pause = 1 * s

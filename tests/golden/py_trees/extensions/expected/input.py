@@ -7,6 +7,7 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 from osc2tx_runtime import (
     Behaviour,
@@ -28,6 +29,9 @@ require_api(1)
 kWh_100km = 36.0
 newton = 1.0
 
+# Enums that the scenario declares
+Mood: TypeAlias = Literal["calm", "brisk", "hurried", "reckless"]
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Habits:
@@ -48,7 +52,7 @@ class Commute(Scenario):
         """Cast, events and values."""
         self.actor = Vehicle()
         self.habit = self.argument("habit", Habits())
-        self.mood = self.parameter("mood", "calm")
+        self.mood: Mood = self.parameter("mood", "calm")
 
         # A default that a user may not want
         self.top = self.parameter("top", 20 * mps)
@@ -71,7 +75,7 @@ class Extensions(Scenario):
         """Cast, events and values."""
         self.road = Map(map_file="highway.xodr")
         self.ego = Vehicle()
-        self.state = self.parameter("state", "reckless")
+        self.state: Mood = self.parameter("state", "reckless")
         self.economical_spends = self.parameter(
             "economical.spends", within(100 * newton, 550 * newton)
         )

@@ -4,11 +4,16 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
+from typing import Literal, TypeAlias
+
 from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import kph, m, s
 
 require_api(1)
+
+# Enums that the scenario declares
+KindOfRoad: TypeAlias = Literal["city", "rural", "highway"]
 
 
 class Lists(Scenario):
@@ -24,9 +29,9 @@ class Lists(Scenario):
         self.npc = Vehicle()
         self.fleet = [self.ego, self.npc]
         self.speeds = [10 * kph, 20 * kph, 30 * kph]
-        self.where = self.parameter("where", "rural")
+        self.where: KindOfRoad = self.parameter("where", "rural")
         self.number = self.parameter("number", {"city": 3, "rural": 4, "highway": 5}[self.where])
-        self.back = self.parameter("back", "highway")
+        self.back: KindOfRoad = self.parameter("back", "highway")
         self.half = self.parameter("half", float(self.number) / 2.0)
         self.cruise = self.parameter("cruise", self.speeds[1])
 

@@ -6,7 +6,7 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from osc2tx_runtime import (
     Behaviour,
@@ -25,13 +25,16 @@ from osc2tx_runtime.units import mps, s
 
 require_api(1)
 
+# Enums that the scenario declares
+Load: TypeAlias = Literal["empty", "full"]
+
 
 class Lorry(Vehicle):
     """Actor `lorry` (input.osc:8)."""
 
     kinds = ("lorry", *Vehicle.kinds)
 
-    def __init__(self, *, load: str, crew: int = 1, **fields: Any) -> None:
+    def __init__(self, *, load: Load, crew: int = 1, **fields: Any) -> None:
         super().__init__(**fields)
         self.load = load
         self.crew = crew
@@ -79,7 +82,7 @@ class Haul(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.who_load = self.parameter("who.load", any_of("empty", "full"))
+        self.who_load: Load = self.parameter("who.load", any_of("empty", "full"))
         self.who = Lorry(load=self.who_load)
         self.hands = self.required("hands", int)
 

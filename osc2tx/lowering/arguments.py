@@ -1,0 +1,31 @@
+"""Arguments of calls and invocations (§7.3.5.1.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx import ir
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.semantics.model import Binding
+from osc2tx.syntax import ast
+
+
+def lower_arguments(
+    ctx: LoweringContext, binding: Binding, written: Sequence[ast.Argument]
+) -> tuple[ir.Argument, ...]:
+    """Lower the arguments of a call, each with the parameter it is for."""
+    nodes = {id(argument.value): argument for argument in written}
+    lowered = []
+    for parameter, value in binding.arguments:
+        expression = ctx.lower(value)
+        argument = nodes.get(id(value))
+        if expression is not None:
+            lowered.append(
+                ir.Argument(
+                    parameter=parameter.name,
+                    value=expression,
+                    is_positional=argument is not None and argument.name is None,
+                    span=argument.span if argument else value.span,
+                )
+            )
+    return tuple(lowered)

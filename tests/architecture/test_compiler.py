@@ -1,0 +1,127 @@
+"""Which part of the compiler may import which: the table is exact, and there are no circles."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.architecture.module_graph import (
+    COMPILER,
+    REPOSITORY,
+    circles,
+    files_of,
+    graph_of,
+    imported_names,
+)
+
+# Part of osc2tx -> what else of osc2tx it imports. `a.b` means that module and those below it.
+MAY_IMPORT: dict[str, set[str]] = {
+    # leaves
+    "resources": set(),
+    "support": set(),
+    "version": set(),
+    "diagnostics": {"support"},
+    "options": {"support"},
+    # stages, in the order in which they run
+    "syntax": {"diagnostics", "support"},
+    "stdlib": {"diagnostics", "support", "syntax", "version"},
+    "semantics": {"diagnostics", "stdlib", "support", "syntax.ast"},
+    "analysis": {"diagnostics", "options", "semantics", "support", "syntax.ast"},
+    "ir": {"diagnostics", "support"},
+    "lowering": {"analysis", "diagnostics", "ir", "options", "semantics", "support", "syntax.ast"},
+    "backends": {"diagnostics", "ir", "options", "resources", "support"},
+    # what runs them
+    "formatter": {"diagnostics", "syntax"},
+    "config": {"diagnostics.suggestions", "options", "support"},
+    "compilation": {"syntax", "semantics", "analysis", "ir", "lowering", "backends"}
+    | {"diagnostics", "formatter", "options", "support"},
+    "building": {"compilation", "config"}
+    | {"diagnostics", "options", "resources", "support", "version"},
+    "cli": {"backends", "building", "compilation", "config"}
+    | {"diagnostics", "options", "resources", "support", "version"},
+    "__main__": {"cli"},
+    "api": {"building", "compilation", "config", "diagnostics", "options"},
+    "testing": {"building", "cli", "compilation", "config", "diagnostics"},
+    "": {"api", "diagnostics", "version"},
+}
+
+# Part or folder -> packages of others that it imports, besides the standard library.
+OTHERS = {
+    "syntax": {"antlr4"},
+    "semantics": {"pint"},
+    "backends/py_trees": {"black", "jinja2"},
+    "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
+    "backends/xosc/xml": {"lxml"},
+    "cli": {"click", "osc2tx_runtime", "rich"},
+    "testing": {"osc2tx_runtime", "pytest"},
+}
+
+FILES = files_of(COMPILER)
+
+
+def part_of(path: Path) -> str:
+    """Return the part that a module belongs to; `""` for the package itself."""
+    first = path.relative_to(COMPILER).parts[0].removesuffix(".py")
+    return "" if first == "__init__" else first
+
+
+def part_and_folder(path: Path) -> tuple[str, str]:
+    return part_of(path), path.relative_to(COMPILER).parent.as_posix()
+
+
+def is_below(name: str, package: str) -> bool:
+    return name == package or name.startswith(f"{package}.")
+
+
+def imports_of(path: Path) -> tuple[set[str], set[str]]:
+    """Return what a module imports of other parts of osc2tx, and the packages of others."""
+    inside, outside = set(), set()
+    for name in imported_names(path, COMPILER):
+        first, _, rest = name.partition(".")
+        if first == "osc2tx" and not is_below(rest, part_of(path)):
+            inside.add(rest)
+        elif first != "osc2tx" and first not in sys.stdlib_module_names:
+            outside.add(first)
+    return inside, outside
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(REPOSITORY).as_posix())
+def test_imports_are_in_the_table(path: Path) -> None:
+    part = part_of(path)
+    assert part in MAY_IMPORT, f"say in MAY_IMPORT what `{part}` may import"
+    inside, outside = imports_of(path)
+    for name in inside:
+        assert any(is_below(name, entry) for entry in MAY_IMPORT[part]), f"{part} imports {name}"
+    allowed = {package for key in part_and_folder(path) for package in OTHERS.get(key, set())}
+    assert outside <= allowed, f"{part} imports {sorted(outside - allowed)}"
+
+
+def test_the_table_allows_nothing_that_is_not_used() -> None:
+    """A row or an entry that no import needs any more goes."""
+    inside: dict[str, set[str]] = {}
+    outside: dict[str, set[str]] = {}
+    for path in FILES:
+        of_ours, of_others = imports_of(path)
+        inside.setdefault(part_of(path), set()).update(of_ours)
+        for key in part_and_folder(path):
+            outside.setdefault(key, set()).update(of_others)
+    needless = {
+        (part, entry)
+        for part, entries in MAY_IMPORT.items()
+        for entry in entries
+        if not any(is_below(name, entry) for name in inside.get(part, ()))
+    }
+    assert not needless
+    assert set(MAY_IMPORT) == set(inside)
+    assert not {key for key, packages in OTHERS.items() if not packages <= outside.get(key, set())}
+
+
+def test_the_table_has_no_circle() -> None:
+    parts = {
+        part: {entry.split(".")[0] for entry in entries} for part, entries in MAY_IMPORT.items()
+    }
+    assert not circles(parts)
+
+
+def test_no_circle_between_modules() -> None:
+    assert not circles(graph_of(COMPILER))
