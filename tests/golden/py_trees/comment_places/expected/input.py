@@ -30,7 +30,7 @@ require_api(1)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Part:
-    """Struct `part` (input.osc:6).
+    """Struct `part`.
 
     tag::part[]
     """
@@ -39,9 +39,7 @@ class Part:
 
 
 class Top(Scenario):
-    """Scenario `top` (input.osc:14).
-
-    Of the scenario: nothing stands between.
+    """Of the scenario: nothing stands between.
     The second paragraph.
     """
 
@@ -66,7 +64,7 @@ class Top(Scenario):
         self.place(self.ego, speed(self.v))
         self.place(self.other, speed(self.v))
 
-    def behavior(self) -> Behaviour:  # input.osc:27
+    def behavior(self) -> Behaviour:
         return Parallel(
             "top",
             self.ego.drive(speed(self.v)),
@@ -83,7 +81,7 @@ class Top(Scenario):
         )
 
     # Above a serial.
-    def serial(self) -> Behaviour:  # input.osc:41
+    def serial(self) -> Behaviour:
         return Until(
             Serial(
                 "serial",
