@@ -19,9 +19,9 @@ from osc2tx.analysis.domains import (
     Domain,
     EmptyDomainError,
     Interval,
-    hull,
     is_disjoint,
     is_void,
+    join,
 )
 from osc2tx.analysis.forward import negated, range_between
 from osc2tx.analysis.operation_list import Operation
@@ -199,7 +199,7 @@ def _in_list(operands: Sequence[Domain]) -> Narrowings:
     possible = [e for e in elements if not is_disjoint(value, e)]
     if not possible:
         raise EmptyDomainError
-    whole: Domain = reduce(hull, possible)
+    whole: Domain = reduce(join, possible)
     yield 0, _without_nan(whole)
 
 

@@ -144,7 +144,7 @@ def _is_slack(first: Number, second: Number) -> bool:
     return abs(first - second) <= max(ABSOLUTE_SLACK, RELATIVE_SLACK * size)
 
 
-def hull(first: Domain, second: Domain) -> Domain:
+def join(first: Domain, second: Domain) -> Domain:
     """Return a set that holds both."""
     if isinstance(first, Interval) and isinstance(second, Interval):
         lower, lower_open = min(_lower_key(first), _lower_key(second))

@@ -16,7 +16,7 @@ from osc2tx.building.plan import (
     find_orphans,
     place_outputs,
 )
-from osc2tx.building.result_cache import Memory
+from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult
 from osc2tx.building.workers import compile_jobs
 from osc2tx.building.write import Update, update_folder
@@ -158,8 +158,8 @@ class _Build:
 
     def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
         """Return the results of all jobs, with texts of all outputs that may be written."""
-        memory = Memory("builds", self.out_dir)
-        recalled = {job: memory.recall(job) for job in jobs}
+        memory = ResultCache("builds", self.out_dir)
+        recalled = {job: memory.load(job) for job in jobs}
         known = {job: result for job, result in recalled.items() if result is not None}
         placed, _ = place_outputs(list(known.values()))
         for planned in placed:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.manifest import Manifest
-from osc2tx.building.results import FileResult, Made
+from osc2tx.building.results import FileResult, OutputRecord
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.portable_names import is_portable
 
@@ -43,7 +43,7 @@ class Planned:
 
     path: str
     result: FileResult
-    made: Made
+    made: OutputRecord
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,7 +33,7 @@ class Suppression:
 
 
 @dataclass(frozen=True, slots=True)
-class Settled:
+class SuppressionResult:
     """Diagnostics after suppression.
 
     Attributes:
@@ -49,7 +49,7 @@ def settle(
     found: Iterable[Diagnostic],
     judged: Mapping[SourceFile, bool],
     find: Callable[[SourceFile], Sequence[Suppression]],
-) -> Settled:
+) -> SuppressionResult:
     """Apply the suppressions of all files that have diagnostics.
 
     Args:
@@ -77,7 +77,7 @@ def settle(
     sink = DiagnosticSink()
     for source, is_complete in judged.items():
         entries_of(source).check(sink, is_complete=is_complete)
-    return Settled(in_order([*shown, *sink.sorted()]), in_order(suppressed))
+    return SuppressionResult(in_order([*shown, *sink.sorted()]), in_order(suppressed))
 
 
 class _Entries:

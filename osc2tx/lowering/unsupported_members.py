@@ -15,7 +15,7 @@ from osc2tx.semantics.types import ActorType, StructType
 from osc2tx.syntax import ast
 
 
-def report_without_effect(
+def report_unsupported_members(
     ctx: LoweringContext, used: Iterable[sym.TypeSymbol], actions: Iterable[sym.ActionSymbol]
 ) -> None:
     """Report members of types in use that would have no effect, each of them once.

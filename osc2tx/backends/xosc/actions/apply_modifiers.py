@@ -7,7 +7,7 @@ from osc2tx.backends.xosc.actions.registry import MODIFIERS
 from osc2tx.backends.xosc.report import Inexpressible
 
 
-def modified(leaf: Leaf) -> tuple[Change, ...]:
+def apply_modifiers(leaf: Leaf) -> tuple[Change, ...]:
     """Return what the modifiers of an invocation change."""
     changes: list[Change] = []
     for call in leaf.node.modifiers:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.lateral_offsets import offset_in_lane
 from osc2tx.backends.xosc.actions.leaf import Arguments
-from osc2tx.backends.xosc.actions.points_and_lines import start_of_way
+from osc2tx.backends.xosc.actions.points_and_lines import point_along
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import required_roads
@@ -101,7 +101,7 @@ def _on_route(ctx: Context, start: Start, along: Arguments) -> tuple[Element, Ac
     offset = along.number("start_offset") or 0.0
     along.number("end_offset")
     offset += 0.0 if position is None else position.number("distance") or 0.0
-    place = start_of_way(ctx, along.get("route"), offset)
+    place = point_along(ctx, along.get("route"), offset)
     if not isinstance(place, LanePosition):
         if lane is not None:
             raise Inexpressible("a lane of a way off the lanes", lane.source.span)

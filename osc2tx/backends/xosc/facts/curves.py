@@ -17,7 +17,7 @@ from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 
-__all__ = ["Waypoint", "drawn"]
+__all__ = ["Waypoint", "sample_curve"]
 
 
 class Waypoint(NamedTuple):
@@ -42,7 +42,7 @@ SAMPLES = 12
 """Pieces into which a stretch of a smooth way is cut."""
 
 
-def drawn(
+def sample_curve(
     points: Sequence[Waypoint],
     *,
     is_timed: bool,

@@ -31,7 +31,7 @@ class Bounds:
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class MethodResult:
     """What a method of the library makes of constants: a point, a path, states of lamps.
 
     Attributes:
@@ -50,5 +50,5 @@ class Made:
 
 
 Constant: TypeAlias = (
-    "bool | int | float | str | Member | Named | Bounds | Made | tuple[Constant, ...]"
+    "bool | int | float | str | Member | Named | Bounds | MethodResult | tuple[Constant, ...]"
 )
