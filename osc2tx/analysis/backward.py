@@ -1,4 +1,4 @@
-"""What the operands of an operation can be, given what it yields.
+"""Backward propagation: domains of operands from the domain of the result.
 
 Each function returns new domains for some operands, as pairs of position and domain. What is not
 returned stays as it is.

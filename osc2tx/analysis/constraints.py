@@ -1,4 +1,4 @@
-"""What the constraints of a program fix, bound and leave open.
+"""Results of the constraint analysis: parameters that are fixed, bounded or open.
 
 `ConstraintAnalysis` is the result for later stages. Ask it for a parameter of a scenario:
 

@@ -1,4 +1,4 @@
-"""Sets of values: what a parameter or expression can still be.
+"""Domains: the values that a parameter or expression can still have.
 
 Numbers are intervals in SI, with Python integers for `int` and `uint`, floats for the rest. Bools,
 enums and strings are finite sets or their complements. An interval says for each bound whether

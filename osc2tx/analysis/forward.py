@@ -1,4 +1,4 @@
-"""What the operations of an expression can yield, given what their operands can be."""
+"""Forward evaluation: the domain of each operation from the domains of its operands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contradictions in the order of parameters, `a < b < c < a`, that no interval shows.
+"""Contradictory orders of parameters, `a < b < c < a`, which no interval shows.
 
 Comparisons of two parameters are edges of a graph: from the smaller one to the larger one, both
 ways for equal ones. A cycle says that all on it are equal, which `<` and `!=` deny. Only plain

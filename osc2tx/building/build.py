@@ -1,4 +1,4 @@
-"""The way through a build: find jobs, recall or compile, compare with the folder, write."""
+"""The build: finds jobs, loads or compiles results, compares with the folder, writes."""
 
 from __future__ import annotations
 
@@ -243,7 +243,7 @@ class _Build:
     def _changes_of_manifest(
         self, placed: Sequence[Planned], states: dict[str, State]
     ) -> list[Change]:
-        """Return the manifest if it does not list what is current; a build that writes mends it."""
+        """Return the manifest if it does not list what is current; a build that writes fixes it."""
         current = [planned for planned in placed if states.get(planned.path) is State.CURRENT]
         if all(map(self._is_listed, current)) and not self.stored.unfinished:
             return []

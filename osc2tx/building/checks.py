@@ -1,4 +1,4 @@
-"""Checks files, or recalls what an earlier check of the same texts found."""
+"""Checks files, or loads the results of an earlier check of the same texts."""
 
 from __future__ import annotations
 

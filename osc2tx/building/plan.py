@@ -1,4 +1,4 @@
-"""What a build has to do: outputs that sources make, against what the folder holds."""
+"""Plan of a build: planned outputs compared with the output folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results of earlier builds and checks, in the user's cache folder.
+"""Cache of results of builds and checks, in the user's cache folder.
 
 There is one file for each output folder, and one for each folder in which somebody checks. A result
 holds as long as the text of the source, the texts of all files that it imports, the places where

@@ -1,4 +1,4 @@
-"""What a compilation gave, as plain data: it travels between processes and lasts."""
+"""Result of compiling one file, as plain data for processes and the cache."""
 
 from __future__ import annotations
 

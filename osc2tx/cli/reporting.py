@@ -1,4 +1,4 @@
-"""What a command says at its end: diagnostics in the form asked for, a summary, an exit code.
+"""Output of a command: diagnostics in the requested form, a summary, an exit code.
 
 Text for people goes to stderr and the summary to stdout; with a form for programs, that form alone
 goes to stdout, and all else to stderr.

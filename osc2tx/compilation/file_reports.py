@@ -1,4 +1,4 @@
-"""What there is to report on source files, wherever it comes from: a compilation or a memory.
+"""Diagnostics of source files, from a compilation or from the result cache.
 
 Nothing here loads a stage: a check whose result is remembered needs none.
 """

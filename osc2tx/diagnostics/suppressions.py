@@ -126,7 +126,7 @@ class _Entries:
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
         elif code.severity is Severity.ERROR:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
-            sink.report("OSC703", name, message, help="mend what it reports")
+            sink.report("OSC703", name, message, help="fix what it reports")
         elif not code.can_be_suppressed:
             message = f"`{code.code}` is about suppressions and cannot be suppressed"
             sink.report("OSC703", name, message)

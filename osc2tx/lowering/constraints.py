@@ -1,4 +1,4 @@
-"""What constraints leave of the values of a scenario (§7.3.11), as the IR writes it down.
+"""Constraints on the values of a scenario (§7.3.11) as fixed values and domains.
 
 A parameter becomes a constant (what sets it is hard), a value with a default, or a value out of a
 domain. Its domain is written with the bounds of the source where the source has them. A constraint

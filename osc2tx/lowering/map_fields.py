@@ -1,4 +1,4 @@
-"""Fields of roads, lanes and lights: a map fills them in before the start of a run.
+"""Fields of roads, lanes and lights that the map fills in before a run.
 
 Scenarios may bound some of them; the runtime then looks for parts of the map that fit.
 """

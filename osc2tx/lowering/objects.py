@@ -1,4 +1,4 @@
-"""Objects of a scenario, actors and structs: what constraints fix about them."""
+"""Objects of a scenario, actors and structs, with the values that constraints give them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names and paths: which field, parameter, label or object they stand for."""
+"""Names and paths, resolved to fields, parameters, labels and objects."""
 
 from __future__ import annotations
 

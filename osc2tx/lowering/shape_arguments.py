@@ -1,4 +1,4 @@
-"""Shapes with methods of the scenario's own, as arguments of modifiers (§8.9.1.2)."""
+"""User-defined shapes as arguments of modifiers (§8.9.1.2)."""
 
 from __future__ import annotations
 

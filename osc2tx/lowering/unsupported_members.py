@@ -1,4 +1,4 @@
-"""Members of actors, structs and actions that no module carries out: refused, never dropped.
+"""Reports members of types that modules do not support.
 
 What the members of a type mean is mostly said where they are used: fields and constraints by the
 objects, methods by their calls, events by those who wait for them. The rest has to be looked for.

@@ -1,4 +1,4 @@
-"""The fields of actors and structs of the scenario's own files, as their classes have them.
+"""Fields of actors and structs that the scenario's files declare.
 
 A class has the fields that have a default or that some text speaks of. The default is part of the
 class if it needs nothing else; one that reads other fields or globals belongs to each object.

@@ -1,4 +1,4 @@
-"""Actors and structs that the scenario's own files declare, as classes of the module."""
+"""Actors and structs that the scenario's files declare, as classes of the module."""
 
 from __future__ import annotations
 

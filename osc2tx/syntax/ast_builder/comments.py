@@ -1,4 +1,4 @@
-"""Hands the comments of a file to its statements, in order (see `CommentCursor`)."""
+"""Assigns the comments of a file to its statements, in order (see `CommentCursor`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Modifiers of an invocation, each written down by its handler."""
+"""Applies the modifiers of an invocation by their handlers."""
 
 from __future__ import annotations
 

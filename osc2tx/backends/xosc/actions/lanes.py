@@ -1,4 +1,4 @@
-"""Changes of the lane and of the place in it (§8.8.3.2, §8.8.3.3)."""
+"""Changes of the lane and of the lateral position in it (§8.8.3.2, §8.8.3.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Actions that put an actor somewhere or send it there (§8.8.2.4, §8.8.2.5, §8.8.2.11)."""
+"""Actions that assign a position or go to one (§8.8.2.4, §8.8.2.5, §8.8.2.11)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who writes down which action and which modifier."""
+"""Registry of the XML handlers of actions and modifiers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Modifiers of the speed and of the way (§8.9.4 to §8.9.6, §8.9.13, §8.9.18)."""
+"""Modifiers of speed and path (§8.9.4 to §8.9.6, §8.9.13, §8.9.18)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Traffic lights (§8.15): actions that switch them, cycles, and conditions on what they show.
+"""Traffic lights (§8.15): actions that switch them, and conditions on their states.
 
 The text of a state is up to the tool. Written here: one word for each lamp, in the order of the
 lamps, as in `off;off;on`; ScenarioRunner knows one colour for the whole light.

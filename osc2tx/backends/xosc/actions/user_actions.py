@@ -1,4 +1,4 @@
-"""Actions that the scenario declares itself: the tool has to know what they are."""
+"""Actions that the scenario declares: commands for the simulator."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shapes of the scenario's own (§8.9.1.2): courses of the speed that its methods compute.
+"""User-defined shapes (§8.9.1.2): speeds that methods of the scenario compute.
 
 They are computed before the run and drawn through points, close enough to each other.
 """

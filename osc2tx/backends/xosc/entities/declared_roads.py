@@ -1,4 +1,4 @@
-"""Roads and lanes that a scenario declares and the map has to have (§8.12)."""
+"""Roads and lanes that a scenario declares, searched on the map (§8.12)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where actors start: positions of `Init`, and what is known about the place."""
+"""Start positions of actors: elements of `Init`, and the lane and pose they mean."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ways through points, as the embedded world draws them."""
+"""Curves through points, sampled as the runtime draws them."""
 
 from __future__ import annotations
 

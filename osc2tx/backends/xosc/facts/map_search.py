@@ -1,4 +1,4 @@
-"""Roads and lanes that scenarios declare, found on the map as the embedded world finds them."""
+"""Search of declared roads and lanes on the map, by the runtime's map solver."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What goes on when an action ends: a change that is not over is ended where it is.
+"""Ends of actions: changes that are not complete are stopped.
 
 In the DSL an actor keeps its speed and its lane when no action controls them. In the XML an action
 runs on until it is done, or another one takes over.
@@ -22,7 +22,9 @@ BACK_TO_CENTRE = 1.5
 Claims = frozenset[tuple[str, str]]
 
 
-def claim_domain(builder: StoryboardBuilder, leaf: Leaf, change: Change, *, is_over: bool) -> None:
+def record_end_state(
+    builder: StoryboardBuilder, leaf: Leaf, change: Change, *, is_over: bool
+) -> None:
     """Note what is known about the actor when an action has ended."""
     before = builder.ctx.states[leaf.member.name]
     state = _merged(before, change.after if is_over else change.during, change.domain)

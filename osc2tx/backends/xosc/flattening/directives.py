@@ -1,4 +1,4 @@
-"""Directives: `emit`, `call`, `on`, the end of the scenario."""
+"""Directives as events: `emit`, `call`, `on`, the end of the scenario."""
 
 from __future__ import annotations
 

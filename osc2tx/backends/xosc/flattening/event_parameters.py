@@ -1,4 +1,4 @@
-"""What events carry: a variable for each of their parameters, set when they are emitted."""
+"""Parameters of events: a variable for each, set when the event is emitted."""
 
 from __future__ import annotations
 

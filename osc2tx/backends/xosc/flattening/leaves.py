@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, OF_TH
 from osc2tx.backends.xosc.actions.user_actions import user_action
 from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
-from osc2tx.backends.xosc.flattening.action_endings import claim_domain
+from osc2tx.backends.xosc.flattening.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.adjacent_members import is_first
 from osc2tx.backends.xosc.flattening.storyboard_builder import (
     RUN_START,
@@ -68,7 +68,9 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     lasting = _least_length(builder, node, performance)
     successors = builder.claimed_by(overriding)
     for change in performance.changes:
-        claim_domain(builder, leaf, change, is_over=not overriding and _is_over(change, lasting))
+        record_end_state(
+            builder, leaf, change, is_over=not overriding and _is_over(change, lasting)
+        )
         if (member.name, change.domain) in successors:
             ctx.states[member.name] = ctx.states[member.name].finished(change.domain)
     return builder.mark_end(node, ends)

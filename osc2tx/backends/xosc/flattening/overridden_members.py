@@ -1,4 +1,4 @@
-"""Members that others keep from starting: `override(a, b, when_active)` (§7.3.12.1.1)."""
+"""Overrides (§7.3.12.1.1): members that do not start while another one is active."""
 
 from __future__ import annotations
 

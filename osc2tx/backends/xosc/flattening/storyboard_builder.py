@@ -1,4 +1,4 @@
-"""What everybody needs who weaves events into acts: the present act, marks, triggers."""
+"""Storyboard builder: the current act, marks, and triggers as flows."""
 
 from __future__ import annotations
 

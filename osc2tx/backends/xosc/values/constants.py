@@ -1,4 +1,4 @@
-"""What expressions are worth that do not change during a run."""
+"""Values of expressions that do not change during a run."""
 
 from __future__ import annotations
 

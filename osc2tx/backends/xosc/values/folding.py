@@ -1,4 +1,4 @@
-"""Values of expressions that do not change during a run.
+"""Constant folding: the values of expressions that do not change during a run.
 
 Constants and the values of parameters are folded. A parameter that may be anything in a range is
 what is given for it, a number or a `Symbol`, else the middle.

@@ -1,4 +1,4 @@
-"""Values that the scenario's own types give: defaults of fields."""
+"""Default values of fields of the scenario's own types."""
 
 from __future__ import annotations
 
