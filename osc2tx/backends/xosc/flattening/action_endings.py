@@ -78,8 +78,7 @@ def end_open_actions(
         actions = tuple(_ending(builder, actor, domain, member) for domain, _ in left)
         name = ctx.names.new(f"hold_{actor}")
         ended = builder.latched(ended, name)
-        comment = ctx.comment(member.span, f"{actor} goes on as it is")
-        builder.add(name, actions, ended, comment, actor=actor)
+        builder.add(name, actions, ended, actor=actor)
     return ended
 
 

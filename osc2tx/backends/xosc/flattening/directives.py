@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.actions.user_actions import command_of
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow
 from osc2tx.backends.xosc.flattening.event_parameters import set_parameters
 from osc2tx.backends.xosc.flattening.periods import MANY_TIMES, react_periodically
-from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder, one_line
+from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import element
@@ -25,11 +25,8 @@ def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
     """Let an event occur; return when it has."""
     ctx, events = builder.ctx, builder.events
     name = ctx.names.new(f"emit_{ctx.scope.prefix}{node.event.name}")
-    comment = ctx.comment(node.span, one_line(node.span.text))
     setting = events.setting(node.event.name)
-    done = builder.add(
-        name, (*set_parameters(ctx, node), setting), start, comment, actor=builder.mark_actor
-    )
+    done = builder.add(name, (*set_parameters(ctx, node), setting), start, actor=builder.mark_actor)
     if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
         reset = events.setting(node.event.name, "false")
         builder.add(ctx.names.new(f"after_{name}"), (reset,), done)
@@ -50,11 +47,8 @@ def call(builder: StoryboardBuilder, node: ir.Call, start: Flow) -> Flow:
         raise no_model("another behavioral model", node.span)
     arguments = {each.parameter: ctx.values.of(each.value) for each in called.arguments}
     name = ctx.names.new(f"call_{plain(called.method)}")
-    comment = ctx.comment(node.span, one_line(node.span.text))
     start = builder.latched(start, name)
-    builder.add(
-        name, (command_of(called.method, arguments),), start, comment, actor=builder.mark_actor
-    )
+    builder.add(name, (command_of(called.method, arguments),), start, actor=builder.mark_actor)
     ctx.report.exact("call", node.span, f"the tool has to know the command `{called.method}`")
     return builder.mark_end(node, start)
 
@@ -67,11 +61,8 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
         ctx.require_support("SetMonitorAction", node.span)
         ctx.monitors[VERDICT] = True
         action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
-        comment = ctx.comment(node.span, one_line(node.span.text))
         actions = (element("GlobalAction", action),)
-        start = builder.add(
-            ctx.names.new("fail"), actions, start, comment, actor=builder.mark_actor
-        )
+        start = builder.add(ctx.names.new("fail"), actions, start, actor=builder.mark_actor)
     builder.finished = builder.finished | start
     ctx.report.exact("emit end" if node.succeeds else "emit fail", node.span)
     return start
@@ -97,8 +88,7 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
     occurs = builder.after(node.trigger, start)
     repeats = None if once else MANY_TIMES
     name = ctx.names.new(f"on_{plain(node.trigger.span.text)}")
-    comment = ctx.comment(node.span, one_line(node.span.text))
-    builder.add(name, tuple(actions), occurs, comment, repeats=repeats)
+    builder.add(name, tuple(actions), occurs, repeats=repeats)
     if not once:  # the opposite edge makes room for the next occurrence
         over = Flow(
             tuple(
