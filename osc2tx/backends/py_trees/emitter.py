@@ -37,7 +37,7 @@ RUNTIME_CLASSES = frozenset(
         "Fail",
         "On",
         "OneOf",
-        "UserShape",
+        "OwnShape",
         "Parallel",
         "Range",
         "Rgb",

@@ -14,11 +14,11 @@ from osc2tx_runtime import (
     CommonPositionShape,
     CommonSpeedShape,
     Map,
+    OwnShape,
     Parallel,
     Person,
     Scenario,
     Serial,
-    UserShape,
     Vehicle,
     main,
     require_api,
@@ -118,7 +118,7 @@ class Shapes(Scenario):
             self.ego_serial(),
             self.lead.drive(speed(self.ramp_compute(self.up, 2 * s)), duration=20 * s),
             self.walker.walk(
-                yaw(shape=UserShape(self.round, self.turn_compute, self.turn_duration)),
+                yaw(shape=OwnShape(self.round, self.turn_compute, self.turn_duration)),
                 speed(self.plain.compute(500 * ms)),
                 duration=3 * s,
             ),
@@ -130,11 +130,11 @@ class Shapes(Scenario):
             "ego: serial",
             # What holds throughout starts with its first value.
             self.ego.drive(
-                speed(shape=UserShape(self.up, self.ramp_compute, self.ramp_duration)),
+                speed(shape=OwnShape(self.up, self.ramp_compute, self.ramp_duration)),
                 duration=self.ramp_duration(self.up),
             ),
             self.ego.drive(
-                lateral(shape=UserShape(self.out, self.sway_compute)),
+                lateral(shape=OwnShape(self.out, self.sway_compute)),
                 duration=self.plain.duration() + 1 * s,
             ),
             self.ego.drive(
