@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.modifiers.map_files import MAP_MODIFIERS, MapModifier
+from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
@@ -100,7 +100,7 @@ def search_map(
     try:
         for name, query in parts.items():
             made[name] = _build(PARTS[query.kind], query, made)
-        kinds = {cls.name: cls for cls in MAP_MODIFIERS}
+        kinds = {n: each for n, each in MODIFIERS.items() if issubclass(each, MapModifier)}
         modifiers = [_build(kinds[query.kind], query, made) for query in relations]
         solver = MapSolver(roads.map, list(made.values()), [Relation(m, None) for m in modifiers])
         solver.solve()
