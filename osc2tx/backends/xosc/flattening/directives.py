@@ -29,7 +29,7 @@ def emit(loom: Loom, node: ir.Emit, start: Flow) -> Flow:
     done = loom.add(name, (*carried(ctx, node), setting), start, actor=loom.voice)
     if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
         reset = events.setting(node.event.name, "false")
-        loom.add(ctx.names.new(f"after_{name}"), (reset,), done)
+        loom.add(ctx.names.new(f"after_{name}"), (reset,), done, actor=loom.voice)
     else:
         done = loom.is_set(events.variable(node.event.name))
     ctx.report.exact("emit", node.span)

@@ -16,7 +16,6 @@ from osc2tx.backends.xosc.flattening.parallel_overlaps import length_of
 from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, construct_of
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import element
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
@@ -42,7 +41,7 @@ def over(loom: Loom, node: Timed, start: Flow, content: Flow, role: Role) -> Flo
         return (content if low <= length else start.later(low)) | until
     in_time, late = NEVER, start.later(high)
     if length is None:
-        done = loom.ctx.names.new(f"done_{plain(node.label or node.name)}")
+        done = loom.ctx.names.new(f"done_{loom.name_of(node)}")
         in_time = loom.keep(done, content) & start.later(low)
         late = late & loom.is_unset(done)
     return _failing(loom, node, in_time, late, role) | until
@@ -65,7 +64,7 @@ def _length(loom: Loom, node: Timed) -> float | None:
 
 def _failing(loom: Loom, node: Timed, in_time: Flow, late: Flow, role: Role) -> Flow:
     """Return when a member is over that fails with a flow."""
-    ctx, name = loom.ctx, f"late_{plain(node.label or node.name)}"
+    ctx, name = loom.ctx, f"late_{loom.name_of(node)}"
     span = node.span if node.duration is None else node.duration.span
     construct = f"duration of a {construct_of(node)}"
     if role == "racer":

@@ -25,7 +25,6 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import RUN_START, Loom, 
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant, is_single, is_timed
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
-from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.diagnostics import Span
 
 
@@ -77,7 +76,8 @@ class Flattener:
             case ir.Invoke():
                 return invoke(self._loom, node, start)
             case ir.Wait():
-                end = self._loom.after(node.trigger, self._loom.latched(start, node.name))
+                begin = self._loom.latched(start, self._loom.name_of(node))
+                end = self._loom.after(node.trigger, begin)
                 self._ctx.report.exact("wait", node.span)
                 return self._loom.ended(node, end)
             case ir.Emit():
@@ -107,7 +107,7 @@ class Flattener:
 
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
         if len(node.members) > 1:
-            start = self._loom.latched(start, node.name)
+            start = self._loom.latched(start, self._loom.name_of(node))
         ends: list[tuple[ir.Behavior, Flow]] = []
         voice = self._loom.voice
         for member, offset in zip(node.members, starts_of(self._ctx, node), strict=True):
@@ -129,7 +129,8 @@ class Flattener:
             return NEVER
         if len(bounding) == 1:
             return bounding[0][1]
-        joined, *others = (self._loom.latched(end, member.name) for member, end in bounding)
+        named = ((self._loom.name_of(member), end) for member, end in bounding)
+        joined, *others = (self._loom.latched(end, name) for name, end in named)
         for other in others:
             joined = joined & other
         return joined
@@ -142,7 +143,7 @@ class Flattener:
         if policy == "seeded":
             return self._choice(node, start)
         if len(node.members) > 1:
-            start = self._loom.latched(start, node.name)
+            start = self._loom.latched(start, self._loom.name_of(node))
         is_race = len(node.members) > 1
         single = [
             is_single(member) and not (is_race and is_timed(member)) for member in node.members
@@ -160,7 +161,7 @@ class Flattener:
                 if mark is not None:
                     ends[mark] = self._loom.is_set(mark)
             elif not (end := self._racer(member, start, is_race)).is_never:
-                mark = self._ctx.names.new(f"end_of_{plain(member.name)}")
+                mark = self._ctx.names.new(f"end_of_{self._loom.name_of(member)}")
                 ends[mark] = self._loom.keep(mark, end) if races else end
             states = self._ctx.states
             after = dict(states) if after is None else either(after, states)
@@ -179,7 +180,7 @@ class Flattener:
         branch = self._ctx.choosing.branch(self._ctx.scope, node)
         if branch is None:
             return self._member(node.members[0], start)
-        start = self._loom.latched(start, node.name)
+        start = self._loom.latched(start, self._loom.name_of(node))
         before, after, voice = dict(self._ctx.states), None, self._loom.voice
         end = NEVER
         for member, choice in zip(node.members, branch.choices, strict=True):
@@ -228,7 +229,7 @@ class Flattener:
         loom = self._loom
         if not node.until and node.duration is None and not loom.overriding(node):
             return loom.ended(node, body(start))
-        start = loom.latched(start, node.name)
+        start = loom.latched(start, loom.name_of(node))
         if node.span in self._entrants:  # the act is its own already
             return loom.ended(node, over(loom, node, start, body(start), "racer"))
         role: Role = "in a race" if self._is_racing else "alone"
@@ -252,7 +253,7 @@ class Flattener:
         if not ctx.profile.has_act_stop:
             reason = f"{ctx.profile.name} does not stop acts"
             raise Inexpressible(reason, node.span, Remedy(profile="generic"))
-        name = f"act_{plain(node.label or node.name)}"
+        name = f"act_{loom.name_of(node)}"
         act = loom.open_act(name, start)
         end = body(single(state_of("act", act.name, "runningState")))
         mark = None

@@ -7,7 +7,6 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.flattening.storyboard_builder import Loom
 from osc2tx.backends.xosc.flattening.tree_queries import may_be_cut
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.names import plain
 
 
 def unless_active(loom: Loom, node: ir.Behavior, start: Flow) -> tuple[Flow, Flow]:
@@ -26,8 +25,8 @@ def unless_active(loom: Loom, node: ir.Behavior, start: Flow) -> tuple[Flow, Flo
     ]
     if not blocking:
         return start, NEVER
-    start = loom.latched(start, node.name)
-    name = plain(node.label or node.name)
+    name = loom.name_of(node)
+    start = loom.latched(start, name)
     skip, go = loom.ctx.names.new(f"skip_{name}"), loom.ctx.names.new(f"go_{name}")
     active, idle = NEVER, Flow(((),))
     for override in blocking:

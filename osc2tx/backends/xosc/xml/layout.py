@@ -35,6 +35,9 @@ LISTS = frozenset(
 TAGLESS = frozenset({"Event"})
 """Lists whose tags stand on the lines of their first and last member."""
 
+CURVES = frozenset({"Polyline"})
+"""Elements that are one line whatever their length: a curve is one value."""
+
 WIDTH = 400
 """Characters of an element, without its indentation, that share a line."""
 
@@ -46,7 +49,9 @@ def lay_out(node: etree._Element, outer: str = "\n") -> None:
         node: The node; there is none yet.
         outer: What begins a line on which its end tag stands.
     """
-    if not len(node) or not (node.tag in LISTS or _length(node) > WIDTH):
+    if not len(node) or node.tag in CURVES:
+        return
+    if node.tag not in LISTS and _length(node) <= WIDTH:
         return
     if len(node) == 1 and node.tag not in LISTS:  # the two share their lines
         lay_out(node[0], outer)
