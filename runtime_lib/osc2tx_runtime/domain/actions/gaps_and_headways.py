@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.planning.arrival_time import arrival
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.enums import GapDirection, RoadDistanceDirection
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import ActionOptions
@@ -19,7 +20,6 @@ from osc2tx_runtime.world.commands import Beside, KeepGap
 
 from .modifiable import ShapedAction
 from .modifier_groups import SIDE_FREE, SPEED_FREE
-from .motion_action import Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
@@ -155,26 +155,26 @@ class _ChangeGap(_OneAxis):
         return (self.direction == "inside") == right_hand
 
 
-@action("vehicle", "change_space_gap", slots=(LONGITUDINAL,))
+@action("vehicle", "change_space_gap", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeSpaceGap(_ChangeGap):
     """Reach a space (m) between facing ends or sides, in a direction from the reference."""
 
 
-@action("vehicle", "change_time_gap", slots=(LONGITUDINAL,))
+@action("vehicle", "change_time_gap", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeTimeGap(_ChangeGap):
     """Reach a time (s) between facing ends at the speed of the one behind, or between sides."""
 
     timed = True
 
 
-@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,))
+@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeSpaceHeadway(_ChangeGap):
     """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
 
     measure = "headway"
 
 
-@action("vehicle", "change_time_headway", slots=(LONGITUDINAL,))
+@action("vehicle", "change_time_headway", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeTimeHeadway(_ChangeGap):
     """Reach a time (s) between fronts, at the speed of the one behind."""
 
@@ -228,28 +228,40 @@ class _KeepGap(_OneAxis):
         return -(me.time_headway(other) if self.timed else me.space_headway(other))
 
 
-@action("vehicle", "keep_space_gap", slots=(LONGITUDINAL,), ends="open")
+@action("vehicle", "keep_space_gap", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepSpaceGap(_KeepGap):
     """Hold the present space between facing ends, or sides."""
 
 
-@action("vehicle", "keep_time_gap", slots=(LONGITUDINAL,), ends="open")
+@action("vehicle", "keep_time_gap", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepTimeGap(_KeepGap):
     """Hold the present time between facing ends, or sides."""
 
     timed = True
 
 
-@action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open")
-class KeepSpaceHeadway(_KeepGap):
+class _KeepHeadway(_KeepGap):
+    """Holds the distance or time between fronts, which is one along the road."""
+
+    measure = "headway"
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        reference: Vehicle,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, reference=reference, **options)
+
+
+@action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
+class KeepSpaceHeadway(_KeepHeadway):
     """Hold the present distance between fronts."""
 
-    measure = "headway"
 
-
-@action("vehicle", "keep_time_headway", slots=(LONGITUDINAL,), ends="open")
-class KeepTimeHeadway(_KeepGap):
+@action("vehicle", "keep_time_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
+class KeepTimeHeadway(_KeepHeadway):
     """Hold the present time between fronts."""
 
-    measure = "headway"
     timed = True

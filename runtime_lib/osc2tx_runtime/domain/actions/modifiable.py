@@ -9,15 +9,13 @@ reached exactly at the end of its duration or of the phase it ends with, else it
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Unpack
+from typing import ClassVar, Unpack
 
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import (
     Along,
-    AlongTrajectory,
     AvoidCollisions,
     Distance,
-    KeepPosition,
     Lane,
     Lateral,
     Modifier,
@@ -31,6 +29,7 @@ from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
 from osc2tx_runtime.domain.planning.goals import distance_to_cover, watched_place
 from osc2tx_runtime.domain.planning.lateral_planning import follow_reference, side_command
 from osc2tx_runtime.domain.planning.longitudinal_planning import speed_command
+from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
 from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
 from osc2tx_runtime.language.action import ActionOptions
@@ -39,30 +38,23 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import Careful, Command
 
 from .modifier_checks import check_modifiers, check_options
-from .modifier_groups import AT_START, LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
-from .motion_action import MotionAction
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.tree.duration_limits import Limits
+from .modifier_groups import PATH_SHAPERS
 
 __all__ = ["ShapedAction"]
 
 
-class ShapedAction(MotionAction):
+class ShapedAction(ModifiedMotion):
     """Moves by itself in its own slots, and as the modifiers say in those they speak of.
 
     It claims the speed if a modifier speaks of it, and the lane likewise, so that
     `drive() with: speed(...)` and `change_lane(...)` run side by side.
 
     Attributes:
-        movable: The actor.
-        moves_itself: Whether its slots are its own, or those that modifiers speak of.
         commands_speed: Whether it has a command of its own where it controls the speed.
         stands: Whether it goes nowhere, so that all its modifiers are about where it is.
         own: Slots that the action controls itself.
     """
 
-    moves_itself: ClassVar[bool] = True
     commands_speed: ClassVar[bool] = True
     stands: ClassVar[bool] = False
 
@@ -70,8 +62,6 @@ class ShapedAction(MotionAction):
         self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
     ) -> None:
         super().__init__(actor, *modifiers, **options)
-        self.movable = actor
-        self._phase: Limits | None = None
         self._reached = self._jumped = False
         self._to_cover: float | None = None
         self._covered = 0.0
@@ -88,25 +78,12 @@ class ShapedAction(MotionAction):
     @cached_property
     def own(self) -> tuple[str, ...]:
         """Slots that the action controls itself; read when it is complete."""
-        return self.slots if self.moves_itself else ()
-
-    @cached_property
-    def lasting(self) -> tuple[Modifier, ...]:
-        """The modifiers but those that only speak of the start."""
-        return tuple(
-            m
-            for m in self.modifiers
-            if getattr(m, "at", "all") != "start" or not isinstance(m, AT_START)
-        )
+        return self.slots
 
     @cached_property
     def has_goal(self) -> bool:
         """True if a modifier says what is to be reached."""
-        return any(
-            isinstance(modifier, (Distance, *PATH_SHAPERS))
-            or getattr(modifier, "at", "all") == "end"
-            for modifier in self.modifiers
-        )
+        return any(m.facts.bounds or getattr(m, "at", "all") == "end" for m in self.modifiers)
 
     @cached_property
     def follows_path(self) -> bool:
@@ -115,9 +92,7 @@ class ShapedAction(MotionAction):
 
     def takes(self, modifier: Modifier) -> bool:
         """Whether the action can carry out a modifier."""
-        if getattr(modifier, "at", "all") == "start" and isinstance(modifier, AT_START):
-            return True
-        return isinstance(modifier, self.accepts)
+        return modifier.is_start or isinstance(modifier, self.accepts)
 
     def speaks_of(self, slot: str) -> bool:
         """Whether a modifier says something about a slot."""
@@ -135,22 +110,13 @@ class ShapedAction(MotionAction):
                 return (LATERAL,)
             case Along(shape=shape) if shape is not None:
                 return (LONGITUDINAL, LATERAL)
-            case Distance(shape=shape) if shape is not None:
-                return (LONGITUDINAL,)
-            case AlongTrajectory() | KeepPosition():
-                return (LONGITUDINAL, LATERAL)
             case AvoidCollisions(avoid=False):
                 return ()
-            case Distance():
-                timed = self.duration is not None or self.end_is_known
-                return (LONGITUDINAL,) if timed else ()
-            case Along():
-                return (LATERAL,)
+            case Distance(shape=None) if self.duration is None and not self.end_is_known:
+                return ()
             case Orient(yaw=None) if self.movable.lane_bound:
                 return ()
-        if isinstance(modifier, SPEED_SHAPERS):
-            return (LONGITUDINAL,)
-        return (LATERAL,) if isinstance(modifier, (*LANE_SHAPERS, *TURN_SHAPERS)) else ()
+        return modifier.facts.slots
 
     # --- how it runs --------------------------------------------------------------------------
 
@@ -166,17 +132,6 @@ class ShapedAction(MotionAction):
         )
         super().setup(**kwargs)
         check_options(self)
-
-    @property
-    def end_is_known(self) -> bool:
-        """Whether it is known in advance when the action ends."""
-        return self.fixed_duration() is not None or self._phase is not None
-
-    def time_left(self) -> float | None:
-        """Seconds until the end, where it is known."""
-        if self._phase is not None:
-            return self._phase.left * self.context.dt
-        return super().time_left()
 
     def initialise(self) -> None:
         """Start."""

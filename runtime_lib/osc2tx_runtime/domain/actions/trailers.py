@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
-
-from .motion_action import OneStepAction, Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Trailer, Vehicle
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["ConnectTrailer", "DisconnectTrailer"]
 
 
-@action("vehicle", "connect_trailer")
+@action("vehicle", "connect_trailer", needs=("towing",))
 class ConnectTrailer(OneStepAction):
     """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end."""
 
@@ -50,7 +49,7 @@ class ConnectTrailer(OneStepAction):
         self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
 
 
-@action("vehicle", "disconnect_trailer")
+@action("vehicle", "disconnect_trailer", needs=("towing",))
 class DisconnectTrailer(OneStepAction):
     """Uncouple the trailer, which brakes and stands."""
 

@@ -11,14 +11,11 @@ from itertools import pairwise
 
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import (
-    MadeRoute,
     NetworkPath,
     NetworkTrajectory,
     Path,
     Trajectory,
 )
-from osc2tx_runtime.domain.paths.road_paths import way_through
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
 from osc2tx_runtime.domain.points_and_poses import (
     GeodeticPoint,
     NetworkPoint,
@@ -27,11 +24,12 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.composed_routes import Element, poses_of_route
+from osc2tx_runtime.domain.routes.composed_routes import Element, MadeRoute, poses_of_route
 from osc2tx_runtime.domain.routes.geodetic_points import place_of_geodetic
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.domain.routes.roads_and_lanes import Route
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, MapError, RoadMap

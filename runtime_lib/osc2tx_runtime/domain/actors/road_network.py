@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.paths.network_paths import path_in_world
-from osc2tx_runtime.domain.paths.path_curves import absolute
 from osc2tx_runtime.domain.paths.path_values import (
-    MadeRoute,
     NetworkPath,
     NetworkTrajectory,
     Path,
@@ -16,7 +13,7 @@ from osc2tx_runtime.domain.paths.path_values import (
     RelativeTrajectory,
     Trajectory,
 )
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
+from osc2tx_runtime.domain.paths.relative_paths import absolute
 from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,
     OdrPoint,
@@ -26,8 +23,14 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route, route_point_at
+from osc2tx_runtime.domain.routes.composed_routes import MadeRoute
+from osc2tx_runtime.domain.routes.lane_coordinates import (
+    place_of_odr,
+    place_of_route,
+    route_point_at,
+)
 from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.network_paths import path_in_world
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
