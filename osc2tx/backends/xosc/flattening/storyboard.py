@@ -150,13 +150,14 @@ class StoryboardWriter:
         )
 
     def _event(self, event: Event) -> Element:
-        names = Names()
+        # Readers may look for what is referred to among all elements, so an action is no namesake.
+        names, name = Names(), f"action_{event.name}"
         priority = event.priority
         if priority == "override" and self._version < "1.2":
             priority = "overwrite"
         return element(
             "Event",
-            *(element("Action", action, name=names.new(event.name)) for action in event.actions),
+            *(element("Action", action, name=names.new(name)) for action in event.actions),
             self.trigger("StartTrigger", event.start, "start"),
             name=event.name,
             priority=priority,
