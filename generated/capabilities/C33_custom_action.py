@@ -15,8 +15,6 @@ require_api(1)
 
 
 class CustomAction(Scenario):
-    """Scenario `custom_action` (capabilities/C33_custom_action.osc:14)."""
-
     name = "custom_action"
     source = "capabilities/C33_custom_action.osc"
 
@@ -29,7 +27,7 @@ class CustomAction(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(3 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C33_custom_action.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "custom_action",
             self.ego.drive(speed(3 * mps), duration=1 * s),

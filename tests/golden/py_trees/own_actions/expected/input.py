@@ -12,8 +12,6 @@ require_api(1)
 
 
 class OwnActions(Scenario):
-    """Scenario `own_actions` (input.osc:14)."""
-
     name = "own_actions"
     source = "input.osc"
 
@@ -23,7 +21,7 @@ class OwnActions(Scenario):
         self.ego = Vehicle()
         self.other = Vehicle()
 
-    def behavior(self) -> Behaviour:  # input.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "own_actions",
             self.ego.honk(times=3, loudness=0.5, at_whom=self.ego),
@@ -31,7 +29,7 @@ class OwnActions(Scenario):
             self.ego.honk(speed(20 * kph), times=2, loudness=0.5, at_whom=self.ego),
         )
 
-    def ego_parallel(self) -> Behaviour:  # input.osc:21
+    def ego_parallel(self) -> Behaviour:
         return Parallel(
             "ego: parallel",
             self.ego.keep_honking(
