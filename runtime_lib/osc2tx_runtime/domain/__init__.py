@@ -3,5 +3,5 @@
 From above: `scenario` is the base of generated scenarios; `actions` carry out what actors are told,
 as worked out in `planning`; `placing` puts actors on the map; `modifiers` say how; `actors` have
 live fields from `measuring`; `signals` are traffic lights; `routes` are what the map offers;
-`paths`, `points_and_poses` and `shapes` are values. `capabilities` tells the compiler what there is.
+`paths`, `points_and_poses` and `shapes` are values. `capabilities` tells the compiler about them.
 """
