@@ -1,4 +1,4 @@
-"""Carries out the schedule of a `parallel`: starts, ends and watches its members."""
+"""Execution of the schedule of a `parallel`: starts, ends and watches its members."""
 
 from __future__ import annotations
 
