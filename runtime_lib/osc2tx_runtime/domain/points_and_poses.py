@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
 __all__ = [
+    "AnyPoint",
     "GeodeticPoint",
     "NetworkPoint",
     "OdrPoint",
@@ -234,6 +235,9 @@ class GeodeticPoint(RoutableDot):
     longitude: float
     altitude: float = 0.0
 
+
+AnyPoint = Point | XyzPoint | RoutePoint | OdrPoint
+"""A point that one can go to."""
 
 NetworkPoint = RoutePoint | OdrPoint | XyzPoint | GeodeticPoint
 """A point of the road network."""

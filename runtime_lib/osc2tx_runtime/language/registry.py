@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -29,6 +30,7 @@ __all__ = [
     "Method",
     "MethodRegistry",
     "action",
+    "carried_out",
     "methods",
 ]
 
@@ -42,6 +44,7 @@ _OPTIONS = ("duration", "label")  # what every action takes
 
 Ends = Literal["goal", "open", "instant"]
 ActionT = TypeVar("ActionT", bound="type[Action]")
+ClassT = TypeVar("ClassT")
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,3 +238,22 @@ methods = MethodRegistry()
 """The registry that actors use; own actions go in here as well."""
 
 action = methods.action
+
+
+def carried_out(declared: type[ClassT]) -> type[ClassT]:
+    """Let the registry carry out the methods that a class declares: `self.ego.drive(...)`.
+
+    They are there for their types and docstrings; what they are called with goes to the class that
+    is registered for the actor, and is checked there.
+    """
+    for name, method in vars(declared).copy().items():
+        if not name.startswith("_"):
+            setattr(declared, name, functools.wraps(method)(_caller(name)))
+    return declared
+
+
+def _caller(name: str) -> Callable[..., Action]:
+    def call(actor: Actor, *args: Any, **kwargs: Any) -> Action:
+        return methods.bind(actor, name)(*args, **kwargs)
+
+    return call

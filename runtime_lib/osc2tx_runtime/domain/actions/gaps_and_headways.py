@@ -23,6 +23,7 @@ from .motion_action import Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
+    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
 
 __all__ = [
     "ChangeSpaceGap",
@@ -55,7 +56,7 @@ class _OneAxis(ShapedAction):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        reference: Vehicle,
+        reference: PhysicalObject,
         across: bool,
         **options: Unpack[ActionOptions],
     ) -> None:
@@ -103,7 +104,7 @@ class _ChangeGap(_OneAxis):
         *modifiers: Modifier,
         target: Value,
         direction: GapDirection,
-        reference: Vehicle,
+        reference: PhysicalObject,
         **options: Unpack[ActionOptions],
     ) -> None:
         across = direction not in ("ahead", "behind")
@@ -189,7 +190,7 @@ class _KeepGap(_OneAxis):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        reference: Vehicle,
+        reference: PhysicalObject,
         direction: RoadDistanceDirection = "longitudinal",
         **options: Unpack[ActionOptions],
     ) -> None:

@@ -31,7 +31,8 @@ from .modifiable import ShapedAction
 from .modifier_groups import SPEED_FREE
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import MovableObject, PhysicalObject
+    from osc2tx_runtime.domain.actors import MovableObject
+    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
 
 __all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
 

@@ -18,6 +18,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.sun_and_moon import Sky
 
 from .base import Actor
+from .methods import EnvironmentMethods
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Environment"]
 
 
-class Environment(Actor):
+class Environment(Actor, EnvironmentMethods):
     """Weather and light.
 
     Args:

@@ -12,7 +12,7 @@ from osc2tx_runtime.enums import MovementOptions
 from .base import Modifier, MovementModifier, Value, now
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Trailer
+    from osc2tx_runtime.domain.actors.parts import Towable
     from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
     from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPath, Route
 
@@ -99,4 +99,4 @@ class TowTrailer(Modifier):
     """A trailer that is coupled from the start."""
 
     name = "tow_trailer"
-    trailer: Trailer
+    trailer: Towable

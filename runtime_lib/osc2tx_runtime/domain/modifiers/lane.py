@@ -13,7 +13,7 @@ from osc2tx_runtime.language.argument_rules import at_least, at_least_one, at_mo
 from .base import Modifier, MovementModifier, Value, now, wanted
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
+    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
 _EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left
@@ -82,13 +82,13 @@ class Lateral(MovementModifier):
     )
     distance: Value | None = None
     distance_range: Range[float] | Callable[[], Range[float]] | None = None
-    side_of: Vehicle | None = None
+    side_of: PhysicalObject | None = None
     side: SideLeftRight = "left"
     measure_by: LatMeasureBy = "center_to_center"
     shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
-    def reference(self) -> Vehicle | None:
+    def reference(self) -> PhysicalObject | None:
         """The actor it is relative to."""
         return self.side_of
 

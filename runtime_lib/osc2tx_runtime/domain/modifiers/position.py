@@ -12,7 +12,7 @@ from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one, no
 from .base import Modifier, MovementModifier, Value, band_of, wanted
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.points_and_poses import Point, Pose
     from osc2tx_runtime.language.tree.parameters import Range
 

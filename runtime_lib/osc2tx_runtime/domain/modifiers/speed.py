@@ -20,7 +20,7 @@ from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from .base import Modifier, MovementModifier, Value, course_of, value_of, wanted
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
 __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]

@@ -1,0 +1,32 @@
+"""Modifiers that actions take together; made by tools/make_actor_methods.py."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from osc2tx_runtime.domain.modifiers import (
+    Acceleration,
+    Along,
+    AlongTrajectory,
+    AvoidCollisions,
+    ChangeLane,
+    ChangeSpeed,
+    KeepLane,
+    KeepSpeed,
+    Lane,
+    Lateral,
+    Orient,
+    Position,
+    Speed,
+    Yaw,
+)
+
+__all__ = ["LaneModifier", "PathModifier", "SpeedModifier", "StartModifier", "TurnModifier"]
+
+SpeedModifier: TypeAlias = (
+    Speed | ChangeSpeed | KeepSpeed | Acceleration | Position | AvoidCollisions
+)
+LaneModifier: TypeAlias = Lane | Lateral | ChangeLane | KeepLane
+TurnModifier: TypeAlias = Yaw | Orient
+PathModifier: TypeAlias = Along | AlongTrajectory
+StartModifier: TypeAlias = Position | Lane | Lateral | Yaw | Orient | Speed

@@ -1,0 +1,54 @@
+"""Actions of a person; made by tools/make_actor_methods.py."""
+
+# The registry carries out what is only declared here.
+# mypy: disable-error-code="empty-body"
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.registry import carried_out
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors.methods.modifiers import (
+        PathModifier,
+        StartModifier,
+        TurnModifier,
+    )
+    from osc2tx_runtime.domain.modifiers import (
+        Acceleration,
+        AvoidCollisions,
+        ChangeSpeed,
+        Distance,
+        KeepPosition,
+        KeepSpeed,
+        PhysicalMovement,
+        Speed,
+    )
+    from osc2tx_runtime.language.tree.base import Behaviour
+    from osc2tx_runtime.language.tree.duration_limits import Duration
+
+__all__ = ["PersonMethods"]
+
+
+@carried_out
+class PersonMethods:
+    """What a scenario can tell a person to do."""
+
+    def walk(
+        self,
+        *modifiers: TurnModifier
+        | PathModifier
+        | StartModifier
+        | Acceleration
+        | AvoidCollisions
+        | ChangeSpeed
+        | Distance
+        | KeepPosition
+        | KeepSpeed
+        | PhysicalMovement
+        | Speed,
+        duration: Duration | None = None,
+        label: str | None = None,
+    ) -> Behaviour:
+        """Walk as the modifiers say, straight on or along a path (§8.8.4.1)."""
