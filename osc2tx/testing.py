@@ -91,9 +91,9 @@ def assert_build_fresh(
 
 
 def _difference(path: Path, wanted: str | None) -> str:
-    from osc2tx.building.diff import diff_lines, is_for_readers
+    from osc2tx.building.diff import diff_lines
 
-    if wanted is None or not is_for_readers(path.name):
+    if wanted is None:
         return ""
     found = path.read_text(encoding="utf-8") if path.is_file() else None
     return "".join(diff_lines(str(path), found, wanted))

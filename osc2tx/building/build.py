@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
-from osc2tx.building.manifest import MANIFEST_NAME, Manifest, read_manifest
+from osc2tx.building.manifest import MANIFEST_NAME, Entry, Manifest, read_manifest
 from osc2tx.building.plan import (
     PROTECTED,
     Folder,
@@ -22,6 +22,7 @@ from osc2tx.building.workers import compile_jobs
 from osc2tx.building.write import Update, update_folder
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.output_names import is_committed
 
 Progress = Callable[[int, int], None]
 
@@ -180,9 +181,16 @@ class _Build:
             state = self.folder.state_of(planned, self.manifest)
         except OSError:
             return False
+        if self._may_be_absent(planned, state):
+            return False
         is_kept = state in PROTECTED and not self.options.force
         may_be_shown = self.options.want_texts or not (self.options.check_only or is_kept)
         return state is not State.CURRENT and may_be_shown
+
+    def _may_be_absent(self, planned: Planned, state: State) -> bool:
+        """Whether nobody misses an output: a check does not ask for what is not committed."""
+        is_asked = not self.options.check_only or planned.is_committed
+        return not is_asked and state is not State.FOREIGN
 
     def _states(self, placed: Sequence[Planned]) -> dict[str, State]:
         """Return how every output stands; what cannot be told is a failure."""
@@ -200,7 +208,7 @@ class _Build:
     ) -> Update:
         force, prune = self.options.force, self.options.prune
         removals = [orphan for orphan in orphans if prune and (orphan.is_untouched or force)]
-        listed = {planned.path for planned in placed} | {orphan.path for orphan in orphans}
+        listed = {planned.listed for planned in placed} | {orphan.path for orphan in orphans}
         return Update(
             current=[p for p in placed if states.get(p.path) is State.CURRENT],
             writes=[
@@ -228,6 +236,7 @@ class _Build:
             Change(self.out_dir / planned.path, state, planned.made.text)
             for planned in placed
             if (state := states.get(planned.path)) not in (None, State.CURRENT)
+            and not self._may_be_absent(planned, state)
         ]
         changes += [
             Change(
@@ -237,6 +246,7 @@ class _Build:
                 is_untouched=orphan.is_untouched,
             )
             for orphan in orphans
+            if not self.options.check_only or is_committed(orphan.path)
         ]
         return changes
 
@@ -244,12 +254,15 @@ class _Build:
         self, placed: Sequence[Planned], states: dict[str, State]
     ) -> list[Change]:
         """Return the manifest if it does not list what is current; a build that writes mends it."""
-        current = [planned for planned in placed if states.get(planned.path) is State.CURRENT]
+        current = [
+            planned
+            for planned in placed
+            if planned.is_committed and states.get(planned.path) is State.CURRENT
+        ]
         if all(map(self._is_listed, current)) and not self.stored.unfinished:
             return []
         return [Change(self.out_dir / MANIFEST_NAME, State.STALE)]
 
     def _is_listed(self, planned: Planned) -> bool:
         entry = self.stored.outputs.get(planned.path)
-        name, sha256 = planned.result.job.name, planned.made.digest
-        return entry is not None and (entry.source, entry.sha256) == (name, sha256)
+        return entry == Entry(planned.result.job.name, planned.made.digest)

@@ -89,5 +89,9 @@ def compare_with(
 
 def _texts(results: Sequence[FileResult]) -> tuple[dict[str, str], list[str]]:
     placed, problems = place_outputs(results)
-    texts = {item.path: item.made.text for item in placed if item.made.text is not None}
+    texts = {
+        item.path: item.made.text
+        for item in placed
+        if item.is_committed and item.made.text is not None
+    }
     return texts, problems

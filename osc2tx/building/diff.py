@@ -5,16 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import unified_diff
 
-SIDECARS = (
-    ".map.json",
-    ".report.json",
-)  # for tools, and full of line numbers: what they say shows in the rest
-
-
-def is_for_readers(path: str) -> bool:
-    """Return whether a diff of this output is worth reading."""
-    return not path.endswith(SIDECARS)
-
 
 def diff_lines(path: str, old: str | None, new: str | None) -> Iterator[str]:
     """Yield the lines of a diff as git writes it; `None` stands for no file."""

@@ -1,20 +1,21 @@
 """The manifest: which files of the output folder osc2tx wrote, and what it wrote.
 
 It lies in the output folder, belongs into version control with the outputs, and is the same on
-every machine: one line for each output, sorted, so that git merges two changes of different files.
+every machine: one line for each source, sorted, so that git merges two changes of different files.
 
     {
-      "format": 1,
+      "format": 2,
       "tool": "osc2tx 0.1.0",
       "outputs": {
-        "cut_in.py": {"source": "cut_in.osc", "sha256": "…"}
+        "urban/cut_in.osc": {"cut_in.py": "…", "cut_in.xosc": "…"}
       }
     }
 
-Paths are relative to the output folder and to the folder of the sources. While a build writes,
-`unfinished` lists what it is about to write, so that after a sudden end the next
-build knows its own work from that of others. A manifest may come from a stranger's branch: a path
-that leaves the folder makes it invalid.
+Sources are relative to their folder. Outputs lie in the same folder below that of the outputs, each
+with the digest of what was written. Source maps are not listed: nobody commits them, and one beside
+a listed module belongs to it. While a build writes, `unfinished` lists what it is about to write,
+so that after a sudden end the next build knows its own work from that of others. A manifest may
+come from a stranger's branch: a path that leaves the folder makes it invalid.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from osc2tx.support.light_dataclass import dataclass
 from osc2tx.version import __version__
 
 MANIFEST_NAME = ".osc2tx-manifest.json"
-FORMAT = 1
+FORMAT = 2
 
 
 class ManifestError(Exception):
@@ -41,11 +42,11 @@ class Entry:
 
     Attributes:
         source: Name of the source that makes it.
-        sha256: Digest of what was written.
+        digest: Of what was written.
     """
 
     source: str
-    sha256: str
+    digest: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ class Manifest:
         Args:
             has: Whether the file at a path has a digest.
         """
-        written = {p: e for p, e in self.unfinished.items() if has(p, e.sha256)}
+        written = {p: e for p, e in self.unfinished.items() if has(p, e.digest)}
         return Manifest({**self.outputs, **written})
 
     def render(self) -> str:
@@ -114,9 +115,16 @@ def _entries(table: object) -> dict[str, Entry]:
     if not isinstance(table, dict):
         raise ValueError("a table is missing")
     return {
-        _checked(path): Entry(_text(entry["source"]), _text(entry["sha256"]))
-        for path, entry in table.items()
+        _checked(beside(source, name)): Entry(source, _text(digest))
+        for source, outputs in table.items()
+        for name, digest in outputs.items()
     }
+
+
+def beside(source: str, name: str) -> str:
+    """Return the path of an output of a source, from its name."""
+    folder, slash, _ = source.rpartition("/")
+    return f"{folder}{slash}{name}"
 
 
 def _checked(path: str) -> str:
@@ -142,9 +150,13 @@ def _text(value: object) -> str:
 
 
 def _table(name: str, entries: Mapping[str, Entry]) -> str:
+    by_source: dict[str, list[str]] = {}
+    for path, entry in sorted(entries.items()):
+        output = f"{_quoted(path.rpartition('/')[2])}: {_quoted(entry.digest)}"
+        by_source.setdefault(entry.source, []).append(output)
     lines = ",\n".join(
-        f'    {_quoted(path)}: {{"source": {_quoted(entry.source)}, "sha256": "{entry.sha256}"}}'
-        for path, entry in sorted(entries.items())
+        f"    {_quoted(source)}: {{{', '.join(outputs)}}}"
+        for source, outputs in sorted(by_source.items())
     )
     return f'  "{name}": {{\n{lines}\n  }}' if lines else f'  "{name}": {{}}'
 

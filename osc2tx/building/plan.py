@@ -11,9 +11,17 @@ from enum import Enum
 from pathlib import Path
 
 from osc2tx.building.fingerprint import digest
-from osc2tx.building.manifest import Manifest
+from osc2tx.building.manifest import Manifest, beside
 from osc2tx.building.results import FileResult, Made
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.output_names import (
+    LOSS_REPORT,
+    MODULE,
+    XML,
+    is_committed,
+    module_of,
+    source_map_of,
+)
 from osc2tx.support.portable_names import is_portable
 
 
@@ -44,6 +52,16 @@ class Planned:
     path: str
     result: FileResult
     made: Made
+
+    @property
+    def is_committed(self) -> bool:
+        """Whether it belongs into version control, and into the manifest."""
+        return is_committed(self.path)
+
+    @property
+    def listed(self) -> str:
+        """The output that the manifest lists for it: itself, for a source map its module."""
+        return self.path if self.is_committed else module_of(self.path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,10 +130,10 @@ class Folder:
         if not self._is_inside[folder]:
             raise OSError(0, "a folder on the way is a link")
 
-    def has(self, path: str, sha256: str) -> bool:
-        """Return whether a file has this digest."""
+    def has(self, path: str, expected: str | None) -> bool:
+        """Return whether a file has this digest; none if it is missing."""
         try:
-            return self.digest_of(path) == sha256
+            return self.digest_of(path) == expected
         except OSError:
             return False
 
@@ -130,10 +148,12 @@ class Folder:
             return State.MISSING
         if present == planned.made.digest:
             return State.CURRENT
-        entry = manifest.outputs.get(planned.path)
+        entry = manifest.outputs.get(planned.listed)
         if entry is None:
             return State.FOREIGN
-        return State.STALE if entry.sha256 == present else State.EDITED
+        if not planned.is_committed:
+            return State.STALE
+        return State.STALE if entry.digest == present else State.EDITED
 
 
 def place_outputs(results: Sequence[FileResult]) -> tuple[list[Planned], list[str]]:
@@ -203,12 +223,15 @@ def find_orphans(
             present = folder.digest_of(path)
         except OSError:
             present = ""
+        is_untouched = present in (None, entry.digest)
+        if path.endswith(MODULE) and not folder.has(source_map_of(path), None):
+            yield Orphan(source_map_of(path), entry.source, is_untouched)
         if present is not None:
-            yield Orphan(path, entry.source, present == entry.sha256)
+            yield Orphan(path, entry.source, is_untouched)
 
 
 def _target_of(path: str) -> str:
-    return "xosc" if path.endswith((".xosc", ".xosc.report.json")) else "py"
+    return "xosc" if path.endswith((XML, LOSS_REPORT)) else "py"
 
 
 def _is_source(folder: Path, name: str) -> bool:
@@ -234,8 +257,7 @@ def _problem(group: Sequence[FileResult], folders: dict[str, FileResult]) -> str
 
 
 def _path(result: FileResult, suffix: str) -> str:
-    folder, slash, _ = result.job.name.rpartition("/")
-    return f"{folder}{slash}{result.stem}{suffix}"
+    return beside(result.job.name, f"{result.stem}{suffix}")
 
 
 def _parents(name: str) -> Iterator[str]:

@@ -8,7 +8,7 @@ new, and the next one knows both for its own. One build at a time writes to a fo
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from osc2tx.building.manifest import MANIFEST_NAME, Entry, Manifest
@@ -51,15 +51,18 @@ def update_folder(out_dir: Path, manifest: Manifest, update: Update) -> tuple[li
     outputs = dict(manifest.settled(Folder(out_dir).has).outputs)
     for path in update.forgotten:
         outputs.pop(path, None)
-    outputs |= {planned.path: _entry(planned) for planned in update.current}
+    outputs |= _entries(update.current)
     if update.writes:
-        unfinished = {planned.path: _entry(planned) for planned, _ in update.writes}
+        unfinished = _entries(planned for planned, _ in update.writes)
         writer.write(MANIFEST_NAME, Manifest(outputs, unfinished).render())
         if writer.failures:
             return [], writer.failures
-    for planned, text in update.writes:
-        if writer.write(planned.path, text):
-            outputs[planned.path] = _entry(planned)
+    for planned, text in sorted(update.writes, key=lambda pair: not pair[0].is_committed):
+        if planned.is_committed:
+            if writer.write(planned.path, text):
+                outputs |= _entries([planned])
+        elif planned.listed in outputs:  # a source map comes after its module, or not at all
+            writer.write(planned.path, text)
     for orphan in update.removals:
         if writer.remove(orphan.path):
             outputs.pop(orphan.path, None)
@@ -69,8 +72,13 @@ def update_folder(out_dir: Path, manifest: Manifest, update: Update) -> tuple[li
     return [path for path in writer.done if path != MANIFEST_NAME], writer.failures
 
 
-def _entry(planned: Planned) -> Entry:
-    return Entry(planned.result.job.name, planned.made.digest)
+def _entries(outputs: Iterable[Planned]) -> dict[str, Entry]:
+    """Return what the manifest lists of outputs."""
+    return {
+        planned.path: Entry(planned.result.job.name, planned.made.digest)
+        for planned in outputs
+        if planned.is_committed
+    }
 
 
 class _Writer:

@@ -8,15 +8,13 @@ from pathlib import Path
 
 import click
 
-from osc2tx.building.diff import diff_lines, is_for_readers
+from osc2tx.building.diff import diff_lines
 
 _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
 
 def print_diff(path: str, old: str | None, new: str | None) -> None:
-    """Print how an output changes, if people are to read it."""
-    if not is_for_readers(path):
-        return
+    """Print how an output changes."""
     is_terminal = sys.stdout.isatty()
     color = is_terminal and "NO_COLOR" not in os.environ
     for line in diff_lines(path, old, new):

@@ -15,6 +15,7 @@ FILES: Mapping[str, str] = {
     "osc2tx.toml": "settings.toml",
     "scenarios/slow_down.osc": "scenario.osc",
     "tests/test_scenarios.py": "test_scenarios.py",
+    ".gitignore": "gitignore",
     ".pre-commit-config.yaml": "pre-commit-config.yaml",
     ".github/workflows/scenarios.yml": "workflow.yml",
 }

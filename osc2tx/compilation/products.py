@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.output_names import LOSS_REPORT, MODULE, PARAMETERS, SOURCE_MAP, XML
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule
@@ -22,7 +23,7 @@ class Output:
 
 def files_of_module(module: GeneratedModule) -> tuple[Output, ...]:
     """Return the Python module and its source map."""
-    return Output(".py", module.python), Output(".map.json", module.source_map)
+    return Output(MODULE, module.python), Output(SOURCE_MAP, module.source_map)
 
 
 def files_of_xml(scenarios: Sequence[XmlScenario]) -> tuple[Output, ...]:
@@ -31,9 +32,9 @@ def files_of_xml(scenarios: Sequence[XmlScenario]) -> tuple[Output, ...]:
         Output(f"{scenario.infix}{suffix}", text)
         for scenario in scenarios
         for suffix, text in (
-            (".xosc", scenario.xml),
-            (".params.xosc", scenario.parameters),
-            (".xosc.report.json", scenario.report_json),
+            (XML, scenario.xml),
+            (PARAMETERS, scenario.parameters),
+            (LOSS_REPORT, scenario.report_json),
         )
         if text is not None
     )

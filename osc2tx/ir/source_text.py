@@ -20,6 +20,12 @@ def shorten(text: str) -> str:
     return text if len(text) <= MAX_LENGTH else f"{text[: MAX_LENGTH - 1]}…"
 
 
+def one_line(text: str) -> str:
+    """Return the first line of a statement."""
+    first, _, rest = text.partition("\n")
+    return first.strip() + (" …" if rest.strip() else "")
+
+
 def statement_name(span: Span) -> str:
     """Return the text of a statement on one line."""
     return shorten(condensed(span.text))

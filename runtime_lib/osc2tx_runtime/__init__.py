@@ -82,11 +82,12 @@ from osc2tx_runtime.domain.shapes import (
     OwnShape,
 )
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
-from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
+    TrafficLightCycle,
     TrafficLightGroup,
+    TrafficLightPhase,
 )
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.xosc import emit
+from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
@@ -58,12 +58,12 @@ class Given:
 
 
 @cache
-def documents(given: Given) -> dict[str, str]:
+def documents(given: Given) -> dict[str, XmlScenario]:
     """Return the documents of a source by scenario."""
     module = compiled(given.path, given.options).ir
     assert module is not None
     found = emit(module, given.xml, given.path.parent)
-    return {each.name: each.xml for each in found if each.xml is not None}
+    return {each.name: each for each in found if each.xml is not None}
 
 
 def play(given: Given, document: str, dt: float, folder: Path) -> Played:
@@ -82,12 +82,13 @@ def play(given: Given, document: str, dt: float, folder: Path) -> Played:
     return Played(end, starts, data["rows"])
 
 
-def both(given: Given, name: str, dt: float, folder: Path) -> tuple[str, Played, Played]:
+def both(given: Given, name: str, dt: float, folder: Path) -> tuple[XmlScenario, Played, Played]:
     """Return the document, what the world does, and what esmini does."""
     document = documents(given)[name]
-    settings = with_values_of(document, replace(given.settings, dt=dt))
+    assert document.xml is not None
+    settings = with_values_of(document.xml, replace(given.settings, dt=dt))
     expected = world(given.path, name, settings, given.options)
-    return document, expected, play(given, document, dt, folder)
+    return document, expected, play(given, document.xml, dt, folder)
 
 
 OWN = ["cut_in", "cut_in_and_evade", "follow_leader", "pedestrian_crossing"]

@@ -52,6 +52,7 @@ class Context:
         lamps: States of the lamps of traffic lights at the present place of the tree; `None` if
             not known, off if not there.
         controllers: Of traffic lights, for the road network.
+        origins: Where the members stand that the events belong to, by event.
     """
 
     def __init__(
@@ -97,6 +98,7 @@ class Context:
         self.variables: dict[str, tuple[str, str]] = {}
         self.lamps: dict[str, tuple[str, ...] | None] = {}
         self.controllers: list[Element] = []
+        self.origins: dict[str, Span] = {}
         self._variable_names: dict[str, str] = {}
         for parameter in choosing.parameters:  # whether they are kept or not
             self.names.new(parameter.name)
@@ -135,10 +137,6 @@ class Context:
                     value = self.values.of(argument.value)
                     return value if isinstance(value, str) else None
         return None
-
-    def comment(self, span: Span, text: str) -> str:
-        """Return a comment that leads back to the source."""
-        return f"{span}: {text}"
 
     @contextmanager
     def report_as(self, construct: str, span: Span) -> Iterator[None]:

@@ -15,7 +15,8 @@ from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
 from osc2tx.backends.xosc.xml.adapting import adapted
-from osc2tx.backends.xosc.xml.tree import Element, comment_text, element
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.ir.source_text import condensed
 
 DATE = "2000-01-01T00:00:00"
 """The schema asks for a date; a real one would change the file each day."""
@@ -35,7 +36,9 @@ def make_document(ctx: Context) -> Element:
     end = flattener.run()
     writer = StoryboardWriter(ctx.names, ctx.version)
     end = _end(ctx, end)
-    story = writer.story(f"story_{ctx.scenario.name}", adapted(ctx, flattener.acts, end))
+    acts = adapted(ctx, flattener.acts, end)
+    ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}
+    story = writer.story("story", acts)
     storyboard = element(
         "Storyboard",
         element("Init", element("Actions", *ctx.init_globals, *privates)),
@@ -88,11 +91,11 @@ def _properties(ctx: Context) -> Element | None:
     for item in ctx.scenario.coverage:
         note = "runs of the XML sample nothing; the header keeps what was asked for"
         ctx.report.exact(f"{item.kind} {item.name}", item.span, note)
-        text = " ".join(comment_text(item.span.text).split())
+        text = condensed(item.span.text)
         sampled.append(element("Property", name=f"{item.kind} {item.name}", value=text))
     if ctx.version < "1.2":
         return None
-    source = element("Property", name="source", value=str(ctx.scenario.span))
+    source = element("Property", name="source", value=ctx.scenario.span.source.name)
     return element("Properties", source, *sampled)
 
 

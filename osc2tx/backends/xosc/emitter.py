@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
 
@@ -15,8 +15,10 @@ from osc2tx.backends.xosc.logical.documents import LogicalWriter
 from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameter_report import report_parameters
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
+from osc2tx.backends.xosc.report_json import report_json
 from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, serialize
+from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.support.light_dataclass import dataclass
 
@@ -53,6 +55,7 @@ class XmlScenario:
         parameters: A document with the values that open parameters may have; `None` without any.
         report: What became of its constructs.
         report_json: The same as JSON.
+        origins: Where the members stand that the events of the document belong to, by event.
         map_places: Where its map was looked for, so that a change is noticed.
     """
 
@@ -62,6 +65,7 @@ class XmlScenario:
     parameters: str | None
     report: LossReport
     report_json: str
+    origins: Mapping[str, Span]
     map_places: tuple[Path, ...]
 
 
@@ -124,7 +128,8 @@ class _Emission:
             xml=xml,
             parameters=parameters,
             report=ctx.report,
-            report_json=ctx.report.to_json(self._scenario.name, self._module.source),
+            report_json=report_json(ctx.report, self._scenario, self._module),
+            origins=ctx.origins,
             map_places=ctx.map_places,
         )
 

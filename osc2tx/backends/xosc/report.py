@@ -6,7 +6,6 @@ is approximated though nobody allowed it, and the scenario has no XML.
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from enum import Enum
 
@@ -180,42 +179,3 @@ class LossReport:
         if self.options.profile != "generic":
             asked += f" for {self.options.profile}"
         return f"{asked if self.is_expressible else f'no {asked}'}: {told or 'nothing to say'}"
-
-    def to_json(self, scenario: str, source: str) -> str:
-        """Return the report as JSON; `docs/xml-report.md` says what it holds."""
-        counts = Counter(entry.grade for entry in self.entries)
-        data = {
-            "format": 1,
-            "scenario": scenario,
-            "source": source,
-            "xml_version": self.options.version,
-            "xml_profile": self.options.profile,
-            "allow_approx": self.options.allow_approx,
-            "written": self.is_expressible,
-            "counts": {grade.value: counts[grade] for grade in Grade},
-            "constructs": [_entry_data(entry) for entry in self.entries],
-        }
-        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
-
-
-def _entry_data(entry: Entry) -> dict[str, object]:
-    span = entry.span
-    end_line, end_column = span.source.position(span.end)
-    data: dict[str, object] = {
-        "construct": entry.construct,
-        "grade": entry.grade.value,
-        "file": span.source.name,
-        "line": span.line,
-        "column": span.column,
-        "end_line": end_line,
-        "end_column": end_column,
-    }
-    if entry.reason:
-        data["reason"] = entry.reason
-    if entry.bound:
-        data["bound"] = entry.bound
-    if entry.remedy.version is not None:
-        data["expressible_in_version"] = entry.remedy.version
-    if entry.remedy.profile is not None:
-        data["expressible_in_profile"] = entry.remedy.profile
-    return data

@@ -28,6 +28,8 @@ from osc2tx_runtime.domain.actors.parts import (
     HitchCoupler,
     HitchReceiver,
 )
+from osc2tx_runtime.domain.actors.road_network import RoadNetwork
+from osc2tx_runtime.domain.measuring.object_position import RoutePosition
 from osc2tx_runtime.domain.measuring.weather import (
     Air,
     CelestialLightSource,
@@ -51,8 +53,6 @@ from osc2tx_runtime.domain.paths.path_values import (
 )
 from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, OdrPoint, RoutePoint, XyzPoint
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
-from osc2tx_runtime.domain.routes.relative_position import RoutePosition
-from osc2tx_runtime.domain.routes.road_network import RoadNetwork
 from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
     CompoundRoute,
@@ -76,11 +76,12 @@ from osc2tx_runtime.domain.shapes import (
     CommonSpeedShape,
 )
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
-from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLight,
     TrafficLightBulb,
+    TrafficLightCycle,
     TrafficLightGroup,
+    TrafficLightPhase,
 )
 from osc2tx_runtime.world.velocities import (
     Acceleration,

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from osc2tx_runtime.errors import PlacementError, ScenarioError
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.paths.path_values import Path
-    from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
 __all__ = [
     "AnyPoint",
@@ -22,6 +18,7 @@ __all__ = [
     "Pose",
     "Rgb",
     "RoadRoute",
+    "RouteAxis",
     "RoutePoint",
     "XyzPoint",
 ]
@@ -191,8 +188,14 @@ class XyzPoint(RoutableDot):
     position: Point
 
 
+class RouteAxis:
+    """Base of what the points of a route count along: roads, lanes, crossings, paths."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
-class RoadRoute:
+class RoadRoute(RouteAxis):
     """A road, or one of its lanes, as something to measure along.
 
     Attributes:
@@ -216,7 +219,7 @@ class RoutePoint(RoutableDot):
         t: Metres to the left of it.
     """
 
-    route: RoadRoute | RoadPart | Path | None = None
+    route: RouteAxis | None = None
     s: float = 0.0
     t: float = 0.0
 

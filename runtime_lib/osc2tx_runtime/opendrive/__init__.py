@@ -5,7 +5,7 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
 
 * `xml_reader`, `reader`, `signal_reader`, `crosswalks`: text to roads, checked, or a `MapError`.
 * `polynomials`, `geometry`, `model`: what a road is made of.
-* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: arc length along one.
+* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
 * `lane_advance`: moving along lanes; `lane_distances`: distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `projection`: back to a lane; `geodesy`: from the globe.
 * `outlines`: drawing and default start places; `signal_places`: where signals hold;

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from .polynomials import ZERO, Piecewise, combine
 
 if TYPE_CHECKING:
+    from .arc_length import LaneLine
     from .geometry import ReferenceLine
-    from .lane_line import LaneLine
 
 __all__ = [
     "DRIVING",

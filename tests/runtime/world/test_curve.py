@@ -6,18 +6,13 @@ import math
 
 import pytest
 
-from osc2tx_runtime.domain.paths.path_curves import (
-    PathError,
-    curve_of_path,
-    curve_of_trajectory,
-    stretch,
-)
+from osc2tx_runtime.domain.paths.path_curves import PathError, stretch
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose
 
 
 def test_a_polyline_is_as_long_as_its_pieces() -> None:
-    curve = curve_of_path(Path((Pose(0, 0), Pose(3, 4), Pose(3, 4), Pose(3, 14))))
+    curve = Path((Pose(0, 0), Pose(3, 4), Pose(3, 4), Pose(3, 14))).curve
     assert curve.length == pytest.approx(15.0)
     assert curve.point(curve.at_length(5.0)) == pytest.approx((3.0, 4.0, 0.0))
     assert curve.point(curve.at_length(11.0)) == pytest.approx((3.0, 10.0, 0.0))
@@ -29,7 +24,7 @@ def test_a_smooth_path_through_a_circle_is_nearly_the_circle() -> None:
     radius, steps = 20.0, 24
     angles = [math.pi * i / steps for i in range(steps + 1)]
     points = tuple(Pose(radius * math.cos(a), radius * math.sin(a)) for a in angles)
-    curve = curve_of_path(Path(points, "smooth"))
+    curve = Path(points, "smooth").curve
     assert curve.length == pytest.approx(math.pi * radius, rel=2e-3)
     for i in range(100):
         x, y, _ = curve.point(curve.at_length(curve.length * i / 99))
@@ -40,7 +35,7 @@ def test_a_smooth_path_through_a_circle_is_nearly_the_circle() -> None:
 
 
 def test_arc_length_and_its_inverse() -> None:
-    curve = curve_of_path(Path((Pose(0, 0), Pose(10, 3), Pose(14, 12), Pose(30, 10)), "smooth"))
+    curve = Path((Pose(0, 0), Pose(10, 3), Pose(14, 12), Pose(30, 10)), "smooth").curve
     for i in range(50):
         along = curve.length * i / 49
         assert curve.length_at(curve.at_length(along)) == pytest.approx(along, abs=1e-5)
@@ -49,7 +44,7 @@ def test_arc_length_and_its_inverse() -> None:
 def test_a_smooth_trajectory_is_exact_for_constant_acceleration() -> None:
     times = (0.0, 1.0, 2.5, 4.0)
     points = tuple(Pose(3.0 * t + t * t, 1.0) for t in times)
-    curve = curve_of_trajectory(Trajectory(points, times, "smooth"))
+    curve = Trajectory(points, times, "smooth").curve
     for i in range(41):
         t = 0.1 * i
         assert curve.point(t)[0] == pytest.approx(3.0 * t + t * t)
@@ -66,7 +61,7 @@ def test_a_smooth_trajectory_is_exact_for_constant_acceleration() -> None:
 )
 def test_paths_that_are_none(points: tuple[Pose, ...], message: str) -> None:
     with pytest.raises(PathError, match=message):
-        curve_of_path(Path(points))
+        _ = Path(points).curve
 
 
 @pytest.mark.parametrize(
@@ -81,11 +76,11 @@ def test_paths_that_are_none(points: tuple[Pose, ...], message: str) -> None:
 def test_trajectories_that_are_none(count: int, times: tuple[float, ...], message: str) -> None:
     points = tuple(Pose(i, 0) for i in range(count))
     with pytest.raises(PathError, match=message):
-        curve_of_trajectory(Trajectory(points, times))
+        _ = Trajectory(points, times).curve
 
 
 def test_offsets_leave_something() -> None:
-    curve = curve_of_path(Path((Pose(0, 0), Pose(10, 0))))
+    curve = Path((Pose(0, 0), Pose(10, 0))).curve
     assert stretch(curve, 2.0, 3.0) == (2.0, 7.0)
     with pytest.raises(PathError, match=r"leave nothing of a path of 10\.00 m"):
         stretch(curve, 6.0, 4.0)

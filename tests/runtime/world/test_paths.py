@@ -19,7 +19,6 @@ from osc2tx_runtime import (
 )
 from osc2tx_runtime.domain.actors import Point, Pose
 from osc2tx_runtime.domain.modifiers import along, physical_movement, position, yaw
-from osc2tx_runtime.domain.paths.path_curves import curve_of_path
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePath
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from tests.runtime.world.two_cars import TwoCars, scenario
@@ -68,7 +67,7 @@ def test_follow_stays_near_the_path_within_the_limits(run: Run, interpolation: A
     done = run(scenario(lambda s: s.a.follow_path(absolute=path)))
     assert done.result.status == "success"
     states = done.states("a")
-    curve = curve_of_path(path)
+    curve = path.curve
     line = [curve.point(curve.at_length(0.2 * i))[:2] for i in range(int(curve.length / 0.2))]
     assert max(distance_to(line, e["x"], e["y"]) for e in states) < 1.6
     assert states[-1]["x"] == pytest.approx(160.0, abs=0.6)

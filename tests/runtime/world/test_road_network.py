@@ -11,12 +11,12 @@ import pytest
 from osc2tx_runtime import Behaviour, Vehicle, Wait, elapsed
 from osc2tx_runtime.domain.actors import OdrPoint, Point, Pose
 from osc2tx_runtime.domain.modifiers import lane, lateral, position, speed
-from osc2tx_runtime.domain.paths.network_paths import path_in_world, trajectory_in_world
-from osc2tx_runtime.domain.paths.path_curves import PathError, curve_of_path
+from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePath
-from osc2tx_runtime.domain.paths.road_paths import way_between
 from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane, place_of_route, route_point_at
+from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
+from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from tests.runtime.world.two_cars import TwoCars, scenario
@@ -132,7 +132,7 @@ def test_ways_along_lanes_stay_on_them(load_map: Callable[[str], RoadMap], name:
         length = road_map.route_distance(start, goal.position)
         if length is None or abs(length - 45.0) > 1e-3:
             continue  # another way is shorter
-        curve = curve_of_path(Path(way_between(road_map, start, goal.position), "smooth"))
+        curve = Path(way_between(road_map, start, goal.position), "smooth").curve
         assert curve.length == pytest.approx(45.0, abs=0.05)
         for i in range(10):
             there = road_map.pose(road_map.advance(start, 4.5 * i).position)

@@ -80,12 +80,11 @@ class Project:
         return module.build(paths or [self.sources], self.out, given, options)
 
     def check(self, *paths: Path) -> list[str]:
-        """Return what is wrong with the outputs, without the source maps."""
+        """Return what is wrong with the outputs."""
         changes = self.build(*paths, check_only=True).changes
         return [
             f"{change.path.relative_to(self.out).as_posix()} {change.state.value}"
             for change in changes
-            if not change.path.name.endswith(".map.json")
         ]
 
     def written(self, result: BuildResult) -> list[str]:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from osc2tx.building.fingerprint import digest
 from osc2tx.building.manifest import MANIFEST_NAME, ManifestError, read_manifest
 from tests.unit.building.projects import Project, contents, listing, write
 
@@ -62,7 +63,7 @@ def test_orphans_are_reported_and_removed_on_request(project: Project) -> None:
     project.build(prune=True)
     assert listing(project.out) == ["a.map.json", "a.py"]
     assert not (project.out / "deep").exists()
-    assert set(read_manifest(project.out).outputs) == {"a.map.json", "a.py"}
+    assert set(read_manifest(project.out).outputs) == {"a.py"}
 
 
 def test_an_edited_orphan_is_only_removed_by_force(project: Project) -> None:
@@ -72,7 +73,7 @@ def test_an_edited_orphan_is_only_removed_by_force(project: Project) -> None:
     (project.sources / "b.osc").unlink()
     (project.out / "b.py").write_text("edited")
     project.build(prune=True)
-    assert listing(project.out) == ["a.map.json", "a.py", "b.py"]
+    assert listing(project.out) == ["a.map.json", "a.py", "b.map.json", "b.py"]
     project.build(prune=True, force=True)
     assert listing(project.out) == ["a.map.json", "a.py"]
 
@@ -91,7 +92,7 @@ def test_building_a_single_file_says_nothing_of_the_others(project: Project) -> 
     project.build()
     assert project.build(single, prune=True).changes == ()
     assert listing(project.out) == ["a.map.json", "a.py", "b.map.json", "b.py"]
-    assert set(read_manifest(project.out).outputs) == set(listing(project.out))
+    assert set(read_manifest(project.out).outputs) == {"a.py", "b.py"}
 
 
 # --- the manifest ---
@@ -115,12 +116,12 @@ def test_without_manifest_what_is_current_is_entered_again(project: Project) -> 
         "",
         "[]",
         "<<<<<<< HEAD\n",
-        '{"format": 2, "outputs": {}}',
-        '{"format": 1}',
-        '{"format": 1, "outputs": []}',
-        '{"format": 1, "outputs": {"a.py": 3}}',
-        '{"format": 1, "outputs": {"a.py": {"source": "a.osc"}}}',
-        '{"format": 1, "outputs": {}, "unfinished": 3}',
+        '{"format": 1, "outputs": {}}',
+        '{"format": 2}',
+        '{"format": 2, "outputs": []}',
+        '{"format": 2, "outputs": {"a.osc": 3}}',
+        '{"format": 2, "outputs": {"a.osc": {"a.py": 3}}}',
+        '{"format": 2, "outputs": {}, "unfinished": 3}',
     ],
 )
 def test_a_damaged_manifest_stops_the_build(project: Project, text: str) -> None:
@@ -138,22 +139,21 @@ def test_a_manifest_cannot_name_what_lies_elsewhere(project: Project, path: str)
     import json
 
     project.drive("a.osc")
-    entry = {"source": "gone.osc", "sha256": "0" * 64}
-    write(project.out / MANIFEST_NAME, json.dumps({"format": 1, "outputs": {path: entry}}))
+    outputs = {"gone.osc": {path: "0" * 32}}
+    write(project.out / MANIFEST_NAME, json.dumps({"format": 2, "outputs": outputs}))
     with pytest.raises(ManifestError):
         project.build(prune=True, force=True)
 
 
 def test_a_manifest_cannot_reach_through_a_link(project: Project) -> None:
-    import hashlib
     import json
 
     project.drive("a.osc")
     outside = write(project.folder / "elsewhere/file", "precious")
     project.out.mkdir()
     (project.out / "link").symlink_to(outside.parent)
-    entry = {"source": "gone.osc", "sha256": hashlib.sha256(b"precious").hexdigest()}
-    write(project.out / MANIFEST_NAME, json.dumps({"format": 1, "outputs": {"link/file": entry}}))
+    outputs = {"gone.osc": {"link/file": digest(b"precious")}}
+    write(project.out / MANIFEST_NAME, json.dumps({"format": 2, "outputs": outputs}))
     project.build(prune=True, force=True)
     assert outside.read_text() == "precious"
 
@@ -163,4 +163,27 @@ def test_the_manifest_names_no_machine(project: Project) -> None:
     project.build()
     text = (project.out / MANIFEST_NAME).read_text()
     assert str(project.folder) not in text
-    assert '"sub/a.py": {"source": "sub/a.osc", "sha256": "' in text
+    assert '"sub/a.osc": {"a.py": "' in text
+
+
+# --- source maps: nobody commits them, and they go with their modules ---
+
+
+def test_a_check_does_not_ask_for_source_maps(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    source_map = project.out / "a.map.json"
+    made = source_map.read_text()
+    for text in (None, "edited"):
+        source_map.unlink() if text is None else source_map.write_text(text)
+        assert project.check() == []
+        assert project.written(project.build()) == ["a.map.json"]
+        assert source_map.read_text() == made
+
+
+def test_a_map_of_somebody_else_is_kept(project: Project) -> None:
+    project.drive("a.osc")
+    write(project.out / "a.map.json", "mine")
+    assert "a.map.json was not made by osc2tx" in project.check()
+    assert project.written(project.build()) == ["a.py"]
+    assert (project.out / "a.map.json").read_text() == "mine"

@@ -71,9 +71,7 @@ def test_imports_of_the_revision_count_for_it(project: Project) -> None:
     assert compared(project).differences == ()
     write(project.sources / "lib.osc", "scenario\n")
     paths = [d.path for d in compared(project).differences]
-    assert paths == [
-        f"sub/b_c.{suffix}" for suffix in ("map.json", "py", "xosc", "xosc.report.json")
-    ]
+    assert paths == [f"sub/b_c.{suffix}" for suffix in ("py", "xosc", "xosc.report.json")]
 
 
 def test_a_source_with_errors_then_is_told(project: Project) -> None:
@@ -82,7 +80,7 @@ def test_a_source_with_errors_then_is_told(project: Project) -> None:
     project.drive("a.osc")
     found = compared(project)
     assert found.problems == ("HEAD: a.osc has errors and makes nothing",)
-    assert [d.old for d in found.differences] == [None] * 4
+    assert [d.old for d in found.differences] == [None] * 3
 
 
 def test_a_single_file_and_a_relative_path(
@@ -92,8 +90,8 @@ def test_a_single_file_and_a_relative_path(
     project.drive("old.osc", speed=31)
     monkeypatch.chdir(project.sources)
     found = compared(project, Path("a.osc"))
-    assert [d.path for d in found.differences] == ["a.map.json", "a.py", "a.xosc"]
-    assert len(compared(project, Path(".")).differences) == 6
+    assert [d.path for d in found.differences] == ["a.py", "a.xosc"]
+    assert len(compared(project, Path(".")).differences) == 4
 
 
 def test_links_are_as_in_the_repository(project: Project) -> None:

@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
 from osc2tx.backends.xosc.flattening.adjacent_members import is_first, runs_beside
 from osc2tx.backends.xosc.flattening.tree_queries import actors_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.xml.tree import Element, commented, element
+from osc2tx.backends.xosc.xml.tree import Element, element
 
 NOON = "2000-01-01T12:00:00"
 """Time of day where 1.0 asks for one and the scenario says none."""
@@ -202,8 +202,7 @@ def initial_environment(ctx: Context) -> tuple[Element, ...]:
                     if ctx.version == "1.0"
                     else _environment(ctx, actor.name, time_of_day(ctx))
                 )
-                comment = ctx.comment(actor.span, f"date and time of {actor.name}")
-                actions.append(commented(told, comment))
+                actions.append(told)
     return tuple(actions)
 
 

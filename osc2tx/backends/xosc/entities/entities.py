@@ -104,7 +104,6 @@ def _scenario_object(ctx: Context, member: CastMember) -> Element:
         "ScenarioObject",
         _BODIES[member.kind](ctx, member),
         name=member.name,
-        comment=ctx.comment(member.actor.span, f"{member.name}: {member.actor.type}"),
     )
 
 

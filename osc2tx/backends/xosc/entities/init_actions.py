@@ -54,5 +54,4 @@ def _private(ctx: Context, start: Start) -> Element:
     for name, arguments in start.modifiers.items():
         if name not in OF_MOVEMENT:
             arguments.finish()
-    comment = ctx.comment(start.span, f"start of {member.name}")
-    return element("Private", *actions, entityRef=member.name, comment=comment)
+    return element("Private", *actions, entityRef=member.name)

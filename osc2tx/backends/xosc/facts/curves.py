@@ -7,12 +7,7 @@ from itertools import pairwise
 from typing import Literal, NamedTuple
 
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.paths.path_curves import (
-    PathError,
-    curve_of_path,
-    curve_of_trajectory,
-    stretch,
-)
+from osc2tx_runtime.domain.paths.path_curves import PathError, stretch
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
@@ -64,9 +59,9 @@ def drawn(
     joined: Literal["smooth", "straight_line"] = "smooth" if is_smooth else "straight_line"
     try:
         if is_timed:
-            curve = curve_of_trajectory(Trajectory(poses, [p.time for p in points], joined))
+            curve = Trajectory(poses, [p.time for p in points], joined).curve
         else:
-            curve = curve_of_path(Way(poses, joined))
+            curve = Way(poses, joined).curve
         low, high = stretch(curve, *offsets)
     except PathError as error:
         raise Inexpressible(error.message) from None

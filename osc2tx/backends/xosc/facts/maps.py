@@ -9,9 +9,9 @@ from typing import Literal, cast
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.paths.road_paths import way_through
-from osc2tx_runtime.domain.placing.pose_resolution import road_entry
+from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
 from osc2tx_runtime.domain.routes.map_search import DEFAULT_MAP, SUFFIXES, find_map
+from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map

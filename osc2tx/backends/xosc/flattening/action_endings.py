@@ -72,8 +72,7 @@ def settle(loom: Loom, flow: Flow, member: ir.Behavior, taken: Claims) -> Flow:
         actions = tuple(_ending(loom, actor, domain, member) for domain, _ in left)
         name = ctx.names.new(f"hold_{actor}")
         ended = loom.latched(ended, name)
-        comment = ctx.comment(member.span, f"{actor} goes on as it is")
-        loom.add(name, actions, ended, comment, actor=actor)
+        loom.add(name, actions, ended, actor=actor)
     return ended
 
 

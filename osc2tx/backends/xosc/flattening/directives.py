@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.actions.user_actions import command_of
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow
 from osc2tx.backends.xosc.flattening.event_parameters import carried
 from osc2tx.backends.xosc.flattening.periods import MANY_TIMES, react_periodically
-from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, one_line
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import element
@@ -25,9 +25,8 @@ def emit(loom: Loom, node: ir.Emit, start: Flow) -> Flow:
     """Let an event occur; return when it has."""
     ctx, events = loom.ctx, loom.events
     name = ctx.names.new(f"emit_{ctx.scope.prefix}{node.event.name}")
-    comment = ctx.comment(node.span, one_line(node.span.text))
     setting = events.setting(node.event.name)
-    done = loom.add(name, (*carried(ctx, node), setting), start, comment, actor=loom.voice)
+    done = loom.add(name, (*carried(ctx, node), setting), start, actor=loom.voice)
     if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
         reset = events.setting(node.event.name, "false")
         loom.add(ctx.names.new(f"after_{name}"), (reset,), done)
@@ -48,9 +47,8 @@ def call(loom: Loom, node: ir.Call, start: Flow) -> Flow:
         raise no_model("another behavioral model", node.span)
     arguments = {each.parameter: ctx.values.of(each.value) for each in called.arguments}
     name = ctx.names.new(f"call_{plain(called.method)}")
-    comment = ctx.comment(node.span, one_line(node.span.text))
     start = loom.latched(start, name)
-    loom.add(name, (command_of(called.method, arguments),), start, comment, actor=loom.voice)
+    loom.add(name, (command_of(called.method, arguments),), start, actor=loom.voice)
     ctx.report.exact("call", node.span, f"the tool has to know the command `{called.method}`")
     return loom.ended(node, start)
 
@@ -63,9 +61,8 @@ def finish(loom: Loom, node: ir.Finish, start: Flow) -> Flow:
         ctx.require_support("SetMonitorAction", node.span)
         ctx.monitors[VERDICT] = True
         action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
-        comment = ctx.comment(node.span, one_line(node.span.text))
         actions = (element("GlobalAction", action),)
-        start = loom.add(ctx.names.new("fail"), actions, start, comment, actor=loom.voice)
+        start = loom.add(ctx.names.new("fail"), actions, start, actor=loom.voice)
     loom.finished = loom.finished | start
     ctx.report.exact("emit end" if node.succeeds else "emit fail", node.span)
     return start
@@ -91,8 +88,7 @@ def react(loom: Loom, node: ir.On, start: Flow) -> Flow:
     occurs = loom.after(node.trigger, start)
     repeats = None if once else MANY_TIMES
     name = ctx.names.new(f"on_{plain(node.trigger.span.text)}")
-    comment = ctx.comment(node.span, one_line(node.span.text))
-    loom.add(name, tuple(actions), occurs, comment, repeats=repeats)
+    loom.add(name, tuple(actions), occurs, repeats=repeats)
     if not once:  # the opposite edge makes room for the next occurrence
         over = Flow(
             tuple(

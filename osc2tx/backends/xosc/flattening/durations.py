@@ -13,7 +13,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.flattening.directives import VERDICT
 from osc2tx.backends.xosc.flattening.parallel_overlaps import length_of
-from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, construct_of, one_line
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, construct_of
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.names import plain
@@ -87,8 +87,7 @@ def _failing(loom: Loom, node: Timed, in_time: Flow, late: Flow, role: Role) -> 
     ctx.monitors[VERDICT] = True
     action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
     failing = (element("GlobalAction", action),)
-    comment = ctx.comment(span, one_line(node.span.text))
-    failed = loom.add(ctx.names.new(name), failing, late, comment, actor=loom.voice)
+    failed = loom.add(ctx.names.new(name), failing, late, actor=loom.voice)
     loom.finished = loom.finished | failed
     ctx.report.exact(construct, span, f"if it takes longer, the monitor `{VERDICT}` says so")
     return in_time

@@ -76,7 +76,7 @@ class EventTable:
                 self._ctx.names.new(f"signal_{plain(self._scope.prefix + name)}"),
                 (self._ctx.set_variable(self.variable(name), "true"),),
                 single(at_time(time)),
-                self._ctx.comment(declared.span, f"{name} comes from outside"),
+                declared.span,
             )
             events.append(event)
             self._ctx.report.exact(f"signal {name}", declared.span, f"at {time:g} s, as given")

@@ -253,7 +253,7 @@ class Flattener:
             reason = f"{ctx.profile.name} does not stop acts"
             raise Inexpressible(reason, node.span, Remedy(profile="generic"))
         name = f"act_{plain(node.label or node.name)}"
-        act = loom.open_act(name, start, ctx.comment(node.span, node.name))
+        act = loom.open_act(name, start)
         end = body(single(state_of("act", act.name, "runningState")))
         mark = None
         if not end.is_never:

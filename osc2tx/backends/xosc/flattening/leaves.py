@@ -17,12 +17,11 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import (
     RUN_START,
     Loom,
     construct_of,
-    one_line,
 )
 from osc2tx.backends.xosc.flattening.tree_queries import OPEN_GLOBALS
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
-from osc2tx.backends.xosc.xml.tree import Element, commented
+from osc2tx.backends.xosc.xml.tree import Element
 
 
 def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
@@ -55,11 +54,10 @@ def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     if actions:
-        comment = ctx.comment(node.span, one_line(node.span.text))
-        goal = loom.add(name, actions, start, comment, actor=member.name)
+        goal = loom.add(name, actions, start, actor=member.name)
         for other, action, word in leaf.others:
             follows = ctx.names.new(f"{other.name}_{word}")
-            loom.add(follows, (action,), goal, f"{comment}: {other.name} {word}", actor=other.name)
+            loom.add(follows, (action,), goal, actor=other.name)
             state = replace(ctx.states[other.name], speed=None)
             ctx.states[other.name] = state.finished(LONGITUDINAL)
     ends = _ends(loom, node, start, goal, performance)
@@ -136,7 +134,7 @@ def _act_globally(
 ) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
     ctx = loom.ctx
-    name, comment = node.label or node.action, ctx.comment(node.span, one_line(node.span.text))
+    name = node.label or node.action
     at_once = tuple(action for action in actions if isinstance(action, Element))
     later: dict[float, list[Element]] = {}
     for action in actions:
@@ -144,9 +142,9 @@ def _act_globally(
             later.setdefault(action.seconds, []).append(action.action)
     done = start
     if start == RUN_START and loom.is_outermost:
-        ctx.init_globals.extend(commented(action, comment) for action in at_once)
+        ctx.init_globals.extend(at_once)
     elif at_once:
-        done = loom.add(ctx.names.new(name), at_once, start, comment)
+        done = loom.add(ctx.names.new(name), at_once, start)
     for seconds, switches in later.items():
-        loom.add(ctx.names.new(name), tuple(switches), start.later(seconds), comment)
+        loom.add(ctx.names.new(name), tuple(switches), start.later(seconds))
     return done

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import Flow, Test, single, state_of
-from osc2tx.backends.xosc.flattening.storyboard_builder import Loom, one_line
+from osc2tx.backends.xosc.flattening.storyboard_builder import Loom
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element
 
@@ -28,14 +28,13 @@ def react_periodically(
         raise Inexpressible(reason, node.span, Remedy(profile="generic"))
     period = ctx.values.number(every.period)
     begin = start.later(0.0 if every.offset is None else ctx.values.number(every.offset))
-    comment = ctx.comment(node.span, one_line(node.span.text))
     # The first look of an event sees no edge, so it has to come before the first occurrence.
     for emitted in dict.fromkeys(r.event.name for r in node.reactions if isinstance(r, ir.Emit)):
         is_set = ctx.variable_is(loom.events.variable(emitted), "equalTo", "true")
         halfway = replace(Test(is_set, "rising"), delay=0.5 * period)
         reset = (loom.events.setting(emitted, "false"),)
         loom.add(ctx.names.new(f"after_{emitted}"), reset, single(halfway), repeats=MANY_TIMES)
-    done = loom.add(ctx.names.new("first_time"), actions, begin, comment)
+    done = loom.add(ctx.names.new("first_time"), actions, begin)
     name = ctx.names.new("every_time")
     again = single(state_of("event", name, "standbyState")) & done
-    loom.add(name, actions, again.later(period), comment, repeats=MANY_TIMES)
+    loom.add(name, actions, again.later(period), repeats=MANY_TIMES)

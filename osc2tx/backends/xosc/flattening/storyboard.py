@@ -8,7 +8,7 @@ events that concern nobody: marks, and actions on the whole world.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Group, Test
@@ -26,19 +26,17 @@ class Event:
         name: Its name.
         actions: `PrivateAction`, `GlobalAction` or `UserDefinedAction` elements.
         start: When it starts.
-        comment: Where it comes from.
+        place: Where the member stands that it belongs to.
         priority: What it does to running events of its maneuver.
         repeats: How often it may start.
-        place: Where the member stands that it belongs to.
     """
 
     name: str
     actions: tuple[Element, ...]
     start: Flow
-    comment: str | None
+    place: Span
     priority: str = "parallel"
     repeats: int | None = None
-    place: Span | None = None
 
 
 @dataclass(slots=True)
@@ -51,13 +49,11 @@ class Act:
         stops: Variables that stop it when they are set.
         around: The act that holds it in the tree; what stops that one stops this one.
         stop: The same as a flow, when all is known.
-        comment: Where it comes from.
         events: Its events by actor; `None` for those without actor.
     """
 
     name: str
     start: Flow
-    comment: str | None = None
     stops: list[str] = field(default_factory=list)
     around: Act | None = None
     stop: Flow = NEVER
@@ -67,6 +63,11 @@ class Act:
         """Return the variables that stop the acts around it."""
         around = self.around
         return [] if around is None else [*around.stops, *around.stops_around()]
+
+    def all_events(self) -> Iterator[Event]:
+        """Yield its events, those of one actor after the other."""
+        for events in self.events.values():
+            yield from events
 
     def add(self, actor: str | None, event: Event) -> None:
         """Add an event."""
@@ -133,7 +134,6 @@ class StoryboardWriter:
             self.trigger("StartTrigger", act.start, f"start_{act.name}"),
             stop,
             name=act.name,
-            comment=act.comment,
         )
 
     def _group(self, act: Act, actor: str | None, events: Sequence[Event]) -> Element:
@@ -163,5 +163,4 @@ class StoryboardWriter:
             name=event.name,
             priority=priority,
             maximumExecutionCount=event.repeats,
-            comment=event.comment,
         )

@@ -37,7 +37,7 @@ class Loom:
     def __init__(self, ctx: Context) -> None:
         """Begin with one act for all."""
         self.ctx = ctx
-        self.act = Act(ctx.names.new(f"act_{ctx.scenario.name}"), RUN_START)
+        self.act = Act(ctx.names.new("act"), RUN_START)
         self.voice: str | None = None
         self.finished = NEVER
         self.is_race = False
@@ -70,16 +70,12 @@ class Loom:
         name: str,
         actions: tuple[Element, ...],
         start: Flow,
-        comment: str | None = None,
         *,
         actor: str | None = None,
         repeats: int | None = None,
     ) -> Flow:
         """Add an event to the maneuver of an actor; return when it is complete."""
-        if comment is None:
-            comment = self.ctx.comment(self.place, one_line(self.place.text))
-        event = Event(name, actions, start, comment, repeats=repeats, place=self.place)
-        self.act.add(actor, event)
+        self.act.add(actor, Event(name, actions, start, self.place, repeats=repeats))
         return single(state_of("event", name))
 
     def add_signals(self) -> None:
@@ -88,9 +84,9 @@ class Loom:
             for event in table.signals():
                 self.act.add(None, event)
 
-    def open_act(self, name: str, start: Flow, comment: str) -> Act:
+    def open_act(self, name: str, start: Flow) -> Act:
         """Let events go to a new act."""
-        act = Act(self.ctx.names.new(name), start, comment, around=self.act)
+        act = Act(self.ctx.names.new(name), start, around=self.act)
         self._around.append(self.act)
         self._hulls.append(
             {name: replace(state, unfinished=()) for name, state in self.ctx.states.items()}
@@ -120,8 +116,8 @@ class Loom:
                 is_outermost = act is self._outermost
                 running = single(state_of("act", act.name, "runningState"))
                 start = RUN_START if is_outermost else running
-                comment = self.ctx.comment(self.ctx.scenario.span, name)
-                act.add(None, Event(name, (self.ctx.mark(name),), start, comment))
+                actions = (self.ctx.mark(name),)
+                act.add(None, Event(name, actions, start, self.ctx.scenario.span))
             around = dict.fromkeys(act.stops_around())
             for mark in around:  # what is complete because it was stopped must start nothing
                 condition = self.ctx.variable_is(mark, "equalTo", "false")
@@ -256,12 +252,6 @@ class Loom:
         nodes = ir.walk_behaviors(self.ctx.scope.scenario.body)
         found = (self.claimed(node) for node in nodes if node.label in labels)
         return frozenset[tuple[str, str]]().union(*found)
-
-
-def one_line(text: str) -> str:
-    """Return the first line of a statement, for comments."""
-    first, _, rest = text.partition("\n")
-    return first.strip() + (" …" if rest.strip() else "")
 
 
 def construct_of(node: ir.Behavior) -> str:

@@ -48,15 +48,14 @@ def _report_value(ctx: Context, declaration: ir.Parameter) -> None:
 
 
 def _note(found: Logical, parameter: OpenParameter) -> str:
-    """Return what is worth knowing about a parameter that stays open."""
-    values = f"any of {parameter.told(found.domain.values(parameter, found.ctx.choosing.point))}"
+    """Return what follows from a parameter that stays open."""
     following = found.causes.get(parameter.key, ())
     if not following:
-        return f"{values}, as the document's own"
+        return ""
     named = ", ".join(following[:MOST_NAMES])
     more = f" and {len(following) - MOST_NAMES} more" if len(following) > MOST_NAMES else ""
     follow = "follows" if len(following) == 1 else "follow"
-    return f"{values}; {named}{more} {follow} from it in each row of the table of values"
+    return f"{named}{more} {follow} from it in each row of the table of values"
 
 
 def _report_loss(found: Logical, parameter: OpenParameter) -> None:

@@ -30,19 +30,13 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[Act, ...]:
     """
     if not ctx.profile.has_stop:  # the run ends with the last event, so one waits for the end
         name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span
-        comment = ctx.comment(span, "end")
-        acts[-1].add(None, Event(name, (ctx.mark(name),), end, comment, place=span))
+        acts[-1].add(None, Event(name, (ctx.mark(name),), end, span))
     for act in acts:
-        for event in _events(act):
+        for event in act.all_events():
             for part in (*event.actions, *_conditions(event)):
                 for node in _walk(part):
                     _check(ctx, event, node)
     return tuple(acts) if ctx.profile.has_delays else _Watch(ctx).through(acts)
-
-
-def _events(act: Act) -> Iterator[Event]:
-    for events in act.events.values():
-        yield from events
 
 
 def _conditions(event: Event) -> Iterator[Element]:
@@ -66,7 +60,7 @@ def _walk(node: Element) -> Iterator[Element]:
 
 def _check(ctx: Context, event: Event, node: Element) -> None:
     """Report what a tool does not carry out, and dynamics that it takes for something else."""
-    profile, span = ctx.profile, event.place or ctx.scenario.span
+    profile, span = ctx.profile, event.place
     construct = ctx.report.construct_at(span, "action ")
     feature = next((each for each in _features(node) if each in profile.unsupported), None)
     if feature is not None:
@@ -88,7 +82,7 @@ class _Watch:
 
     def through(self, acts: Sequence[Act]) -> tuple[Act, ...]:
         for act in acts:
-            for event in _events(act):
+            for event in act.all_events():
                 groups = (self._group(group, event) for group in event.start.groups)
                 event.start = Flow(tuple(groups))
         return (*self._made, *acts)
@@ -100,7 +94,7 @@ class _Watch:
         if not passing or (all(test.reached == 0.0 for test in lasting) and len(passing) == 1):
             return lasting + passing
         if len(passing) > 1:
-            span = event.place or self._ctx.scenario.span
+            span = event.place
             reason = f"{self._ctx.profile.name} takes what was true once for true from then on"
             self._ctx.report.cannot("condition", span, reason, GENERIC)
             return group
@@ -119,8 +113,8 @@ class _Watch:
             return known
         ctx = self._ctx
         name = ctx.names.new(f"until_{event.name}")
-        act = Act(ctx.names.new(f"act_{name}"), look, event.comment)
-        act.add(None, Event(name, (ctx.mark(name),), occurs, event.comment, place=event.place))
+        act = Act(ctx.names.new(f"act_{name}"), look)
+        act.add(None, Event(name, (ctx.mark(name),), occurs, event.place))
         self._made.append(act)
         made = Test(ctx.variable_is(name, "equalTo", "true"), latched=True)
         return self._marks.setdefault(what, made)

@@ -7,13 +7,13 @@ not allow is a mistake of osc2tx, never one of the scenario.
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import TypeAlias
 
 from lxml import etree
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
+from osc2tx.backends.xosc.xml.layout import lay_out
 from osc2tx.backends.xosc.xml.numbers import number_text
 from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, ElementType, element_type, literals
 from osc2tx.diagnostics import InternalCompilerError
@@ -31,14 +31,12 @@ class Element:
         name: Its tag.
         attributes: Their texts, in any order.
         children: In any order where the schema gives one; elements of one name keep theirs.
-        comment: What stands above it.
         text: What stands in it.
     """
 
     name: str
     attributes: tuple[tuple[str, str], ...] = ()
     children: tuple[Element, ...] = ()
-    comment: str | None = None
     text: str | None = None
 
     def get(self, attribute: str) -> str | None:
@@ -46,21 +44,14 @@ class Element:
         return dict(self.attributes).get(attribute)
 
 
-def element(
-    tag: str, /, *children: Element | None, comment: str | None = None, **attributes: Value | None
-) -> Element:
+def element(tag: str, /, *children: Element | None, **attributes: Value | None) -> Element:
     """Return an element; what is `None` is left out.
 
     An underscore at the end of a name is dropped: `from_` is the attribute `from`.
     """
     given = ((key.removesuffix("_"), value) for key, value in attributes.items())
     texts = tuple((key, text_of(value)) for key, value in given if value is not None)
-    return Element(tag, texts, tuple(c for c in children if c is not None), comment)
-
-
-def commented(node: Element, comment: str) -> Element:
-    """Return an element with a comment above it."""
-    return replace(node, comment=comment)
+    return Element(tag, texts, tuple(c for c in children if c is not None))
 
 
 def text_of(value: Value) -> str:
@@ -97,8 +88,9 @@ def serialize(root: Element, version: XmlVersion) -> str:
         InternalCompilerError: If the version has no such document.
     """
     tree = _build(root, ROOT_TYPE, version)
-    body = etree.tostring(tree, pretty_print=True, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}'
+    lay_out(tree)
+    body = etree.tostring(tree, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}\n'
 
 
 def _build(node: Element, parent_type: str, version: XmlVersion) -> etree._Element:
@@ -116,8 +108,6 @@ def _build(node: Element, parent_type: str, version: XmlVersion) -> etree._Eleme
         if version in child_part.required and name not in present:
             raise _impossible(f"<{node.name}> without <{name}>", version)
     for child in sorted(node.children, key=lambda c: order.get(c.name, 0)):
-        if child.comment is not None:
-            made.append(etree.Comment(f" {comment_text(child.comment)} "))
         made.append(_build(child, part.type, version))
     return made
 
@@ -139,14 +129,6 @@ def _ordered_attributes(
     # `name` goes first, for people; the rest in the order of the schema.
     names = sorted(type_.attributes, key=lambda name: name != "name")
     return [(name, given[name]) for name in names if name in given]
-
-
-def comment_text(text: str) -> str:
-    """Return a text as a comment may hold it."""
-    printable = "".join(char if char.isprintable() else " " for char in text)
-    while "--" in printable:
-        printable = printable.replace("--", "- -")
-    return printable + " " if printable.endswith("-") else printable
 
 
 def _impossible(what: str, version: str) -> InternalCompilerError:

@@ -9,15 +9,13 @@ from osc2tx_runtime.domain.modifiers import Lane, Modifier, Orient, Position, Sp
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.placing.initial_state import Spot
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
+from osc2tx_runtime.domain.planning.motion_action import OneStepAction
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, RoutePoint
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.attitude import Tilt
-
-from .motion_action import OneStepAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject

@@ -11,8 +11,6 @@ from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.paths.road_paths import way_between
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
 from osc2tx_runtime.domain.planning.path_commands import path_command
 from osc2tx_runtime.domain.points_and_poses import (
     AnyPoint,
@@ -22,7 +20,8 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
+from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one

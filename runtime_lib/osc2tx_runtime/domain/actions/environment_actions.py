@@ -12,12 +12,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.planning.motion_action import note_lights
 from osc2tx_runtime.language.action import Action, ActionOptions
 from osc2tx_runtime.language.argument_rules import at_least_one
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.language.tree.base import Status
-
-from .motion_action import note_lights
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Environment

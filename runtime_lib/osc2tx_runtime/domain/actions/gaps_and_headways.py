@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.planning.arrival_time import arrival
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.enums import GapDirection, RoadDistanceDirection
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import ActionOptions
@@ -19,7 +20,6 @@ from osc2tx_runtime.world.commands import Beside, KeepGap
 
 from .modifiable import ShapedAction
 from .modifier_groups import SIDE_FREE, SPEED_FREE
-from .motion_action import Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle

@@ -8,7 +8,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.modifiers import Modifier
-from osc2tx_runtime.domain.signals.traffic_lights import states_of
+from osc2tx_runtime.domain.signals.traffic_light_cycles import check_cycle, moment_of, time_of
+from osc2tx_runtime.domain.signals.traffic_lights import known_cycles, states_of
 from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action, ActionOptions
@@ -17,8 +18,7 @@ from osc2tx_runtime.world.traffic_light_lamps import lamps_that_mean, meaning_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import TrafficLightController
-    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
-    from osc2tx_runtime.domain.signals.traffic_lights import Bulbs
+    from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, TrafficLightCycle
     from osc2tx_runtime.world.traffic_light_lamps import Lamp
     from osc2tx_runtime.world.traffic_light_states import Signals
 
@@ -167,31 +167,28 @@ class Switch(SignalAction):
         self.note(signal, self.signals.latest(signal), str(self.shown.state))
 
     def _cycles(self) -> tuple[TrafficLightCycle, ...]:
-        from osc2tx_runtime.domain.actors import Map
-
-        maps = [each for each in self.context.actors.values() if isinstance(each, Map)]
-        cycles = [cycle for each in maps for cycle in each.traffic_light_control]
+        cycles = known_cycles(self.context)
         if not cycles:
             raise ScenarioError(
                 "sync needs to know which lights keep in step: keep(it.traffic_light_control =="
                 " [...]) of the map"
             )
         for cycle in cycles:
-            cycle.check()
-        return tuple(cycles)
+            check_cycle(cycle)
+        return cycles
 
     def _in_step(self, signal: str, states: Sequence[BulbState]) -> None:
         """Switches lights of the same synchronization group to what they show at that time."""
         signals, cycles = self.signals, self._cycles()
         own = next((c for c in cycles if signal in c.phases[0].group.lights(signals)), None)
-        time = None if own is None else own.time_of(states, signals.lamps(signal))
+        time = None if own is None else time_of(own, states, signals.lamps(signal))
         if own is None or time is None or own.synchronization_group_id is None:
             return  # nothing says what would be consistent with it
         switched = self.lights(signals)
         for cycle in cycles:
             if cycle is own or cycle.synchronization_group_id != own.synchronization_group_id:
                 continue
-            phase = cycle.at(own.start_offset + time).phase
+            phase = moment_of(cycle, own.start_offset + time).phase
             for other in phase.group.lights(signals):
                 if other not in switched:
                     new = states_of(phase.bulbs_state, signals.lamps(other), phase.group.name)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Unpack, get_args
 
 from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.planning.motion_action import note_lights
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action, ActionOptions
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.protocol import LightMode
-
-from .motion_action import note_lights
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle

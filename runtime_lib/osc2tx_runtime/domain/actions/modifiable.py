@@ -9,7 +9,7 @@ reached exactly at the end of its duration or of the phase it ends with, else it
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Unpack
+from typing import ClassVar, Unpack
 
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import (
@@ -31,6 +31,7 @@ from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
 from osc2tx_runtime.domain.planning.goals import distance_to_cover, watched_place
 from osc2tx_runtime.domain.planning.lateral_planning import follow_reference, side_command
 from osc2tx_runtime.domain.planning.longitudinal_planning import speed_command
+from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
 from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
 from osc2tx_runtime.language.action import ActionOptions
@@ -40,22 +41,17 @@ from osc2tx_runtime.world.commands import Careful, Command
 
 from .modifier_checks import check_modifiers, check_options
 from .modifier_groups import AT_START, LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
-from .motion_action import MotionAction
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.tree.duration_limits import Limits
 
 __all__ = ["ShapedAction"]
 
 
-class ShapedAction(MotionAction):
+class ShapedAction(ModifiedMotion):
     """Moves by itself in its own slots, and as the modifiers say in those they speak of.
 
     It claims the speed if a modifier speaks of it, and the lane likewise, so that
     `drive() with: speed(...)` and `change_lane(...)` run side by side.
 
     Attributes:
-        movable: The actor.
         moves_itself: Whether its slots are its own, or those that modifiers speak of.
         commands_speed: Whether it has a command of its own where it controls the speed.
         stands: Whether it goes nowhere, so that all its modifiers are about where it is.
@@ -70,8 +66,6 @@ class ShapedAction(MotionAction):
         self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
     ) -> None:
         super().__init__(actor, *modifiers, **options)
-        self.movable = actor
-        self._phase: Limits | None = None
         self._reached = self._jumped = False
         self._to_cover: float | None = None
         self._covered = 0.0
@@ -89,15 +83,6 @@ class ShapedAction(MotionAction):
     def own(self) -> tuple[str, ...]:
         """Slots that the action controls itself; read when it is complete."""
         return self.slots if self.moves_itself else ()
-
-    @cached_property
-    def lasting(self) -> tuple[Modifier, ...]:
-        """The modifiers but those that only speak of the start."""
-        return tuple(
-            m
-            for m in self.modifiers
-            if getattr(m, "at", "all") != "start" or not isinstance(m, AT_START)
-        )
 
     @cached_property
     def has_goal(self) -> bool:
@@ -166,17 +151,6 @@ class ShapedAction(MotionAction):
         )
         super().setup(**kwargs)
         check_options(self)
-
-    @property
-    def end_is_known(self) -> bool:
-        """Whether it is known in advance when the action ends."""
-        return self.fixed_duration() is not None or self._phase is not None
-
-    def time_left(self) -> float | None:
-        """Seconds until the end, where it is known."""
-        if self._phase is not None:
-            return self._phase.left * self.context.dt
-        return super().time_left()
 
     def initialise(self) -> None:
         """Start."""

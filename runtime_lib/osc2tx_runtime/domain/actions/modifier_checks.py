@@ -22,14 +22,14 @@ from .combinations import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 
 __all__ = ["check_modifiers", "check_options"]
 
 ModifierT = TypeVar("ModifierT", bound=Modifier)
 
 
-def check_modifiers(action: ShapedAction) -> None:
+def check_modifiers(action: ModifiedMotion) -> None:
     """Refuses modifiers that contradict each other, or have no effect here.
 
     Raises:
@@ -56,7 +56,7 @@ def check_modifiers(action: ShapedAction) -> None:
         check_arguments(f"{name}: {modifier.name}", rules, {**modifier.given(), "at": at})
 
 
-def _conflicts(action: ShapedAction, modifier: Modifier, along: Sequence[Speed]) -> None:
+def _conflicts(action: ModifiedMotion, modifier: Modifier, along: Sequence[Speed]) -> None:
     """Refuses what a modifier leaves no room for."""
     room = not _shaped(action) and _room_for_place(action, along)
     for sort in sorted(sorts_of(modifier)):
@@ -72,19 +72,19 @@ def _is_along(modifier: Modifier) -> bool:
     return not isinstance(modifier, Speed) or modifier.direction == "longitudinal"
 
 
-def _shaped(action: ShapedAction) -> bool:
+def _shaped(action: ModifiedMotion) -> bool:
     """Whether a shape says where the actor is."""
     return any(position.shape is not None for position in _of(action.lasting, Position))
 
 
-def _room_for_place(action: ShapedAction, speeds: Sequence[Speed]) -> bool:
+def _room_for_place(action: ModifiedMotion, speeds: Sequence[Speed]) -> bool:
     """Whether there can be a place beside speeds and accelerations: at the end, when it comes."""
     ends = all(position.at == "end" for position in _of(action.lasting, Position))
     rates = [m.at for m in (*speeds, *_of(action.lasting, Acceleration))]
     return ends and (_arrives(action, speeds) or all(at == "all" for at in rates))
 
 
-def _arrives(action: ShapedAction, speeds: Sequence[Speed]) -> bool:
+def _arrives(action: ModifiedMotion, speeds: Sequence[Speed]) -> bool:
     """Whether a place and a speed at the end of a known time are asked for."""
     return (
         action.end_is_known
@@ -119,7 +119,7 @@ def _refuse(name: str, one: Modifier, other: Modifier) -> None:
     raise UnsupportedError(f"{name}: {one.name} and {other.name} speak of the same thing; give one")
 
 
-def _twice(action: ShapedAction) -> None:
+def _twice(action: ModifiedMotion) -> None:
     starts = [m for m in action.modifiers if m not in action.lasting]
     for group in (action.lasting, starts):
         found: set[frozenset[str]] = set()
@@ -130,7 +130,7 @@ def _twice(action: ShapedAction) -> None:
             found.add(sort)
 
 
-def _at(action: ShapedAction) -> None:
+def _at(action: ModifiedMotion) -> None:
     for modifier in action.modifiers:
         if getattr(modifier, "at", "all") != "start":
             continue
@@ -141,7 +141,7 @@ def _at(action: ShapedAction) -> None:
         check_arguments(what, STARTING, {**modifier.given(), "at": "start"})
 
 
-def _contradictions(action: ShapedAction) -> None:
+def _contradictions(action: ModifiedMotion) -> None:
     for one, other in CONTRADICTIONS:
         said = {
             (name, value)
@@ -155,7 +155,7 @@ def _contradictions(action: ShapedAction) -> None:
             )
 
 
-def check_options(action: ShapedAction) -> None:
+def check_options(action: ModifiedMotion) -> None:
     """Refuses what only vehicles on lanes can do; called when the actor is known to be one or not.
 
     Raises:

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import now
-from osc2tx_runtime.domain.paths.path_curves import absolute
 from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePath,
     RelativeTrajectory,
     Trajectory,
 )
+from osc2tx_runtime.domain.paths.relative_paths import absolute
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.path_commands import path_command, trajectory_commands
 from osc2tx_runtime.domain.points_and_poses import Pose

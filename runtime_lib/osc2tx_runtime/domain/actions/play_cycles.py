@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.signals.traffic_light_cycles import check_cycle, moment_of
 from osc2tx_runtime.domain.signals.traffic_lights import states_of
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
@@ -16,7 +17,7 @@ from .light_switching import SignalAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import TrafficLightController
-    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
+    from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightCycle
 
 __all__ = ["PlayCycles"]
 
@@ -50,7 +51,7 @@ class PlayCycles(SignalAction):
         playing: dict[str, TrafficLightCycle] = {}
         found = []
         for cycle in self.cycles:
-            cycle.check()
+            check_cycle(cycle)
             lights = cycle.phases[0].group.lights(signals)
             for signal in lights:
                 if signal in playing:
@@ -81,7 +82,7 @@ class PlayCycles(SignalAction):
     def _play(self) -> None:
         """Switches the lights whose phase begins."""
         for cycle, lights in self.playing:
-            moment = cycle.at(self.elapsed)
+            moment = moment_of(cycle, self.elapsed)
             for signal in lights:
                 if self._phases.get(signal) == moment.number:
                     continue

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
-
-from .motion_action import OneStepAction, Refused
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle

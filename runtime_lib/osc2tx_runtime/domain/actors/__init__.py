@@ -7,9 +7,9 @@ library, the registry carries them out.
 
 from __future__ import annotations
 
+from osc2tx_runtime.domain.measuring.object_position import RoutePosition
 from osc2tx_runtime.domain.measuring.weather import CelestialLightSource
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, Pose
-from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 
 from .base import Actor
 from .environment import Environment

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.routes.road_network import RoadNetwork
+from osc2tx_runtime.domain.actors.road_network import RoadNetwork
+from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightControl, TrafficLightCycle
 from osc2tx_runtime.enums import DrivingRule
 
 from .base import Actor
 
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
-
 __all__ = ["Map"]
 
 
-class Map(Actor, RoadNetwork):
+class Map(Actor, RoadNetwork, TrafficLightControl):
     """The road network.
 
     Args:

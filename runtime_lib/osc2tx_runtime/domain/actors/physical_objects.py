@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, TypedDict, TypeVar
 
-from osc2tx_runtime.domain.actors.behavioral_models import leave_to
 from osc2tx_runtime.domain.actors.parts import (
     UNSAID,
     BehavioralModel,
@@ -19,7 +18,9 @@ from osc2tx_runtime.enums import (
     VehicleCategory,
 )
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.registry import LONGITUDINAL
 from osc2tx_runtime.world.actor_dimensions import MODELS, Shape, limits_of, shape_of
+from osc2tx_runtime.world.commands import Careful
 from osc2tx_runtime.world.protocol import ActorSpec
 
 from .base import Actor
@@ -109,11 +110,24 @@ class PhysicalObject(Actor, Measures):
     def bind(self, context: ExecutionContext) -> None:
         """Joins a run, with the behavioral model that it starts with."""
         super().bind(context)
-        leave_to(context, self, self.initial_bm)
+        self.set_bm(self.initial_bm)
 
     def set_bm(self, behavioral_model: BehavioralModel) -> None:
-        """Leave the object to another behavioral model while no action controls it (8.7.3.1.9)."""
-        leave_to(self.context, self, behavioral_model)
+        """Leave the object to another behavioral model while no action controls it (8.7.3.1.9).
+
+        Raises:
+            UnsupportedError: The model cannot drive such an object.
+        """
+        engine = behavioral_model.bm_engine.name
+        careful = engine == "careful_driver"
+        if careful and not self.lane_bound:
+            raise UnsupportedError(
+                f"{self.id}, a {self.library_kind}, cannot be left to a careful driver:"
+                " only vehicles with propulsion can",
+                self.source,
+            )
+        command = Careful(None) if careful else None
+        self.context.leave(self.id, LONGITUDINAL, engine, command)
 
     # --- what the scenario or the catalogue says ----------------------------------------------
 

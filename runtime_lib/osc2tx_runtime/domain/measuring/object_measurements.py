@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
+from osc2tx_runtime.domain.measuring.object_position import MeasuredObject, RoutePosition
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.placing.pose_resolution import place_of_odr
 from osc2tx_runtime.domain.points_and_poses import (
     OdrPoint,
     Orientation,
@@ -15,9 +14,8 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
     XyzPoint,
 )
-from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
+from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
-from osc2tx_runtime.domain.routes.relative_position import RoutePosition
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.routes.route_coordinates import between_on_crossing, place_in_route
 from osc2tx_runtime.enums import (
@@ -31,8 +29,8 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.distances import along_lanes as route_between
 from osc2tx_runtime.world.distances import (
+    along_lanes,
     gap_between,
     headway_between,
     lateral_on_road,
@@ -45,26 +43,11 @@ from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.velocities import Acceleration, Velocity
 
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.context import ExecutionContext
-
 __all__ = ["Measures"]
 
 
-class Measures:
+class Measures(MeasuredObject):
     """What one can read of a physical object; mixed into the actor classes."""
-
-    id: str
-
-    @property
-    def context(self) -> ExecutionContext:
-        """The run."""
-        raise NotImplementedError
-
-    @property
-    def state(self) -> ActorState:
-        """Snapshot of the present step."""
-        return self.context.world.state(self.id)
 
     # --- fields -------------------------------------------------------------------------------
 
@@ -132,8 +115,8 @@ class Measures:
         """
         shape, other = self.state.shape, reference.state.shape
         if direction == "longitudinal":
-            return Measured(gap_between(-self._along(reference), shape, other))
-        return Measured(side_gap(self._lateral(reference), shape, other))
+            return Measured(gap_between(-self._distance_along(reference), shape, other))
+        return Measured(side_gap(self._distance_across(reference), shape, other))
 
     def time_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""
@@ -148,7 +131,7 @@ class Measures:
 
     def space_headway(self, reference: Measures) -> float:
         """Distance (m) from front to front; positive if the caller trails."""
-        along = self._along(reference)
+        along = self._distance_along(reference)
         return Measured(-headway_between(-along, self.state.shape, reference.state.shape))
 
     def time_headway(self, reference: Measures) -> float:
@@ -236,7 +219,7 @@ class Measures:
         ahead = direction == "longitudinal"
         if route_type == "on_crossing":
             return between_on_crossing(self.context, here, there, ahead=ahead, mode=mode)
-        distance = (route_between if ahead else lateral_on_road)(road_map, here, there)
+        distance = (along_lanes if ahead else lateral_on_road)(road_map, here, there)
         if distance is None:
             raise ScenarioError(f"no lane leads from {self.id} to the place or back")
         if mode == "reference_points":
@@ -255,24 +238,3 @@ class Measures:
         pose = self.context.world.map.pose(place) if isinstance(place, LanePosition) else place
         state = self._standing_at(Point(pose.x, pose.y, pose.z), pose.h)
         return state._replace(lane_position=place) if isinstance(place, LanePosition) else state
-
-    def _along(self, reference: Measures) -> float:
-        """Route distance (m) to the reference, positive if it is ahead."""
-        world = self.context.world
-        along = route_between(world.map, world.state(self.id), world.state(reference.id))
-        if along is None:
-            raise self._no_way(reference)
-        return along
-
-    def _lateral(self, reference: Measures) -> float:
-        """How far (m) the reference is to the left."""
-        lateral = lateral_on_road(self.context.world.map, self.state, reference.state)
-        if lateral is None:
-            raise self._no_way(reference)
-        return lateral
-
-    def _no_way(self, reference: Measures) -> ScenarioError:
-        return ScenarioError(
-            f"no lane leads from {self.id} to {reference.id} or back, so they have no distance"
-            " along the road"
-        )

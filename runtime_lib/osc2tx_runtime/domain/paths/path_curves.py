@@ -1,60 +1,33 @@
-"""Paths and trajectories: from the points of a scenario to curves in the world.
-
-Relative points become absolute when an action starts, in one of these frames of the reference:
-
-- `world_relative`: axes of the world, from its reference point; not for points in s and t;
-- `object_relative`: its own axes, from its reference point; s and t
-  along its lane, t from its place in it;
-- `lane_relative`: along its lane, and left of the centre of the lane;
-- `road_relative`: along the reference line of its road, and left of that line.
-
-Points in road coordinates (`odr`) count from the `s` of the reference on its road.
-"""
+"""Curves through the poses of paths and trajectories, and the part of a curve between offsets."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TypeVar
 
-from osc2tx_runtime.domain.paths.path_values import (
-    Path,
-    PathPoint,
-    RelativePath,
-    RelativeTrajectory,
-    Trajectory,
-)
-from osc2tx_runtime.domain.points_and_poses import OdrPoint, Pose, RoutePoint
-from osc2tx_runtime.enums import RelativeTransform
+from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
-from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.curve import Curve, Knot
-from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["PathError", "absolute", "curve_of_path", "curve_of_trajectory", "stretch"]
+__all__ = ["PathError", "path_curve", "stretch", "trajectory_curve"]
 
 _SAME = 1e-6  # m: points so near are one
-
-RelativeT = TypeVar("RelativeT", RelativePath, RelativeTrajectory)
 
 
 class PathError(ScenarioError):
     """A path that cannot be followed: actions on it fail with this reason."""
 
 
-# --- curves -----------------------------------------------------------------------------------
-
-
-def curve_of_path(path: Path) -> Curve:
+def path_curve(points: Sequence[Pose], interpolation: PathInterpolation) -> Curve:
     """The curve of a path; its parameter is the way from point to point (m).
 
     Raises:
         PathError: There are not two different points.
     """
     knots: list[Knot] = []
-    for pose in path.points:
+    for pose in points:
         if not knots:
             knots.append(Knot(0.0, pose.x, pose.y, pose.z, pose.yaw))
             continue
@@ -62,20 +35,21 @@ def curve_of_path(path: Path) -> Curve:
         way = math.hypot(pose.x - last.x, pose.y - last.y)
         if way > _SAME:
             knots.append(Knot(last.at + way, pose.x, pose.y, pose.z, pose.yaw))
-    if not path.points:
+    if not points:
         raise PathError("the path has no points")
     if len(knots) < 2:
         raise PathError("the path has no length: it needs two different points")
-    return Curve(knots, path.interpolation == "smooth")
+    return Curve(knots, interpolation == "smooth")
 
 
-def curve_of_trajectory(trajectory: Trajectory) -> Curve:
+def trajectory_curve(
+    points: Sequence[Pose], times: Sequence[float], interpolation: PathInterpolation
+) -> Curve:
     """The curve of a trajectory; its parameter is the time (s).
 
     Raises:
         PathError: Points and times do not fit each other.
     """
-    points, times = trajectory.points, trajectory.time_stamps
     if len(points) != len(times):
         raise PathError(f"the trajectory has {len(points)} points, but {len(times)} time stamps")
     if len(points) < 2:
@@ -83,7 +57,7 @@ def curve_of_trajectory(trajectory: Trajectory) -> Curve:
     if times[0] < 0.0 or any(b <= a for a, b in pairwise(times)):
         raise PathError("the time stamps of a trajectory start at 0 s or later, and ascend")
     knots = [Knot(t, p.x, p.y, p.z, p.yaw) for t, p in zip(times, points, strict=True)]
-    return Curve(knots, trajectory.interpolation == "smooth")
+    return Curve(knots, interpolation == "smooth")
 
 
 def stretch(curve: Curve, start_offset: float, end_offset: float) -> tuple[float, float]:
@@ -101,101 +75,3 @@ def stretch(curve: Curve, start_offset: float, end_offset: float) -> tuple[float
             f" path of {curve.length:.2f} m"
         )
     return begin, end
-
-
-# --- relative points --------------------------------------------------------------------------
-
-
-def absolute(
-    road_map: RoadMap,
-    points: Sequence[PathPoint],
-    reference: ActorState,
-    transform: RelativeTransform,
-) -> tuple[Pose, ...]:
-    """Poses in the world of points relative to an object.
-
-    Raises:
-        PathError: The reference has no such frame, or a point lies beyond its lane.
-    """
-    try:
-        return tuple(_absolute(road_map, point, reference, transform) for point in points)
-    except MapError as error:
-        raise PathError(error.message) from error
-
-
-def _absolute(
-    road_map: RoadMap, point: PathPoint, reference: ActorState, transform: RelativeTransform
-) -> Pose:
-    if isinstance(point, OdrPoint):
-        return _beside_odr(road_map, point, reference)
-    if isinstance(point, RoutePoint):
-        if transform == "world_relative":
-            raise PathError("points in s and t have no transform world_relative")
-        return _beside_route(road_map, point.s, point.t, None, reference, transform)
-    match transform:
-        case "world_relative":
-            c, s, turn = 1.0, 0.0, 0.0
-        case "object_relative":
-            c, s, turn = math.cos(reference.h), math.sin(reference.h), reference.h
-        case _:
-            return _beside_route(road_map, point.x, point.y, point.yaw, reference, transform)
-    return Pose(
-        reference.x + point.x * c - point.y * s,
-        reference.y + point.x * s + point.y * c,
-        reference.z + point.z,
-        yaw=None if point.yaw is None else point.yaw + turn,
-    )
-
-
-def _beside_route(
-    road_map: RoadMap,
-    s: float,
-    t: float,
-    yaw: float | None,
-    reference: ActorState,
-    transform: RelativeTransform,
-) -> Pose:
-    place = _place(reference)
-    if transform == "road_relative":
-        there = road_map.road_pose(place.road, _on_road(road_map, place.road, place.s + s), t)
-    else:
-        aside = t + (place.offset if transform == "object_relative" else 0.0)
-        ahead = road_map.advance(LanePosition(place.road, place.lane, place.s), s)
-        if abs(ahead.travelled - s) > 1e-6:
-            raise PathError(
-                f"lane {place.lane} of road {place.road} ends {ahead.travelled:.1f} m on, before"
-                f" the point at {s:g} m"
-            )
-        on = ahead.position
-        there = road_map.pose(LanePosition(on.road, on.lane, on.s, aside))
-    return _pose(there, yaw)
-
-
-def _beside_odr(road_map: RoadMap, point: OdrPoint, reference: ActorState) -> Pose:
-    place = _place(reference)
-    if point.road_id not in ("", place.road):
-        raise PathError(f"the reference is on road {place.road}, not on {point.road_id}")
-    s = _on_road(road_map, place.road, place.s + point.s)
-    lane = point.lane
-    if lane is None:
-        return _pose(road_map.road_pose(place.road, s, point.t), None)
-    left = point.t * road_map.travel_direction(place.road, lane)
-    return _pose(road_map.pose(LanePosition(place.road, lane, s, left)), None)
-
-
-def _place(reference: ActorState) -> LanePosition:
-    place = reference.lane_position
-    if place is None:
-        raise PathError("the reference is on no road, so nothing can be relative to its lane")
-    return place
-
-
-def _on_road(road_map: RoadMap, road: str, s: float) -> float:
-    length = road_map.roads[road].length
-    if not 0.0 <= s <= length:
-        raise PathError(f"road {road} is {length:.1f} m long, so there is no s = {s:.1f} m")
-    return s
-
-
-def _pose(there: MapPose, yaw: float | None) -> Pose:
-    return Pose(there.x, there.y, there.z, yaw=None if yaw is None else there.h + yaw)

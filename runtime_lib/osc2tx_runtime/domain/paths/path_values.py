@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, Protocol
 
-from osc2tx_runtime.domain.points_and_poses import NetworkPoint, OdrPoint, Pose, RoutePoint
-from osc2tx_runtime.enums import ConnectRoutePoints, PathInterpolation
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.routes.road_network import RoadNetwork
-    from osc2tx_runtime.domain.routes.roads_and_lanes import Route
-    from osc2tx_runtime.world.curve import Curve
+from osc2tx_runtime.domain.paths.path_curves import path_curve, trajectory_curve
+from osc2tx_runtime.domain.points_and_poses import (
+    NetworkPoint,
+    OdrPoint,
+    Pose,
+    RouteAxis,
+    RoutePoint,
+)
+from osc2tx_runtime.enums import PathInterpolation
+from osc2tx_runtime.world.curve import Curve
 
 __all__ = [
-    "MadeRoute",
     "NetworkPath",
     "NetworkTrajectory",
     "Path",
@@ -35,7 +37,7 @@ PathPoint = Pose | RoutePoint | OdrPoint
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
+class Path(RouteAxis):
     """A way through poses in the world.
 
     Attributes:
@@ -59,11 +61,8 @@ class Path:
             PathError: There are not two different points.
         """
         if not self._curve:
-            from osc2tx_runtime.domain.paths.path_curves import (
-                curve_of_path,  # which knows this class
-            )
-
-            self._curve.append(curve_of_path(self.in_world()))
+            path = self.in_world()
+            self._curve.append(path_curve(path.points, path.interpolation))
         return self._curve[0]
 
     @property
@@ -100,6 +99,14 @@ class Path:
         return RoutePoint(self, self.length, 0.0)
 
 
+class PathResolver(Protocol):
+    """The map, as paths need it."""
+
+    def in_world(self, path: Path) -> Path:
+        """A path through poses of the map."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class NetworkPath(Path):
     """A path through points of the road network; poses come from the map when it is used.
@@ -112,7 +119,7 @@ class NetworkPath(Path):
 
     places: Sequence[NetworkPoint] = ()
     on_road_network: bool = False
-    network: RoadNetwork | None = field(default=None, repr=False, compare=False)
+    network: PathResolver | None = field(default=None, repr=False, compare=False)
 
     def in_world(self) -> Path:
         """The path through poses.
@@ -125,21 +132,8 @@ class NetworkPath(Path):
 
 
 @dataclass(frozen=True, slots=True)
-class MadeRoute(NetworkPath):
-    """A route that a scenario has put together; `places` are left out.
-
-    Attributes:
-        route_elements: What it consists of, in order.
-        connect_points_by: What points of it stand for.
-    """
-
-    route_elements: Sequence[NetworkPoint | Route | Path] = ()
-    connect_points_by: ConnectRoutePoints = "waypoint"
-
-
-@dataclass(frozen=True, slots=True)
 class RelativePath:
-    """A way relative to an object; see `relative_to` in `path_curves` for the frames."""
+    """A way relative to an object; see `relative_paths` for the frames."""
 
     points: Sequence[PathPoint]
     interpolation: PathInterpolation = "straight_line"
@@ -173,6 +167,15 @@ class Trajectory:
     points: Sequence[Pose]
     time_stamps: Sequence[float]
     interpolation: PathInterpolation = "straight_line"
+
+    @property
+    def curve(self) -> Curve:
+        """The curve through its points; its parameter is the time (s).
+
+        Raises:
+            PathError: Points and times do not fit each other.
+        """
+        return trajectory_curve(self.points, self.time_stamps, self.interpolation)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import Lane, Position
-from osc2tx_runtime.domain.placing.pose_resolution import road_entry
+from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.lane_neighbours import lane_with_number, number_of_lane

@@ -22,8 +22,9 @@ from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces
 from osc2tx_runtime.domain.placing.initial_state import Spot, aside_speed_at, speed_at, tilt_at
 from osc2tx_runtime.domain.placing.point_placement import PointPlaces
-from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind, road_entry
+from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
+from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.modifiers import Modifier, Orient, Position, Yaw
-from osc2tx_runtime.domain.points_and_poses import OdrPoint
 from osc2tx_runtime.errors import PlacementError
-from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.world.actor_motion import ANY_LANE
 from osc2tx_runtime.world.attitude import LEVEL, Tilt, tilt_on
 from osc2tx_runtime.world.curve import turn_between
@@ -25,17 +24,13 @@ __all__ = [
     "heading_of",
     "headings_of",
     "one_of_kind",
-    "place_of_odr",
     "pose_of",
-    "road_entry",
     "road_heading",
     "tilt_of",
 ]
 
 # What is added to an angle between axes to have the heading: the width axis points left.
 _AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
-
-_AT_END = 1e-6  # m by which a point may miss its road
 
 ModifierT = TypeVar("ModifierT", bound=Modifier)
 
@@ -129,25 +124,6 @@ def road_heading(road_map: RoadMap, at: opendrive.Pose | ActorState) -> float:
     return 0.0 if on is None else road_map.pose(on).h
 
 
-def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
-    """Where the lane of a place begins on its road, in direction of travel."""
-    key = road_map.lane_key(place)
-    sections = road_map.roads[place.road].sections
-    with_s = road_map.travel_direction(place.road, place.lane) > 0
-    while True:
-        wanted = (key.road, key.section + (-1 if with_s else 1))
-        before = [k for k in road_map.predecessors(key) if (k.road, k.section) == wanted]
-        if not before:
-            break
-        key = before[0]
-    section = sections[key.section]
-    if with_s:
-        return LanePosition(key.road, key.lane, section.begin)
-    last = key.section == len(sections) - 1
-    s = section.end if last else math.nextafter(section.end, section.begin)
-    return LanePosition(key.road, key.lane, s)
-
-
 def pose_of(actor: PhysicalObject, position: Position) -> tuple[opendrive.Pose, float | None]:
     """Pose of the reference point, and the heading if one is given."""
     if position.at_point is not None:
@@ -162,28 +138,3 @@ def pose_of(actor: PhysicalObject, position: Position) -> tuple[opendrive.Pose, 
     h = heading or 0.0
     back = actor.shape.centre  # CARLA places the box centre
     return opendrive.Pose(x - back * math.cos(h), -y - back * math.sin(h), z, h), heading
-
-
-def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:
-    """Place of a point in road coordinates."""
-    try:
-        lane = point.lane
-        if lane is None:
-            pose = road_map.road_pose(point.road_id, point.s, point.t)
-            _check_length(road_map, point)
-            return pose
-        place = LanePosition(point.road_id, lane, point.s)
-        road_map.pose(place)
-        _check_length(road_map, point)
-        left = point.t * road_map.travel_direction(point.road_id, lane)
-        return LanePosition(point.road_id, lane, point.s, left)
-    except MapError as error:
-        raise PlacementError(error.message) from error
-
-
-def _check_length(road_map: RoadMap, point: OdrPoint) -> None:
-    length = road_map.roads[point.road_id].length
-    if not -_AT_END <= point.s <= length + _AT_END:
-        raise PlacementError(
-            f"road {point.road_id} is {length:.1f} m long, so there is no s = {point.s:g} m"
-        )

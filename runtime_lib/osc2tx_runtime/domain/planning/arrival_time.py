@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.world.actor_dimensions import COMFORT
 from osc2tx_runtime.world.commands import Arrive, FollowSpeed
 from osc2tx_runtime.world.distances import along_lanes, gap_between, headway_between
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.motion_action import MotionAction
+    from osc2tx_runtime.domain.planning.motion_action import MotionAction
     from osc2tx_runtime.world.commands import KeepGap
 
 __all__ = ["arrival"]

@@ -6,12 +6,12 @@ import math
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.world.function_profiles import turns_back
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
     from osc2tx_runtime.domain.modifiers.base import MovementModifier
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["check_course", "check_one_way", "check_peak", "check_rates"]
@@ -34,7 +34,7 @@ def check_one_way(modifier: MovementModifier, course: Profile) -> None:
 
 
 def check_course(
-    action: ShapedAction, modifier: MovementModifier, way: Profile, offset: float, *, ends: bool
+    action: ModifiedMotion, modifier: MovementModifier, way: Profile, offset: float, *, ends: bool
 ) -> None:
     """Refuses a way over time that is beyond the limits of the actor.
 
@@ -60,7 +60,7 @@ def check_course(
     _check_speeds(action, speeds, step)
 
 
-def check_rates(action: ShapedAction, course: Profile) -> None:
+def check_rates(action: ModifiedMotion, course: Profile) -> None:
     """Refuses a speed (m/s) over time that is beyond the limits."""
     if math.isinf(course.duration):
         return
@@ -69,7 +69,7 @@ def check_rates(action: ShapedAction, course: Profile) -> None:
     _check_speeds(action, [course.value(i * step) for i in range(_SAMPLES + 1)], step)
 
 
-def _check_speeds(action: ShapedAction, speeds: list[float], step: float) -> None:
+def _check_speeds(action: ModifiedMotion, speeds: list[float], step: float) -> None:
     """Refuses speeds (m/s), one after the other, that are beyond the limits."""
     limits = action.limits if action.strict else action.tyres
     for gaining, cap in ((True, limits.acceleration), (False, limits.deceleration)):

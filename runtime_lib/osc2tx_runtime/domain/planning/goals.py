@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import Acceleration, Along, Distance, Position, Speed
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind, pose_of
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import FollowSpeed
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.domain.points_and_poses import Point
 
 __all__ = [
@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 
-def distance_to_cover(action: ShapedAction) -> float | None:
+def distance_to_cover(action: ModifiedMotion) -> float | None:
     """Metres after which the movement has reached its goal; None if it has no such goal.
 
     Raises:
@@ -43,7 +43,7 @@ def distance_to_cover(action: ShapedAction) -> float | None:
     return None if speed_at_end(action) is not None else max(way[0], 0.0)
 
 
-def watched_place(action: ShapedAction) -> Position | None:
+def watched_place(action: ModifiedMotion) -> Position | None:
     """The place at the end, if another modifier decides the speed all the time."""
     position = lasting_position(action)
     if position is None or position.shape is not None:
@@ -53,7 +53,7 @@ def watched_place(action: ShapedAction) -> Position | None:
     return position if rules else None
 
 
-def position_shape(action: ShapedAction) -> Along | Distance | Position | None:
+def position_shape(action: ModifiedMotion) -> Along | Distance | Position | None:
     """The modifier that has a shape of a position; None if there is none."""
     for modifier in action.lasting:
         if isinstance(modifier, Along | Distance | Position) and modifier.shape is not None:
@@ -61,12 +61,12 @@ def position_shape(action: ShapedAction) -> Along | Distance | Position | None:
     return None
 
 
-def lasting_position(action: ShapedAction) -> Position | None:
+def lasting_position(action: ModifiedMotion) -> Position | None:
     """The place that is not only for the start."""
     return one_of_kind(action.lasting, Position)
 
 
-def way_to_goal(action: ShapedAction) -> tuple[float, float] | None:
+def way_to_goal(action: ModifiedMotion) -> tuple[float, float] | None:
     """Least and greatest way (m) to its goal; None if it has no such goal."""
     distance = one_of_kind(action.modifiers, Distance)
     if distance is not None:
@@ -78,7 +78,7 @@ def way_to_goal(action: ShapedAction) -> tuple[float, float] | None:
     return way_to(action, position)
 
 
-def way_to(action: ShapedAction, position: Position) -> tuple[float, float]:
+def way_to(action: ModifiedMotion, position: Position) -> tuple[float, float]:
     """Least and greatest way (m) along the lane to a place on the road."""
     here = action.place_of(action.actor.id)
     low, high = position.size()
@@ -94,7 +94,9 @@ def way_to(action: ShapedAction, position: Position) -> tuple[float, float]:
     return (way + low, way + high) if position.ahead else (way - high, way - low)
 
 
-def _way_to_point(action: ShapedAction, here: LanePosition, x: float, y: float, z: float) -> float:
+def _way_to_point(
+    action: ModifiedMotion, here: LanePosition, x: float, y: float, z: float
+) -> float:
     on = action.world.map.locate(x, y, z)
     if on is None:
         raise Refused(f"no lane is near ({x:g}, {y:g})")
@@ -104,7 +106,7 @@ def _way_to_point(action: ShapedAction, here: LanePosition, x: float, y: float, 
     return way
 
 
-def speed_at_end(action: ShapedAction) -> float | FollowSpeed | None:
+def speed_at_end(action: ModifiedMotion) -> float | FollowSpeed | None:
     """The speed (m/s, or that of an actor) to have at the end; None if any will do."""
     lasting = [m for m in speeds_of(action) if m.at == "end"]
     if not lasting:
@@ -116,6 +118,6 @@ def speed_at_end(action: ShapedAction) -> float | FollowSpeed | None:
     return FollowSpeed(speed.reference.id, speed.times, low, high - low)
 
 
-def speeds_of(action: ShapedAction) -> list[Speed]:
+def speeds_of(action: ModifiedMotion) -> list[Speed]:
     """The modifiers of the speed along the road."""
     return [m for m in action.modifiers if isinstance(m, Speed) and m.direction == "longitudinal"]

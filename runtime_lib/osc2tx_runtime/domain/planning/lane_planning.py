@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import ChangeLane, Lane, Lateral, MovementModifier
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.shapes import OwnShape
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.opendrive import LanePosition
@@ -22,7 +22,7 @@ from .feasibility import check_one_way, check_peak
 from .lateral_targets import check_shift, jump_aside, lanes_wanted, target_of_shift
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["beside_command", "lane_command"]
@@ -30,7 +30,7 @@ __all__ = ["beside_command", "lane_command"]
 _OFF = 0.1  # m between where a shape starts and where the actor is
 
 
-def beside_command(action: ShapedAction, lateral: Lateral) -> Command:
+def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
     """How to get to a place beside another actor.
 
     Raises:
@@ -65,7 +65,7 @@ def beside_command(action: ShapedAction, lateral: Lateral) -> Command:
     return replace(beside, course=course)
 
 
-def lane_command(action: ShapedAction, lateral: Lateral | None) -> Command | None:
+def lane_command(action: ModifiedMotion, lateral: Lateral | None) -> Command | None:
     """How to get to a lane and a place in it; None if nothing speaks of them, or it is there.
 
     Raises:
@@ -102,7 +102,7 @@ def lane_command(action: ShapedAction, lateral: Lateral | None) -> Command | Non
 
 
 def _check_one_way(
-    action: ShapedAction,
+    action: ModifiedMotion,
     modifier: MovementModifier,
     lanes: int,
     offset: float,
@@ -118,7 +118,7 @@ def _check_one_way(
 
 
 def _own_across(
-    action: ShapedAction, shaped: Lane | ChangeLane | Lateral, lanes: int
+    action: ModifiedMotion, shaped: Lane | ChangeLane | Lateral, lanes: int
 ) -> Profile | None:
     """The place left of the centre of the lane to be in, over time, as an own shape has it."""
     there = target_of_shift(action, lanes)
@@ -136,7 +136,7 @@ def _own_across(
 
 
 def _own(
-    action: ShapedAction, shaped: Lane | ChangeLane | Lateral, width: float
+    action: ModifiedMotion, shaped: Lane | ChangeLane | Lateral, width: float
 ) -> Computed | None:
     """The place (m to the left) over time that an own shape gives, by the width beside it."""
     own = own_course(shaped.shape)
@@ -145,14 +145,14 @@ def _own(
     return Computed(lambda t: shaped.place(own.value(t), action.here.width, width), own.duration)
 
 
-def _start(action: ShapedAction, lanes: int) -> float:
+def _start(action: ModifiedMotion, lanes: int) -> float:
     """How far (m) left it is of the centre of the lane to be in."""
     there, here = target_of_shift(action, lanes), action.here
     lane = LanePosition(there.road, there.lane, there.s)
     return offset_from(action.world.map, lane, here.x, here.y)
 
 
-def _offset(action: ShapedAction, lateral: Lateral, lanes: int) -> float:
+def _offset(action: ModifiedMotion, lateral: Lateral, lanes: int) -> float:
     """Metres left of the centre of the lane to be in."""
     there = target_of_shift(action, lanes)
     width = action.world.map.lane_width(there.road, there.lane, there.s)
@@ -160,7 +160,7 @@ def _offset(action: ShapedAction, lateral: Lateral, lanes: int) -> float:
     return lateral.offset(action.here.width, width, here)
 
 
-def _lanes(action: ShapedAction) -> int | None:
+def _lanes(action: ModifiedMotion) -> int | None:
     """Lanes to the left of the present one; None if no modifier names a lane."""
     change = one_of_kind(action.lasting, ChangeLane)
     if change is not None:

@@ -15,8 +15,8 @@ from osc2tx_runtime.domain.modifiers import (
     value_of,
 )
 from osc2tx_runtime.domain.modifiers.base import now
-from osc2tx_runtime.domain.paths.path_values import MadeRoute
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.routes.composed_routes import MadeRoute
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Route
 from osc2tx_runtime.language.registry import LATERAL
@@ -29,12 +29,12 @@ from .orientation_planning import turn_command
 from .path_commands import path_command, trajectory_commands
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 
 __all__ = ["follow_reference", "side_command"]
 
 
-def side_command(action: ShapedAction) -> Command | None:
+def side_command(action: ModifiedMotion) -> Command | None:
     """Where to go sideways; None if no modifier speaks of it.
 
     Raises:
@@ -67,7 +67,7 @@ def side_command(action: ShapedAction) -> Command | None:
     return lane_command(action, lateral)
 
 
-def follow_reference(action: ShapedAction) -> object:
+def follow_reference(action: ModifiedMotion) -> object:
     """What of a reference decides where to go sideways and may change; None if nothing does.
 
     A lane beside another actor is another one when that actor changes lanes, and a heading
@@ -85,7 +85,7 @@ def follow_reference(action: ShapedAction) -> object:
     return None
 
 
-def _along_route(action: ShapedAction, along: Along, route: Route) -> FollowRoute:
+def _along_route(action: ModifiedMotion, along: Along, route: Route) -> FollowRoute:
     """In the lanes to the end of a route of the map."""
     graph = graph_of(action.world.map)
     end = graph.end(graph.seen_from(route.found, action.here.lane_position))

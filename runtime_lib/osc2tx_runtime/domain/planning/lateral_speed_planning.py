@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers.base import own_course
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.world.actor_dimensions import COMFORT
 from osc2tx_runtime.world.commands import Command, RunOut, Sideways
 from osc2tx_runtime.world.function_profiles import Mapped, change_profile
@@ -15,8 +15,8 @@ from .feasibility import check_one_way, check_peak
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
     from osc2tx_runtime.domain.modifiers import Speed
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["lateral_speed_bounds", "lateral_speed_command"]
@@ -24,14 +24,14 @@ __all__ = ["lateral_speed_bounds", "lateral_speed_command"]
 _MOST = 12.0  # m/s^2 across: what tyres can transmit
 
 
-def lateral_speed_bounds(action: ShapedAction, speed: Speed) -> tuple[float, float]:
+def lateral_speed_bounds(action: ModifiedMotion, speed: Speed) -> tuple[float, float]:
     """Least and greatest lateral speed (m/s) that a modifier allows now."""
     low, high = speed.difference()
     other = _other(action, speed)
     return low + other, high + other
 
 
-def lateral_speed_command(action: ShapedAction, speeds: Sequence[Speed]) -> Command | None:
+def lateral_speed_command(action: ModifiedMotion, speeds: Sequence[Speed]) -> Command | None:
     """What to do with the lateral speed; None if modifiers only look at the start.
 
     Raises:
@@ -47,7 +47,7 @@ def lateral_speed_command(action: ShapedAction, speeds: Sequence[Speed]) -> Comm
     return RunOut(here) if action.may_jump else None
 
 
-def _sideways(action: ShapedAction, speed: Speed, here: float, target: float) -> Sideways:
+def _sideways(action: ModifiedMotion, speed: Speed, here: float, target: float) -> Sideways:
     """Reaches a lateral speed from another one."""
     moving = speed.reference is not None and not speed.projected
     base = _other(action, speed)
@@ -58,13 +58,13 @@ def _sideways(action: ShapedAction, speed: Speed, here: float, target: float) ->
     return Sideways(target - base, speed.reference.id, speed.times, course)
 
 
-def _other(action: ShapedAction, speed: Speed) -> float:
+def _other(action: ModifiedMotion, speed: Speed) -> float:
     if speed.reference is None:
         return 0.0
     return speed.times * action.world.state(speed.reference.id).lateral_speed
 
 
-def _course(action: ShapedAction, speed: Speed, start: float, end: float) -> Profile | None:
+def _course(action: ModifiedMotion, speed: Speed, start: float, end: float) -> Profile | None:
     """How the speed is reached; None: at once."""
     own = own_course(speed.shape)
     if own is not None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import Lane
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
@@ -13,8 +13,8 @@ from osc2tx_runtime.world.lane_neighbours import lane_with_number, lanes_to_left
 from osc2tx_runtime.world.lateral import excessive_shift
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
-    from osc2tx_runtime.domain.actions.motion_action import MotionAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
+    from osc2tx_runtime.domain.planning.motion_action import MotionAction
     from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
 __all__ = ["check_shift", "jump_aside", "lanes_to", "lanes_wanted", "target_of_shift"]
@@ -24,7 +24,7 @@ def _side(lanes: int) -> SideLeftRight:
     return "left" if lanes > 0 else "right"
 
 
-def target_of_shift(action: ShapedAction, lanes: int) -> LanePosition:
+def target_of_shift(action: ModifiedMotion, lanes: int) -> LanePosition:
     """A place in the lane so many to the left of the present one.
 
     Raises:
@@ -42,7 +42,7 @@ def target_of_shift(action: ShapedAction, lanes: int) -> LanePosition:
     return there
 
 
-def jump_aside(action: ShapedAction, lanes: int, offset: float) -> None:
+def jump_aside(action: ModifiedMotion, lanes: int, offset: float) -> None:
     """Puts the actor so many lanes to the left and so far (m) left of the centre, at once.
 
     Raises:
@@ -54,7 +54,7 @@ def jump_aside(action: ShapedAction, lanes: int, offset: float) -> None:
     action.effect("lane", (lanes, offset), lambda: world.assign(actor_id, at=at))
 
 
-def check_shift(action: ShapedAction, lanes: int, offset: float, duration: float) -> None:
+def check_shift(action: ModifiedMotion, lanes: int, offset: float, duration: float) -> None:
     """Refuses a change of the place across the road that is beyond the limits of the actor.
 
     Raises:

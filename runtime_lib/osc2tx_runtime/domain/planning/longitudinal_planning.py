@@ -6,7 +6,6 @@ import dataclasses
 import math
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import (
     Acceleration,
     AlongTrajectory,
@@ -17,6 +16,7 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.modifiers.base import course_of, now, own_course, value_of
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.language.registry import LONGITUDINAL
 from osc2tx_runtime.world.commands import (
     Accelerate,
@@ -48,13 +48,13 @@ from .path_commands import trajectory_commands
 from .position_planning import check_way_to_gap, position_command
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["speed_at_start", "speed_command"]
 
 
-def speed_command(action: ShapedAction) -> Command | None:
+def speed_command(action: ModifiedMotion) -> Command | None:
     """What to do with the speed; None if no modifier speaks of it.
 
     Raises:
@@ -93,7 +93,7 @@ def speed_command(action: ShapedAction) -> Command | None:
     return _checked(action, _to_speed(action, target, change))
 
 
-def _in_time(action: ShapedAction, low: float, high: float) -> Command:
+def _in_time(action: ModifiedMotion, low: float, high: float) -> Command:
     """What covers a way in the duration, or stops after it."""
     time, speed = action.time_left(), action.here.v
     if time is None or time <= 0.0:
@@ -109,7 +109,7 @@ def _in_time(action: ShapedAction, low: float, high: float) -> Command:
     return Accelerate(rate)
 
 
-def _speed(action: ShapedAction) -> Command | None:
+def _speed(action: ModifiedMotion) -> Command | None:
     rate = one_of_kind(action.modifiers, Acceleration)
     lasting = [m for m in speeds_of(action) if m.at != "start"]
     start = _start_speed(action)
@@ -137,7 +137,7 @@ def _speed(action: ShapedAction) -> Command | None:
     return _checked(action, command)
 
 
-def _following(action: ShapedAction, speed: Speed, reference: str, other: float) -> FollowSpeed:
+def _following(action: ModifiedMotion, speed: Speed, reference: str, other: float) -> FollowSpeed:
     """The speed of an actor and so much more, which may have a course of its own."""
     low, high = speed.difference()
     if not speed.shaped:
@@ -161,7 +161,7 @@ def _following(action: ShapedAction, speed: Speed, reference: str, other: float)
     return FollowSpeed(reference, speed.times, course=course)
 
 
-def _computed(action: ShapedAction, modifier: Speed | ChangeSpeed, course: Mapped) -> SpeedChange:
+def _computed(action: ModifiedMotion, modifier: Speed | ChangeSpeed, course: Mapped) -> SpeedChange:
     """The command for a speed that a shape of the scenario gives."""
     check_one_way(modifier, course)
     if not action.may_jump:
@@ -170,7 +170,7 @@ def _computed(action: ShapedAction, modifier: Speed | ChangeSpeed, course: Mappe
     return SpeedChange(end, course=course, exact=action.may_jump)
 
 
-def _start_speed(action: ShapedAction) -> float | None:
+def _start_speed(action: ModifiedMotion) -> float | None:
     """The speed to jump to at the start; None if there is none."""
     found = [m for m in speeds_of(action) if m.at == "start"]
     if not found or not action.may_jump:
@@ -179,7 +179,7 @@ def _start_speed(action: ShapedAction) -> float | None:
     return min(max(action.here.v, low), high)
 
 
-def speed_at_start(action: ShapedAction, speed: Speed) -> tuple[float, float]:
+def speed_at_start(action: ModifiedMotion, speed: Speed) -> tuple[float, float]:
     """Least and greatest speed (m/s) that a modifier allows now."""
     low, high = speed.difference()
     if speed.reference is None:
@@ -188,13 +188,13 @@ def speed_at_start(action: ShapedAction, speed: Speed) -> tuple[float, float]:
     return low + other, high + other
 
 
-def _assign(action: ShapedAction, value: float) -> None:
+def _assign(action: ModifiedMotion, value: float) -> None:
     actor_id, world = action.actor.id, action.world
     action.effect("speed", value, lambda: world.assign(actor_id, speed=value))
 
 
 def _to_speed(
-    action: ShapedAction,
+    action: ModifiedMotion,
     target: float,
     speed: Speed | ChangeSpeed,
     rate: Acceleration | None = None,
@@ -209,7 +209,7 @@ def _to_speed(
     return SpeedChange(target, profile, peak, action.time_left() if in_time else None, start)
 
 
-def _checked(action: ShapedAction, command: SpeedChange) -> SpeedChange:
+def _checked(action: ModifiedMotion, command: SpeedChange) -> SpeedChange:
     if command.duration == 0.0:
         return command  # it may jump
     start = action.here.v if command.start is None else command.start
@@ -219,7 +219,7 @@ def _checked(action: ShapedAction, command: SpeedChange) -> SpeedChange:
     return command
 
 
-def _acceleration(action: ShapedAction, rate: Acceleration, start: float | None) -> Command:
+def _acceleration(action: ModifiedMotion, rate: Acceleration, start: float | None) -> Command:
     value = rate.value(action.here.a)
     if not action.may_jump:
         _check_acceleration(action, value)
@@ -242,14 +242,14 @@ def _acceleration(action: ShapedAction, rate: Acceleration, start: float | None)
     return AccelerationChange(value, duration=action.time_left())
 
 
-def _check_acceleration(action: ShapedAction, value: float) -> None:
+def _check_acceleration(action: ModifiedMotion, value: float) -> None:
     limits = action.limits if action.strict else action.tyres
     reason = excessive_acceleration(value, action.here.v, limits)
     if reason is not None:
         raise Refused(reason)
 
 
-def _gap(action: ShapedAction, position: Position) -> Command:
+def _gap(action: ModifiedMotion, position: Position) -> Command:
     """The command for a place ahead of or behind another actor."""
     reference = position.reference
     assert reference is not None

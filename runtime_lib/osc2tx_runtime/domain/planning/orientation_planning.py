@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import Orient, Yaw
 from osc2tx_runtime.domain.modifiers.base import own_course
 from osc2tx_runtime.domain.placing.pose_resolution import (
@@ -14,6 +13,7 @@ from osc2tx_runtime.domain.placing.pose_resolution import (
     one_of_kind,
     tilt_of,
 )
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.world.attitude import LEVEL, Tilt
 from osc2tx_runtime.world.commands import Command, Slant, Turn
 from osc2tx_runtime.world.curve import turn_between
@@ -23,7 +23,7 @@ from osc2tx_runtime.world.lateral import HEADING_LIMIT
 from .feasibility import check_one_way
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.world.profiles import Profile
 
 __all__ = ["check_tilt", "lies_so", "tilt_again", "turn_command"]
@@ -31,7 +31,7 @@ __all__ = ["check_tilt", "lies_so", "tilt_again", "turn_command"]
 _TILTED = 0.01  # rad
 
 
-def turn_command(action: ShapedAction, turned: Yaw | Orient) -> Command | None:
+def turn_command(action: ModifiedMotion, turned: Yaw | Orient) -> Command | None:
     """How to turn; None if it is tilted only, and lies on the road anyway.
 
     Raises:
@@ -59,7 +59,7 @@ def turn_command(action: ShapedAction, turned: Yaw | Orient) -> Command | None:
     return Slant(angle, None if course is None else Mapped(course, 1.0, -lane.h))
 
 
-def check_tilt(action: ShapedAction, turned: Yaw | Orient) -> None:
+def check_tilt(action: ModifiedMotion, turned: Yaw | Orient) -> None:
     """Refuses a pitch and roll that an actor does not have.
 
     Raises:
@@ -77,7 +77,7 @@ def check_tilt(action: ShapedAction, turned: Yaw | Orient) -> None:
             )
 
 
-def tilt_again(action: ShapedAction) -> None:
+def tilt_again(action: ModifiedMotion) -> None:
     """Keeps what wheels would bring back to the road, or sees that the road still has it.
 
     Raises:
@@ -92,7 +92,7 @@ def tilt_again(action: ShapedAction) -> None:
         check_tilt(action, turned)
 
 
-def lies_so(action: ShapedAction) -> bool:
+def lies_so(action: ModifiedMotion) -> bool:
     """Whether a vehicle is tilted as it is to be at the end; always for those that turn."""
     turned = one_of_kind(action.lasting, Orient)
     if turned is None or not action.movable.lane_bound:
@@ -104,7 +104,7 @@ def lies_so(action: ShapedAction) -> bool:
     return True
 
 
-def _course(action: ShapedAction, turned: Yaw | Orient) -> Profile | None:
+def _course(action: ModifiedMotion, turned: Yaw | Orient) -> Profile | None:
     """The heading (rad) over time, if a shape gives it."""
     own = own_course(turned.shape)
     if own is None:
@@ -121,7 +121,7 @@ def _samples(course: Profile | None, lane: float) -> list[float]:
     return [turn_between(lane, course.value(end * i / 20.0)) for i in range(21)]
 
 
-def _jump(action: ShapedAction, heading: float | None, tilt: Tilt) -> None:
+def _jump(action: ModifiedMotion, heading: float | None, tilt: Tilt) -> None:
     """Turns the actor at once; one on a lane keeps to its heading."""
     actor_id, world = action.actor.id, action.world
     if action.movable.lane_bound and action.here.lane_position is not None:

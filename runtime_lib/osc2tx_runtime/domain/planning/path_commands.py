@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import math
 
-from osc2tx_runtime.domain.paths.network_paths import path_in_world, trajectory_in_world
-from osc2tx_runtime.domain.paths.path_curves import (
-    PathError,
-    curve_of_path,
-    curve_of_trajectory,
-    stretch,
-)
+from osc2tx_runtime.domain.paths.path_curves import PathError, stretch
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.world.commands import (
@@ -39,7 +34,7 @@ def path_command(
     Raises:
         PathError: The path is empty, too far away, or cannot be driven as it says.
     """
-    curve = curve_of_path(path_in_world(road_map, path))
+    curve = path_in_world(road_map, path).curve
     begin, end = stretch(curve, *offsets)
     if exact:
         return ReplayCourse(curve, begin, end)
@@ -62,7 +57,7 @@ def trajectory_commands(
         PathError: The trajectory is empty, too far away, or cannot be driven as it says.
     """
     trajectory = trajectory_in_world(road_map, trajectory)
-    curve_of_trajectory(trajectory)  # checks it as it is written
+    _ = trajectory.curve  # checks it as it is written
     lead = 0.0
     if trajectory.time_stamps[0] > 1e-9:
         first = trajectory.points[0]
@@ -71,7 +66,7 @@ def trajectory_commands(
         points = (Pose(here.x, here.y, here.z, yaw=yaw), *trajectory.points)
         times = (0.0, *trajectory.time_stamps)
         trajectory = Trajectory(points, times, trajectory.interpolation)
-    curve = curve_of_trajectory(trajectory)
+    curve = trajectory.curve
     low, high = 0.0, curve.length
     begin, end = curve.begin, curve.end
     if any(offsets):

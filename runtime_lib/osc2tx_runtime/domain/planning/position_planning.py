@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import Along, Distance, Position, value_of
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course, target_of
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.errors import ScenarioError
@@ -19,8 +19,8 @@ from .feasibility import check_course, check_peak
 from .goals import way_to
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
     from osc2tx_runtime.domain.modifiers.base import Shape
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.world.profiles import Profile
 
     Placing = Along | Distance | Position
@@ -47,7 +47,7 @@ class _Way(NamedTuple):
     speed: float
 
 
-def position_command(action: ShapedAction, modifier: Placing) -> Command:
+def position_command(action: ModifiedMotion, modifier: Placing) -> Command:
     """What makes an actor go as a shape says.
 
     Raises:
@@ -69,7 +69,7 @@ def position_command(action: ShapedAction, modifier: Placing) -> Command:
     return Cover(moved, action.may_jump)
 
 
-def check_way_to_gap(action: ShapedAction, position: Position, time: float | None) -> None:
+def check_way_to_gap(action: ModifiedMotion, position: Position, time: float | None) -> None:
     """Refuses a way to a distance on which it would grow before it shrinks, or overshoot.
 
     Args:
@@ -90,7 +90,7 @@ def check_way_to_gap(action: ShapedAction, position: Position, time: float | Non
         )
 
 
-def _way(action: ShapedAction, modifier: Placing) -> _Way:
+def _way(action: ModifiedMotion, modifier: Placing) -> _Way:
     v = action.here.v
     match modifier:
         case Distance():
@@ -109,7 +109,7 @@ def _way(action: ShapedAction, modifier: Placing) -> _Way:
     return _Way(here, min(max(here, here + low), here + high), 1.0, v)
 
 
-def _along(action: ShapedAction, along: Along) -> _Way:
+def _along(action: ModifiedMotion, along: Along) -> _Way:
     try:
         here, length = place_on_route(action.world.map, along.way, action.here)
     except ScenarioError as error:
@@ -123,7 +123,7 @@ def _along(action: ShapedAction, along: Along) -> _Way:
     return _Way(here, end, 1.0, action.here.v)
 
 
-def _gap(action: ShapedAction, modifier: Placing) -> _Way:
+def _gap(action: ModifiedMotion, modifier: Placing) -> _Way:
     assert isinstance(modifier, Position) and modifier.reference is not None
     other = action.world.state(modifier.reference.id)
     ahead = along_lanes(action.world.map, other, action.here)
@@ -135,7 +135,7 @@ def _gap(action: ShapedAction, modifier: Placing) -> _Way:
     return _Way(here, min(max(here, least), most), sign, sign * (action.here.v - other.v))
 
 
-def _course(action: ShapedAction, modifier: Placing, shape: Shape, way: _Way) -> Profile:
+def _course(action: ModifiedMotion, modifier: Placing, shape: Shape, way: _Way) -> Profile:
     """The quantity over the time."""
     own = own_course(shape)
     if own is not None:

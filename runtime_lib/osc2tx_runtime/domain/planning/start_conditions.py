@@ -10,10 +10,10 @@ import math
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.actions.modifier_groups import PLACES
-from osc2tx_runtime.domain.actions.motion_action import Refused
 from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, headings_of, tilt_of
+from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
 from osc2tx_runtime.world.curve import turn_between
 from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
@@ -27,7 +27,7 @@ from .orientation_planning import check_tilt
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 
 __all__ = ["PlaceWatch", "hold_or_jump"]
 
@@ -36,7 +36,7 @@ _SPEED_NEAR = 0.05  # m/s
 _TURNED = 0.01  # rad
 
 
-def hold_or_jump(action: ShapedAction) -> bool:
+def hold_or_jump(action: ModifiedMotion) -> bool:
     """Sees to what has to hold at the start.
 
     Returns:
@@ -58,7 +58,7 @@ def hold_or_jump(action: ShapedAction) -> bool:
     return bool(places)
 
 
-def _jump(action: ShapedAction, modifiers: Sequence[Modifier]) -> None:
+def _jump(action: ModifiedMotion, modifiers: Sequence[Modifier]) -> None:
     actor_id, world = action.actor.id, action.world
     if not any(isinstance(modifier, Position | Lane | Lateral) for modifier in modifiers):
         heading = heading_of(world, action.movable, modifiers, action.here)
@@ -80,7 +80,7 @@ def _jump(action: ShapedAction, modifiers: Sequence[Modifier]) -> None:
     )
 
 
-def _check(action: ShapedAction, modifier: Modifier) -> None:
+def _check(action: ModifiedMotion, modifier: Modifier) -> None:
     match modifier:
         case Speed(direction="longitudinal"):
             low, high = speed_at_start(action, modifier)
@@ -116,12 +116,12 @@ def _check(action: ShapedAction, modifier: Modifier) -> None:
                 )
 
 
-def _check_place(action: ShapedAction, position: Position) -> None:
+def _check_place(action: ModifiedMotion, position: Position) -> None:
     here, low, high, what = measured(action, position)
     _within(here, low, high, _NEAR, what, "m")
 
 
-def measured(action: ShapedAction, position: Position) -> tuple[float, float, float, str]:
+def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, float, str]:
     """Where an actor is (m), between what it is to be, and what was measured.
 
     Raises:
@@ -156,7 +156,7 @@ class PlaceWatch:
         self._before: float | None = None
         self.missed: str | None = None
 
-    def reached(self, action: ShapedAction) -> bool:
+    def reached(self, action: ModifiedMotion) -> bool:
         """Whether the actor is there, or has passed the place where nobody knows the end."""
         here, low, high, what = measured(action, self._position)
         off = here - min(max(here, low), high)
@@ -170,7 +170,7 @@ class PlaceWatch:
         return False
 
 
-def _check_lateral(action: ShapedAction, lateral: Lateral) -> None:
+def _check_lateral(action: ModifiedMotion, lateral: Lateral) -> None:
     here = action.here
     place = action.place_of(action.actor.id)
     if lateral.side_of is None:

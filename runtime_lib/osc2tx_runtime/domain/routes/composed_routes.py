@@ -14,17 +14,19 @@ from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
 from osc2tx_runtime.domain.paths.path_curves import PathError
-from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.paths.road_paths import way_between
-from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.domain.paths.path_values import NetworkPath, Path
+from osc2tx_runtime.domain.points_and_poses import NetworkPoint, Pose
 from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
+from osc2tx_runtime.domain.routes.road_paths import way_between
+from osc2tx_runtime.domain.routes.route_elements import Route
 from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 
-__all__ = ["Element", "poses_of_route"]
+__all__ = ["Element", "MadeRoute", "poses_of_route"]
+
 
 Place = LanePosition | MapPose
 Element = Place | Stretch | Path
@@ -32,6 +34,19 @@ Element = Place | Stretch | Path
 
 _STEP = 2.0  # m between points of a way
 _NEAR = 0.05  # m: places so near are one
+
+
+@dataclass(frozen=True, slots=True)
+class MadeRoute(NetworkPath):
+    """A route that a scenario has put together; `places` are left out.
+
+    Attributes:
+        route_elements: What it consists of, in order.
+        connect_points_by: What points of it stand for.
+    """
+
+    route_elements: Sequence[NetworkPoint | Route | Path] = ()
+    connect_points_by: ConnectRoutePoints = "waypoint"
 
 
 @dataclass(frozen=True)

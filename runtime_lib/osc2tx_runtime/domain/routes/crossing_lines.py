@@ -13,7 +13,7 @@ from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
 from osc2tx_runtime.opendrive import Crosswalk, LanePosition, Pose
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.routes.road_graph import RoadGraph
+    from osc2tx_runtime.domain.routes.lane_graph import LaneGraph
 
 __all__ = ["laid", "on_crosswalk"]
 
@@ -38,7 +38,7 @@ class _Meeting(NamedTuple):
     s: float
 
 
-def on_crosswalk(graph: RoadGraph, crosswalk: Crosswalk) -> Iterator[Stretch]:
+def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[Stretch]:
     """Crossings on a crosswalk, those from one end to the other first, in either direction.
 
     The lanes that they join are any two of those that the crosswalk leads over or up to.
@@ -68,7 +68,7 @@ def on_crosswalk(graph: RoadGraph, crosswalk: Crosswalk) -> Iterator[Stretch]:
 
 
 def laid(
-    graph: RoadGraph, start: Stretch, end: Stretch, start_s: float, angle: float
+    graph: LaneGraph, start: Stretch, end: Stretch, start_s: float, angle: float
 ) -> Stretch | None:
     """A crossing that begins on a lane; None if it does not get to the other one.
 
@@ -98,7 +98,7 @@ def laid(
     return _as_crosswalk(graph, stretch)
 
 
-def _as_crosswalk(graph: RoadGraph, stretch: Stretch) -> Stretch:
+def _as_crosswalk(graph: LaneGraph, stretch: Stretch) -> Stretch:
     """Notes the crosswalk of the map on which a crossing lies, if there is one."""
     line = stretch.line
     assert line is not None
@@ -111,7 +111,7 @@ def _as_crosswalk(graph: RoadGraph, stretch: Stretch) -> Stretch:
     return stretch
 
 
-def _lanes_under(graph: RoadGraph, crosswalk: Crosswalk, reach: float) -> list[Stretch]:
+def _lanes_under(graph: LaneGraph, crosswalk: Crosswalk, reach: float) -> list[Stretch]:
     """Lanes of all kinds on which a crosswalk lies, or up to which it leads."""
     c, n = math.cos(crosswalk.heading), math.sin(crosswalk.heading)
     steps = math.ceil(2.0 * reach / _SAMPLE)
@@ -125,7 +125,7 @@ def _lanes_under(graph: RoadGraph, crosswalk: Crosswalk, reach: float) -> list[S
     return list(found)
 
 
-def _meetings(graph: RoadGraph, lane: Stretch, line: Pose) -> list[_Meeting]:
+def _meetings(graph: LaneGraph, lane: Stretch, line: Pose) -> list[_Meeting]:
     """Where a straight line meets the centre line of a lane, in order of s."""
     section = graph.lane(lane).section
     steps = max(1, math.ceil((section.end - section.begin) / _COARSE))
@@ -141,7 +141,7 @@ def _meetings(graph: RoadGraph, lane: Stretch, line: Pose) -> list[_Meeting]:
     return found
 
 
-def _bisect(graph: RoadGraph, lane: Stretch, line: Pose, low: float, high: float) -> float:
+def _bisect(graph: LaneGraph, lane: Stretch, line: Pose, low: float, high: float) -> float:
     """Road coordinate between two at which the centre of a lane is on a straight line."""
     left = _aside(_centre(graph, lane, low), line) > 0.0
     while high - low > _EXACT:
@@ -158,7 +158,7 @@ def _aside(at: Pose, line: Pose) -> float:
     return (at.y - line.y) * math.cos(line.h) - (at.x - line.x) * math.sin(line.h)
 
 
-def _centre(graph: RoadGraph, lane: Stretch, s: float) -> Pose:
+def _centre(graph: LaneGraph, lane: Stretch, s: float) -> Pose:
     """Centre of a lane of one section; its end still belongs to it."""
     section = graph.lane(lane).section
     assert lane.lane is not None
@@ -166,7 +166,7 @@ def _centre(graph: RoadGraph, lane: Stretch, s: float) -> Pose:
     return graph.map.pose(LanePosition(lane.road, lane.lane, s))
 
 
-def _crossing(graph: RoadGraph, first: _Meeting, last: _Meeting) -> Stretch:
+def _crossing(graph: LaneGraph, first: _Meeting, last: _Meeting) -> Stretch:
     begin, end = _centre(graph, first.lane, first.s), _centre(graph, last.lane, last.s)
     line = CrossingLine(
         x=begin.x,

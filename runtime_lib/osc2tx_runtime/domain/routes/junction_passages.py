@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from osc2tx_runtime.domain.routes.map_segments import Stretch
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.routes.road_graph import RoadGraph
+    from osc2tx_runtime.domain.routes.lane_graph import LaneGraph
 
 __all__ = ["Passage", "arms_of", "passages_of"]
 
@@ -39,7 +39,7 @@ class Passage(NamedTuple):
         return Stretch("compound_route", parts[0].road, parts=parts)
 
 
-def passages_of(graph: RoadGraph) -> tuple[Passage, ...]:
+def passages_of(graph: LaneGraph) -> tuple[Passage, ...]:
     """All ways through the junctions of a map, by the lanes that enter them."""
     found = []
     for lane in graph.lanes:
@@ -57,7 +57,7 @@ def passages_of(graph: RoadGraph) -> tuple[Passage, ...]:
 
 
 def arms_of(
-    graph: RoadGraph, passages: Sequence[Passage], junction: Stretch
+    graph: LaneGraph, passages: Sequence[Passage], junction: Stretch
 ) -> Iterator[tuple[float, str]]:
     """Roads that meet in a junction: direction in which they leave it (rad), and their id."""
     seen: dict[str, float] = {}

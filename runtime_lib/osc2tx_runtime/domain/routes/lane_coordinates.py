@@ -10,16 +10,16 @@ import math
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.placing.pose_resolution import road_entry
-from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
+from osc2tx_runtime.domain.points_and_poses import OdrPoint, RoadRoute, RoutePoint
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 
-__all__ = ["along_lane", "place_of_route", "route_point_at"]
+__all__ = ["along_lane", "place_of_odr", "place_of_route", "road_entry", "route_point_at"]
 
 _AT_END = 1e-5  # m: so near to the end of a lane is there
+_MISS = 1e-6  # m by which a point may miss its road
 
 
 def along_lane(road_map: RoadMap, place: LanePosition) -> float:
@@ -58,6 +58,8 @@ def place_of_route(road_map: RoadMap, point: RoutePoint) -> LanePosition | opend
             begin = graph.begin(route.found)
             if found.kind == "compound_route":
                 way = road_map.route_to(graph.end(route.found))
+        elif not isinstance(route, RoadRoute):
+            raise PlacementError("nothing can be measured along such a route")
         elif route.lane_id is None:
             return road_map.road_pose(route.road_id, point.s, point.t)
         else:
@@ -95,3 +97,47 @@ def _begin(road_map: RoadMap, road: str, lane: int) -> LanePosition:
             s = section.begin if with_s else math.nextafter(section.end, section.begin)
             return LanePosition(road, lane, s)
     raise PlacementError(f"road {road} has no lane {lane}")
+
+
+def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
+    """Where the lane of a place begins on its road, in direction of travel."""
+    key = road_map.lane_key(place)
+    sections = road_map.roads[place.road].sections
+    with_s = road_map.travel_direction(place.road, place.lane) > 0
+    while True:
+        wanted = (key.road, key.section + (-1 if with_s else 1))
+        before = [k for k in road_map.predecessors(key) if (k.road, k.section) == wanted]
+        if not before:
+            break
+        key = before[0]
+    section = sections[key.section]
+    if with_s:
+        return LanePosition(key.road, key.lane, section.begin)
+    last = key.section == len(sections) - 1
+    s = section.end if last else math.nextafter(section.end, section.begin)
+    return LanePosition(key.road, key.lane, s)
+
+
+def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:
+    """Place of a point in road coordinates."""
+    try:
+        lane = point.lane
+        if lane is None:
+            pose = road_map.road_pose(point.road_id, point.s, point.t)
+            _check_length(road_map, point)
+            return pose
+        place = LanePosition(point.road_id, lane, point.s)
+        road_map.pose(place)
+        _check_length(road_map, point)
+        left = point.t * road_map.travel_direction(point.road_id, lane)
+        return LanePosition(point.road_id, lane, point.s, left)
+    except MapError as error:
+        raise PlacementError(error.message) from error
+
+
+def _check_length(road_map: RoadMap, point: OdrPoint) -> None:
+    length = road_map.roads[point.road_id].length
+    if not -_MISS <= point.s <= length + _MISS:
+        raise PlacementError(
+            f"road {point.road_id} is {length:.1f} m long, so there is no s = {point.s:g} m"
+        )

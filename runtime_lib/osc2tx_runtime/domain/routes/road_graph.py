@@ -1,4 +1,4 @@
-"""What a map has to offer for declared roads and lanes, in a fixed order."""
+"""What a map has to offer for declared roads, lanes, crossings and junctions, in a fixed order."""
 
 from __future__ import annotations
 
@@ -7,14 +7,11 @@ from functools import cached_property, lru_cache
 
 from osc2tx_runtime.domain.routes.crossing_lines import on_crosswalk
 from osc2tx_runtime.domain.routes.junction_passages import Passage, arms_of, passages_of
-from osc2tx_runtime.domain.routes.lane_types import LaneKind, kind_of_lane
+from osc2tx_runtime.domain.routes.lane_graph import LaneGraph
 from osc2tx_runtime.domain.routes.map_segments import PartKind, Stretch
-from osc2tx_runtime.opendrive import DRIVING, Lane, LaneKey, LanePosition, RoadMap
-from osc2tx_runtime.opendrive.lane_line import lane_line
+from osc2tx_runtime.opendrive import RoadMap
 
 __all__ = ["RoadGraph", "graph_of"]
-
-_INSIDE = 1e-6  # m from the end of a lane section, to be in it
 
 
 @lru_cache(maxsize=4)
@@ -23,19 +20,8 @@ def graph_of(road_map: RoadMap) -> RoadGraph:
     return RoadGraph(road_map)
 
 
-class RoadGraph:
-    """Stretches of a map and how they hang together.
-
-    Only lanes that vehicles drive on count; `other_lanes` has those beside them.
-
-    Args:
-        road_map: The map.
-    """
-
-    def __init__(self, road_map: RoadMap) -> None:
-        self.map = road_map
-
-    # --- stretches ----------------------------------------------------------------------------
+class RoadGraph(LaneGraph):
+    """The lane graph of a map with what is made from it: crossings, ways through junctions."""
 
     def all(self, kind: PartKind) -> tuple[Stretch, ...]:
         """All stretches of a kind: by numbers of road and section, lanes from the right."""
@@ -58,234 +44,9 @@ class RoadGraph:
                 return tuple(dict.fromkeys(passage.route for passage in self.passages))
 
     @cached_property
-    def roads(self) -> tuple[Stretch, ...]:
-        """Roads outside of junctions."""
-        driven = dict.fromkeys(section.road for section in self.sections)
-        return tuple(Stretch("road", road) for road in driven)
-
-    @cached_property
-    def sections(self) -> tuple[Stretch, ...]:
-        """Lane sections outside of junctions, those that run with s first."""
-        return tuple(
-            Stretch("lane_section", road.id, section.index, forwards=forwards)
-            for road in self.map.roads.values()
-            if road.junction is None
-            for section in road.sections
-            for forwards in (True, False)
-            if self._ids(road.id, section.index, forwards)
-        )
-
-    @cached_property
-    def paths(self) -> tuple[Stretch, ...]:
-        """Those of these sections that have default start places, the longest first."""
-        starts = {
-            (p.road, self.map.roads[p.road].section_at(p.s).index, direction > 0)
-            for p in self.map.spawn_points()
-            for direction in (self.map.travel_direction(p.road, p.lane),)
-        }
-        usable = (s for s in self.sections if (s.road, s.section, s.forwards) in starts)
-        return tuple(sorted(usable, key=self.length, reverse=True))
-
-    def sections_of_road(self, road: str, *, forwards: bool) -> tuple[Stretch, ...]:
-        """Lane sections of one direction of a road that have drivable lanes, in order of s."""
-        return tuple(
-            Stretch("lane_section", road, section.index, forwards=forwards)
-            for section in self.map.roads[road].sections
-            if self._ids(road, section.index, forwards)
-        )
-
-    def length(self, section: Stretch) -> float:
-        """Length of a lane section (m)."""
-        found = self.map.roads[section.road].sections[section.section or 0]
-        return found.end - found.begin
-
-    @cached_property
-    def lanes(self) -> tuple[Stretch, ...]:
-        """Lanes of these sections."""
-        return tuple(lane for section in self.sections for lane in self.lanes_of(section))
-
-    @cached_property
-    def other_lanes(self) -> tuple[Stretch, ...]:
-        """Lanes outside of junctions that vehicles do not drive on, by road and from the right."""
-        return tuple(
-            self.stretch_of(LaneKey(road.id, section.index, lane.id))
-            for road in self.map.roads.values()
-            if road.junction is None
-            for section in road.sections
-            for lane in section.lanes.values()
-            if lane.type not in DRIVING
-        )
-
-    @cached_property
     def crossings(self) -> tuple[Stretch, ...]:
         """Crosswalks of the map, each in both directions."""
         return tuple(each for walk in self.map.crosswalks() for each in on_crosswalk(self, walk))
-
-    @cached_property
-    def compound_lanes(self) -> tuple[Stretch, ...]:
-        """Lanes over whole roads."""
-        found = []
-        for lane in self.lanes:
-            if any(before.road == lane.road for before in self.before(lane)):
-                continue
-            chain = [lane]
-            while onward := [n for n in self.after(chain[-1]) if n.road == lane.road]:
-                chain.append(onward[0])
-            parts = tuple(chain)
-            found.append(Stretch("compound_lane", lane.road, None, lane.lane, lane.forwards, parts))
-        return tuple(found)
-
-    def _ids(self, road: str, section: int, forwards: bool) -> tuple[int, ...]:
-        """Drivable lanes of a direction, from the right in direction of travel."""
-        found = self.map.roads[road].sections[section]
-        if not found.ready:
-            found.prepare()
-        direction = 1 if forwards else -1
-        ids = sorted(
-            lane.id
-            for lane in found.lanes.values()
-            if lane.type in DRIVING and lane.direction == direction
-        )
-        return tuple(ids if forwards else reversed(ids))
-
-    def lanes_of(self, stretch: Stretch) -> tuple[Stretch, ...]:
-        """Lanes of a stretch: of its first section, where it has several."""
-        match stretch.kind:
-            case "lane":
-                return (stretch,)
-            case "compound_lane" | "compound_route":
-                return self.lanes_of(stretch.parts[0])
-            case "junction":
-                return ()
-        index = 0 if stretch.section is None else stretch.section
-        directions = (True, False) if stretch.kind == "road" else (stretch.forwards,)
-        return tuple(
-            Stretch("lane", stretch.road, index, lane, forwards)
-            for forwards in directions
-            for lane in self._ids(stretch.road, index, forwards)
-        )
-
-    def chains_of(self, road: Stretch) -> tuple[tuple[Stretch, ...], ...]:
-        """Drivable lanes over a whole road, each with those that follow it on the road.
-
-        Those in the direction of the road come first.
-        """
-        chains = [lane.parts for lane in self.compound_lanes if lane.road == road.road]
-        return tuple(sorted(chains, key=lambda chain: chain[0].forwards != road.forwards))
-
-    def sections_of(self, stretch: Stretch) -> tuple[Stretch, ...]:
-        """Whole cross-sections, or sections of one direction, that a stretch runs through."""
-        if stretch.parts:
-            return tuple(each for part in stretch.parts for each in self.sections_of(part))
-        if stretch.kind != "road":
-            return (stretch,)
-        return tuple(
-            Stretch("road", stretch.road, section.index)
-            for section in self.map.roads[stretch.road].sections
-        )
-
-    def begin(self, stretch: Stretch) -> LanePosition:
-        """Where a stretch begins; on the outermost lane that leads on where it has several."""
-        lanes = self._directed(stretch.parts[0]) if stretch.parts else self.lanes_of(stretch)
-        onward = [each.road for each in stretch.parts[1:2]]
-        leading = (each for each in lanes if self._leads_to(each, onward))
-        first = next(leading, lanes[0])
-        assert first.lane is not None and first.section is not None
-        section = self.map.roads[first.road].sections[first.section]
-        s = section.begin if first.forwards else max(section.end - _INSIDE, section.begin)
-        return LanePosition(first.road, first.lane, s)
-
-    def _directed(self, part: Stretch) -> tuple[Stretch, ...]:
-        """Lanes at the begin of a part of a route, in its direction."""
-        index = part.section
-        if index is None:
-            index = 0 if part.forwards else len(self.map.roads[part.road].sections) - 1
-        section = Stretch("lane_section", part.road, index, forwards=part.forwards)
-        return (part,) if part.kind == "lane" else self.lanes_of(section)
-
-    def _leads_to(self, lane: Stretch, roads: list[str]) -> bool:
-        """Whether one can go from a lane to one of the roads without changing lanes."""
-        reached, seen = [lane], {lane}
-        for each in reached:
-            for after in self.after(each):
-                if after.road in roads:
-                    return True
-                if after.road == lane.road and after not in seen:
-                    seen.add(after)
-                    reached.append(after)
-        return not roads
-
-    def end(self, stretch: Stretch) -> LanePosition:
-        """Where a stretch ends; on its outermost lane where it has several."""
-        if stretch.parts:
-            return self.end(stretch.parts[-1])
-        index = stretch.section
-        if index is None:
-            index = len(self.map.roads[stretch.road].sections) - 1 if stretch.forwards else 0
-            stretch = Stretch("lane_section", stretch.road, index, forwards=stretch.forwards)
-        lane = self.lanes_of(stretch)[0].lane
-        section = self.map.roads[stretch.road].sections[index]
-        assert lane is not None
-        s = max(section.end - _INSIDE, section.begin) if stretch.forwards else section.begin
-        return LanePosition(stretch.road, lane, s)
-
-    def seen_from(self, stretch: Stretch, place: LanePosition | None) -> Stretch:
-        """A road in the direction of who is on it; everything else as it is."""
-        if stretch.kind != "road" or place is None or place.road != stretch.road:
-            return stretch
-        forwards = self.map.travel_direction(place.road, place.lane) > 0
-        return Stretch("road", stretch.road, forwards=forwards)
-
-    # --- neighbours ---------------------------------------------------------------------------
-
-    def key(self, lane: Stretch) -> LaneKey:
-        """The lane in the map."""
-        assert lane.lane is not None and lane.section is not None
-        return LaneKey(lane.road, lane.section, lane.lane)
-
-    def along(self, lane: Stretch, s: float) -> float:
-        """Metres along the centre line of a lane, in its direction, at a road coordinate (m)."""
-        line = lane_line(self.lane(lane))
-        along = line.length_at(s)
-        return along if lane.forwards else line.length - along
-
-    def s_at(self, lane: Stretch, along: float) -> float | None:
-        """Road coordinate (m) so far along a lane; None beyond its end."""
-        line = lane_line(self.lane(lane))
-        if not 0.0 <= along <= line.length:
-            return None
-        return line.s_at(along if lane.forwards else line.length - along)
-
-    def lane(self, lane: Stretch) -> Lane:
-        """The lane of the map, with its geometry."""
-        section = self.map.roads[lane.road].sections[lane.section or 0]
-        if not section.ready:
-            section.prepare()
-        assert lane.lane is not None
-        return section.lanes[lane.lane]
-
-    def width_of(self, lane: Stretch) -> float:
-        """Width (m) of a lane where it begins."""
-        found = self.lane(lane)
-        section = found.section
-        return found.width_at(section.begin if lane.forwards else section.end)
-
-    def kind_of(self, lane: Stretch) -> LaneKind:
-        """What a lane is for."""
-        return kind_of_lane(self.lane(lane).type)
-
-    def stretch_of(self, key: LaneKey) -> Stretch:
-        """The stretch that a lane of the map is."""
-        forwards = self.map.travel_direction(key.road, key.lane) > 0
-        return Stretch("lane", key.road, key.section, key.lane, forwards)
-
-    def after(self, lane: Stretch) -> tuple[Stretch, ...]:
-        """Lanes that follow a lane."""
-        return tuple(self.stretch_of(key) for key in self.map.successors(self.key(lane)))
-
-    def before(self, lane: Stretch) -> tuple[Stretch, ...]:
-        """Lanes that lead to a lane."""
-        return tuple(self.stretch_of(key) for key in self.map.predecessors(self.key(lane)))
 
     # --- junctions ----------------------------------------------------------------------------
 
@@ -302,11 +63,3 @@ class RoadGraph:
         """Ids of the roads that meet in a junction, in the order of the map."""
         found = {road for _, road in self.arms(junction)}
         return tuple(road for road in self.map.roads if road in found)
-
-    def heading(self, lane: Stretch, *, at_end: bool) -> float:
-        """Heading (rad) of a lane where it begins or ends."""
-        assert lane.lane is not None and lane.section is not None
-        section = self.map.roads[lane.road].sections[lane.section]
-        last = lane.forwards == at_end
-        s = max(section.end - _INSIDE, section.begin) if last else section.begin
-        return self.map.pose(LanePosition(lane.road, lane.lane, s)).h

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import ClassVar, TypeVar
 
-from osc2tx_runtime.domain.points_and_poses import RoutePoint
+from osc2tx_runtime.domain.points_and_poses import RouteAxis, RoutePoint
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.routes.map_segments import PartKind, Stretch
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
@@ -25,7 +25,7 @@ SAME = 0.01  # m between what is asked for and what there is
 PartT = TypeVar("PartT", bound="RoadPart")
 
 
-class RoadPart(MapObject):
+class RoadPart(MapObject, RouteAxis):
     """Something of the road network that a scenario declares.
 
     Args:

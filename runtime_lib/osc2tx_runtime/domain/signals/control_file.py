@@ -17,8 +17,13 @@ from pathlib import Path
 from typing import Any, get_args
 
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
-from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle, TrafficLightPhase
-from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, Shown, TrafficLightGroup
+from osc2tx_runtime.domain.signals.traffic_lights import (
+    Bulbs,
+    Shown,
+    TrafficLightCycle,
+    TrafficLightGroup,
+    TrafficLightPhase,
+)
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError
 

@@ -1,4 +1,4 @@
-"""Traffic lights as scenarios name them (DSL 8.15): lamps, boxes, groups.
+"""Traffic lights as scenarios name them (DSL 8.15): boxes of lamps, groups, phases and cycles.
 
 A `traffic_light` is a dynamic signal of the map, a `traffic_light_group` one of its controllers;
 `map_id` is their OpenDRIVE id.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.points_and_poses import Pose
@@ -19,7 +20,6 @@ from osc2tx_runtime.opendrive import Signal
 from osc2tx_runtime.world.traffic_light_lamps import Lamp, meaning_of
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.traffic_light_states import Signals
 
@@ -28,7 +28,11 @@ __all__ = [
     "Shown",
     "TrafficLight",
     "TrafficLightBulb",
+    "TrafficLightControl",
+    "TrafficLightCycle",
     "TrafficLightGroup",
+    "TrafficLightPhase",
+    "known_cycles",
     "states_of",
 ]
 
@@ -223,12 +227,9 @@ class TrafficLightGroup(MapObject):
         Raises:
             ScenarioError: That says nothing about it.
         """
-        from osc2tx_runtime.domain.actors import Map  # which knows this class
-
         signals = self._signals
         own = set(self.lights(signals))
-        maps = (each for each in self.context.actors.values() if isinstance(each, Map))
-        for cycle in (cycle for each in maps for cycle in each.traffic_light_control):
+        for cycle in known_cycles(self.context):
             if cycle.phases and own & set(cycle.phases[0].group.lights(signals)):
                 return cycle
         raise ScenarioError(f"{self.name} has no cycle in the traffic_light_control of the map")
@@ -241,3 +242,51 @@ class TrafficLightGroup(MapObject):
     def state_equal(self, bulbs: Bulbs) -> bool:
         """Whether every box shows the same as the argument."""
         return all(light.state_equal(bulbs) for light in self.traffic_lights)
+
+
+@dataclass(frozen=True, slots=True)
+class TrafficLightPhase:
+    """What a group shows for a while.
+
+    Attributes:
+        group: The group.
+        bulbs_state: What each of its boxes shows.
+        duration: For how long (s).
+    """
+
+    group: TrafficLightGroup
+    bulbs_state: Bulbs
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class TrafficLightCycle:
+    """Phases of one group, in order of time, again and again.
+
+    Attributes:
+        phases: The phases.
+        synchronization_group_id: Cycles with the same id keep in step.
+        start_offset: Seconds from the start of playing until the first phase begins; before it
+            runs the end of the cycle.
+    """
+
+    phases: Sequence[TrafficLightPhase]
+    synchronization_group_id: int | None = None
+    start_offset: float = 0.0
+
+
+class TrafficLightControl:
+    """What knows the cycles of traffic lights: the map.
+
+    Attributes:
+        traffic_light_control: The cycles.
+    """
+
+    traffic_light_control: list[TrafficLightCycle]
+
+
+def known_cycles(context: ExecutionContext) -> tuple[TrafficLightCycle, ...]:
+    """The cycles that the map of a run has in its `traffic_light_control`."""
+    actors = context.actors.values()
+    maps = (each for each in actors if isinstance(each, TrafficLightControl))
+    return tuple(cycle for each in maps for cycle in each.traffic_light_control)

@@ -6,7 +6,6 @@ lead nowhere, events that can never start, acts that can never end.
 """
 
 import os
-import re
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -18,6 +17,8 @@ from qc_baselib import Configuration, Result, StatusType
 from qc_openscenario import constants
 from qc_openscenario.main import run_checks
 
+from osc2tx.backends.xosc import XmlScenario
+
 SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
 NAMED = ("Story", "Act", "ManeuverGroup", "Maneuver", "Event", "Action", "Condition")
 KINDS = {
@@ -28,8 +29,6 @@ KINDS = {
     "event": "Event",
     "action": "Action",
 }
-TRACED = "//Event | //Init/Actions/GlobalAction | //Init/Actions/Private | //ScenarioObject"
-LEADS_BACK = re.compile(r"\.osc:\d+")
 NEVER_ENDS = ".//*[@continuous='true']", ".//CustomCommandAction"
 
 
@@ -74,15 +73,11 @@ def checker_issues(xml: str, folder: Path) -> list[str]:
     return issues + failed
 
 
-def untraced(xml: str) -> list[str]:
-    """Return the elements above which no comment names a line of the source."""
-    found = []
-    for node in etree.fromstring(xml.encode()).xpath(TRACED):
-        above = node.getprevious()
-        text = above.text if isinstance(above, etree._Comment) else ""
-        if not LEADS_BACK.search(text or ""):
-            found.append(f"<{node.tag}> {node.get('name')}")
-    return found
+def untraced(document: XmlScenario) -> list[str]:
+    """Return the events of which nobody knows what they stand for."""
+    assert document.xml is not None
+    events = etree.fromstring(document.xml.encode()).iter("Event")
+    return [event.get("name") for event in events if event.get("name") not in document.origins]
 
 
 def story_problems(xml: str) -> list[str]:

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from osc2tx.backends.xosc import XmlScenario
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
@@ -91,16 +92,14 @@ def _is_number(node: etree._Element) -> bool:
     return node.get("parameterType") in ("double", "int", "integer")
 
 
-def events_by_source(root: etree._Element) -> dict[str, list[str]]:
-    """Return the events that stand for invocations, by the line that their comment names."""
+def events_by_source(document: XmlScenario, root: etree._Element) -> dict[str, list[str]]:
+    """Return the events that stand for invocations, by the lines of these."""
     found: dict[str, list[str]] = {}
     for event in root.iter("Event"):
-        comment, name = event.getprevious(), event.get("name")
+        name = event.get("name")
         acts = next(event.iter("PrivateAction"), None) is not None
-        is_told = comment is not None and comment.tag is etree.Comment
-        if acts and is_told and not name.startswith("hold_"):
-            source = ":".join(str(comment.text).strip().split(":")[:2])
-            found.setdefault(source, []).append(name)
+        if acts and not name.startswith("hold_"):
+            found.setdefault(str(document.origins[name]), []).append(name)
     return found
 
 
@@ -143,12 +142,12 @@ def _asked_for(trigger: etree._Element | None) -> set[Moment]:
 
 
 def compare(
-    document: str, expected: Played, found: Played, dt: float, patience: float = 0.0
+    document: XmlScenario, expected: Played, found: Played, dt: float, patience: float = 0.0
 ) -> Difference:
     """Compare what a tool has done with what the embedded world does.
 
     Args:
-        document: The XML.
+        document: What was played.
         expected: What the embedded world does.
         found: What the tool has done.
         dt: Length of a step (s), of both.
@@ -157,12 +156,13 @@ def compare(
     Raises:
         AssertionError: Something has not happened, came too late, or in another order.
     """
-    root = etree.fromstring(document.encode())
+    assert document.xml is not None
+    root = etree.fromstring(document.xml.encode())
     depth = hops(root)
     longest = patience + (1 + max(depth.values())) * dt
     assert found.end == pytest.approx(expected.end, abs=longest + 1e-6)
     times = []
-    for source, names in events_by_source(root).items():
+    for source, names in events_by_source(document, root).items():
         if source in expected.starts:
             begun = [(found.starts[name], name) for name in names if name in found.starts]
             assert begun, f"nothing of {source} ever started"

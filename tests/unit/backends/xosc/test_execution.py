@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.xosc import emit
+from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.backends.xosc.report import Grade
 from osc2tx.options import XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
@@ -35,7 +35,7 @@ OWN = ["cut_in", "follow_leader", "pedestrian_crossing"]
 
 
 @cache
-def document(path: Path, name: str, version: XmlVersion) -> tuple[str, float]:
+def document(path: Path, name: str, version: XmlVersion) -> tuple[XmlScenario, float]:
     """Return a document, and how far (m) from the world it may be at its times."""
     module = compiled(path).ir
     assert module is not None
@@ -44,23 +44,26 @@ def document(path: Path, name: str, version: XmlVersion) -> tuple[str, float]:
     assert found.xml is not None, found.report.obstacles
     is_exact = all(entry.grade is Grade.EXACT for entry in found.report.entries)
     has_profiles = version >= "1.2"  # before, courses of speed have plainer shapes
-    return found.xml, NEAR if is_exact and has_profiles else 4.0 * NEAR
+    return found, NEAR if is_exact and has_profiles else 4.0 * NEAR
 
 
 @cache
 def expected(path: Path, name: str) -> Played:
-    xml, _ = document(path, name, "1.3")
+    xml = document(path, name, "1.3")[0].xml
+    assert xml is not None
     return world(path, name, with_values_of(xml, RunSettings(dt=DT)), PLAIN)
 
 
 def check(path: Path, name: str, version: XmlVersion, *, is_lazy: bool) -> None:
-    xml, near = document(path, name, version)
+    made, near = document(path, name, version)
+    xml = made.xml
+    assert xml is not None
     assert schema_errors(xml, version) == []
     assert story_problems(xml) == []
     should, player = expected(path, name), Player(xml, DT, is_lazy=is_lazy)
     found = Played(player.play(), player.starts, player.track)
     late = (1 + max(hops(player.root).values())) * DT
-    for actor, (metres, t) in compare(xml, should, found, DT).apart.items():
+    for actor, (metres, t) in compare(made, should, found, DT).apart.items():
         assert metres < near + late * spread(should, actor), f"{actor} at {t}"
 
 

@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.tree import comment_text, element, text_of
+from osc2tx.backends.xosc.xml.tree import element, text_of
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
@@ -97,9 +97,3 @@ def test_attributes_refuse(text: str) -> None:
 
 def test_attributes_take_all_other_texts() -> None:
     assert text_of('a "b" <c> & 5 $ ${x} \n é 🚗') == 'a "b" <c> & 5 $ ${x} \n é 🚗'
-
-
-@pytest.mark.parametrize("text", ["a --> b", "---", "a\nb", "\x1b[31m", "-"])
-def test_comments_stay_comments(text: str) -> None:
-    made = etree.Comment(f" {comment_text(text)} ")
-    assert etree.fromstring(b"<a>" + etree.tostring(made) + b"</a>")[0].tag is etree.Comment

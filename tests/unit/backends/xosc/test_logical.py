@@ -8,6 +8,7 @@ values, and nothing open.
 import itertools
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -269,13 +270,17 @@ def test_a_value_at_which_nothing_happens_is_not_listed(tmp_path: Path) -> None:
 # --- carried out ---
 
 
-def assert_runs_like(document: etree._Element, path: Path, settings: RunSettings) -> None:
-    """Compare a document without open parameters with the module of a scenario."""
+def assert_runs_like(
+    found: XmlScenario, document: etree._Element, path: Path, settings: RunSettings
+) -> None:
+    """Compare a document whose parameters have values with the module of a scenario."""
     text = etree.tostring(document, encoding="unicode")
     player = Player(text, settings.dt)
-    found = Played(player.play(), player.starts, player.track)
+    played = Played(player.play(), player.starts, player.track)
     should = world(path, "logical", settings, CompileOptions())
-    for actor, (metres, t) in compare(text, should, found, settings.dt).apart.items():
+    for actor, (metres, t) in compare(
+        replace(found, xml=text), should, played, settings.dt
+    ).apart.items():
         late = (1 + max(hops(player.root).values())) * settings.dt
         assert metres < 0.4 + late * spread(should, actor), f"{actor} at {t}"
 
@@ -289,7 +294,7 @@ def test_runs_end_where_the_module_does_with_the_same_values(tmp_path: Path) -> 
     for run in listed[::10]:
         values = {name: run[name] if name == "p" else float(run[name]) for name in names}
         settings = RunSettings(dt=0.05, set=values)
-        assert_runs_like(with_values(found, run), tmp_path / "a.osc", settings)
+        assert_runs_like(found, with_values(found, run), tmp_path / "a.osc", settings)
 
 
 @pytest.mark.slow
@@ -311,7 +316,7 @@ def test_runs_of_a_choice_do_what_the_member_alone_does(tmp_path: Path) -> None:
         path.parent.mkdir()
         text = SCENARIO.format(then=f"{members[run['branch']]}{after}", **given)
         path.write_text(HEAD + text, encoding="utf-8")
-        assert_runs_like(with_values(found, run), path, RunSettings(dt=0.05))
+        assert_runs_like(found, with_values(found, run), path, RunSettings(dt=0.05))
 
 
 @pytest.mark.parametrize("version", ["1.2", "1.3"])

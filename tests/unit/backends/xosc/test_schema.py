@@ -104,13 +104,3 @@ def test_parts_come_in_the_order_of_the_schema() -> None:
 def test_what_a_version_has_not_is_a_bug(child: object, version: XmlVersion) -> None:
     with pytest.raises(InternalCompilerError, match=f"OpenSCENARIO XML {version}"):
         serialize(element("OpenSCENARIO", HEADER, child), version)  # type: ignore[arg-type]
-
-
-def test_comments_cannot_end_themselves() -> None:
-    tree = element("OpenSCENARIO", element("FileHeader", comment="a -- b --> c\x07-"))
-    with pytest.raises(InternalCompilerError):
-        serialize(tree, "1.3")
-    whole = element("OpenSCENARIO", *(HEADER,), element("Entities", comment="a --> \x07 b -"))
-    text = serialize(whole, "1.3")
-    assert "<!-- a - -> " in text
-    assert etree.fromstring(text.encode()).tag == "OpenSCENARIO"

@@ -300,7 +300,7 @@ def test_the_documents_are_valid_and_lead_back_to_the_source(id_: str) -> None:
             continue
         assert schema_errors(found.xml, version) == [], (version, profile)
         assert story_problems(found.xml) == [], (version, profile)
-        assert untraced(found.xml) == [], (version, profile)
+        assert untraced(found) == [], (version, profile)
         if found.parameters is not None:
             assert schema_errors(found.parameters, version) == [], (version, profile)
 

@@ -12,8 +12,12 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from osc2tx_runtime.domain.signals.traffic_light_cycles import TrafficLightCycle
-    from osc2tx_runtime.domain.signals.traffic_lights import Bulbs, TrafficLight, TrafficLightGroup
+    from osc2tx_runtime.domain.signals.traffic_lights import (
+        Bulbs,
+        TrafficLight,
+        TrafficLightCycle,
+        TrafficLightGroup,
+    )
     from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.language.tree.duration_limits import Duration

@@ -1,0 +1,89 @@
+"""The loss report as JSON; `docs/xml-report.md` says what it holds.
+
+It is reviewed with the documents, so it has no line numbers: a place is the path of labels to a
+construct and its text. Diagnostics of the same constructs have lines and columns.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+
+from osc2tx import ir
+from osc2tx.backends.xosc.report import Entry, Grade, LossReport
+from osc2tx.diagnostics import Span
+from osc2tx.ir.source_text import one_line
+
+FORMAT = 2
+
+
+def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) -> str:
+    """Return the report of a scenario.
+
+    Args:
+        report: What became of its constructs.
+        scenario: The scenario.
+        module: Where it stands.
+    """
+    exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
+    lost = [entry for entry in report.entries if entry.grade is not Grade.EXACT]
+    notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)
+    head: dict[str, object] = {
+        "format": FORMAT,
+        "scenario": scenario.name,
+        "source": module.source,
+        "xml_version": report.options.version,
+        "xml_profile": report.options.profile,
+        "allow_approx": report.options.allow_approx,
+        "written": report.is_expressible,
+        "exact": dict(sorted(Counter(entry.construct for entry in exact).items())),
+    }
+    lists: dict[str, Sequence[object]] = {
+        "notes": list(notes),
+        "losses": [_entry_data(entry, module) for entry in lost],
+    }
+    lines = [f"  {_text(key)}: {_text(value)}" for key, value in head.items()]
+    lines += [f"  {_text(key)}: {_list(values)}" for key, values in lists.items()]
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _list(values: Sequence[object]) -> str:
+    return json.dumps(values, indent=2, ensure_ascii=False).replace("\n", "\n  ")
+
+
+def _text(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _entry_data(entry: Entry, module: ir.Module) -> dict[str, object]:
+    data: dict[str, object] = {"construct": entry.construct, "grade": entry.grade.value}
+    if entry.span.source.name != module.source:
+        data["file"] = entry.span.source.name
+    data["within"] = _path(entry.span, module)
+    data["text"] = one_line(entry.span.text)
+    if entry.reason:
+        data["reason"] = entry.reason
+    if entry.bound:
+        data["bound"] = entry.bound
+    if entry.remedy.version is not None:
+        data["expressible_in_version"] = entry.remedy.version
+    if entry.remedy.profile is not None:
+        data["expressible_in_profile"] = entry.remedy.profile
+    return data
+
+
+def _path(span: Span, module: ir.Module) -> str:
+    """Return the scenario that holds a place and the labels of the members around it."""
+    above = [
+        s for s in module.scenarios if s.span.source is span.source and s.span.start <= span.start
+    ]
+    if not above:
+        return ""
+    scenario = max(above, key=lambda s: s.span.start)
+    around = (n for n in ir.walk_behaviors(scenario.body) if _holds(n.span, span))
+    return ".".join((scenario.name, *(node.label for node in around if node.label is not None)))
+
+
+def _holds(outer: Span, inner: Span) -> bool:
+    return outer.source is inner.source and outer.start <= inner.start and inner.end <= outer.end
