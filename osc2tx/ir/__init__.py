@@ -68,6 +68,7 @@ from osc2tx.ir.expressions import (
     Unary,
 )
 from osc2tx.ir.nodes import (
+    ActionParameter,
     Actor,
     Constraint,
     Declaration,
@@ -86,6 +87,7 @@ from osc2tx.ir.nodes import (
     Sample,
     Scenario,
     Struct,
+    UserAction,
     Variable,
 )
 from osc2tx.ir.rewrite import rewrite
@@ -94,6 +96,7 @@ from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
+    "ActionParameter",
     "Actor",
     "Argument",
     "Attribute",
@@ -169,6 +172,7 @@ __all__ = [
     "TypeTest",
     "Unary",
     "Unit",
+    "UserAction",
     "ValueType",
     "Variable",
     "Wait",

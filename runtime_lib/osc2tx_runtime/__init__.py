@@ -47,6 +47,7 @@ from osc2tx_runtime.domain.measuring.weather import (
     Weather,
     Wind,
 )
+from osc2tx_runtime.domain.modifiers.base import Late, Modifier
 from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePathOdr,
@@ -92,7 +93,7 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods, user_action
 from osc2tx_runtime.language.scenario import (
     Range,
     Scenario,
@@ -122,6 +123,7 @@ from osc2tx_runtime.language.tree import (
     rise,
 )
 from osc2tx_runtime.language.tree.coverage import Unit
+from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.running.settings import RunSettings
@@ -276,6 +278,10 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "LONGITUDINAL",
     "Action",
     "Actor",
+    "Duration",
+    "Late",
+    "Modifier",
     "action",
     "methods",
+    "user_action",
 ]

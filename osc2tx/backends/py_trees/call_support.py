@@ -13,7 +13,7 @@ from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.diagnostics.suggestions import nearest
 
 # Names that constructors of actions take for themselves.
-ACTION_KEYWORDS = frozenset({"actor", "label", "self"})
+ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
 
 
 class CallCheck:
@@ -57,7 +57,7 @@ class CallCheck:
         key = f"{node.owner}.{node.action}"
         support = self._runtime.actions.get(key)
         if support is None and node.is_own:
-            self._own_action(node, key)
+            self._user_action(node, key)
             return
         if support is None:
             near = nearest(key, self._runtime.actions)
@@ -76,16 +76,8 @@ class CallCheck:
                 self._moving(modifier)
         self._modifiers(node, key, support.modifiers)
 
-    def _own_action(self, node: ir.Invoke, key: str) -> None:
+    def _user_action(self, node: ir.Invoke, key: str) -> None:
         """Check an action that a package of the user carries out: it takes what it declares."""
-        name = identifier(node.action)
-        if name in self._runtime.reserved:
-            self._sink.report(
-                "OSC507",
-                node.span,
-                f"the runtime has something else by the name `{name}`, so it cannot find `{key}`",
-                help="rename the action",
-            )
         for argument in node.arguments:
             if argument.parameter in ACTION_KEYWORDS:
                 self._sink.report(

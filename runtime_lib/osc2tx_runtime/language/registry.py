@@ -32,6 +32,7 @@ __all__ = [
     "action",
     "carried_out",
     "methods",
+    "user_action",
 ]
 
 ENTRY_POINTS = "osc2tx.methods"
@@ -250,6 +251,14 @@ def carried_out(declared: type[ClassT]) -> type[ClassT]:
         if not name.startswith("_"):
             setattr(declared, name, functools.wraps(method)(_caller(name)))
     return declared
+
+
+def user_action(name: str) -> Any:
+    """Return the function `name(actor, ...)` of an action that a package of the user registers.
+
+    A generated module gives it the type that the scenario declares.
+    """
+    return _caller(name)
 
 
 def _caller(name: str) -> Callable[..., Action]:
