@@ -24,8 +24,8 @@ from trees import print_trees
 
 import osc2tx_runtime
 from osc2tx_runtime import Map, RunSettings, Scenario, Vehicle, rise, run_scenario
-from osc2tx_runtime.domain.modifiers import lane, position, speed
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Wait, elapsed
+from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of

@@ -8,6 +8,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from tempfile import TemporaryFile
 from typing import NoReturn
 
@@ -30,8 +31,13 @@ class Ended:
     err: str
 
 
-def forked(main: Callable[[], object]) -> Ended:
-    """Call something that may end its process in a copy of this one; nothing is imported again."""
+def forked(main: Callable[[], object], folder: Path | None = None) -> Ended:
+    """Call something that may end its process in a copy of this one; nothing is imported again.
+
+    Args:
+        main: What to call.
+        folder: The working directory, if not that of this process.
+    """
     with (
         TemporaryFile("w+", encoding="utf-8") as out,
         TemporaryFile("w+", encoding="utf-8") as err,
@@ -40,6 +46,7 @@ def forked(main: Callable[[], object]) -> Ended:
         if process == 0:
             os.dup2(out.fileno(), 1)
             os.dup2(err.fileno(), 2)
+            os.chdir(folder or os.curdir)
             _end_with(main)
         _, status = os.waitpid(process, 0)
         out.seek(0)

@@ -1,8 +1,8 @@
 """Writes the actions of the library as typed methods: `osc2tx_runtime/domain/actors/methods/`.
 
 A file for each kind of actors, read from the registry: signature and docstring of the class that
-carries an action out, the modifiers that it takes, and the section of the standard from the text of
-the library. `modifiers.py` beside them names groups of modifiers. A test compares.
+carries an action out, and the modifiers that it takes; the section of the standard is from the
+catalogue. `modifiers.py` beside them names groups of modifiers. A test compares.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from typing import Any, get_args, get_origin
 import black
 
 from osc2tx.backends.py_trees.naming import class_name
-from osc2tx.stdlib import DOMAIN, library_source
+from osc2tx.catalogue import catalogue
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actions.modifier_groups import (
-    AT_START,
     LANE_SHAPERS,
     PATH_SHAPERS,
     SPEED_SHAPERS,
     TURN_SHAPERS,
 )
+from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
 from osc2tx_runtime.language.registry import Method, methods
 
 FOLDER = Path(__file__).parents[1] / "runtime_lib/osc2tx_runtime/domain/actors/methods"
@@ -37,17 +37,17 @@ PACKAGE = "osc2tx_runtime.domain.actors.methods"
 MODIFIERS = "osc2tx_runtime.domain.modifiers"
 MADE = "made by tools/make_actor_methods.py"
 
+STARTS = "StartModifier"
+"""Modifiers that actions take `at: start` alone."""
+
 GROUPS: dict[str, tuple[type, ...]] = {
     "SpeedModifier": SPEED_SHAPERS,
     "LaneModifier": LANE_SHAPERS,
     "TurnModifier": TURN_SHAPERS,
     "PathModifier": PATH_SHAPERS,
-    "StartModifier": AT_START,
+    STARTS: tuple(kind for kind in KINDS.values() if kind.facts.rules.starts),
 }
 """Modifiers that actions take together."""
-
-STARTS = "StartModifier"
-"""Those that actions take `at: start` alone."""
 
 WIDTH = 92  # of docstrings in methods
 ENTRY = r"    (\*{0,2}\w+):"
@@ -192,11 +192,11 @@ def _docstring(method: Method) -> Iterator[str]:
     rest = list(_without(rest, ("actor", "**options")))
     while rest and rest[-1] in ("", "Args:"):
         rest.pop()
-    section = _sections().get(f"{method.kind}.{method.name}")
-    if section and len(f'"""{head} ({section})"""') <= WIDTH:
-        head = f"{head.removesuffix('.')} ({section})."
+    section = catalogue().actions[f"{method.kind}.{method.name}"].section
+    if section and len(f'"""{head} (§{section})"""') <= WIDTH:
+        head = f"{head.removesuffix('.')} (§{section})."
     elif section:
-        rest = ["", f"Section {section}.", *rest]
+        rest = ["", f"Section §{section}.", *rest]
     yield f'"""{head}' if rest else f'"""{head}"""'
     if rest:
         yield from (*_filled(rest), '"""')
@@ -233,17 +233,6 @@ def _without(lines: Sequence[str], names: tuple[str, ...]) -> Iterator[str]:
             skips = entry is not None and entry[1] in names
         if not skips:
             yield line
-
-
-def _sections() -> dict[str, str]:
-    """Return the section of the standard for each action, from the comment above it."""
-    found, section = {}, ""
-    for line in library_source(DOMAIN, "2.2").text.splitlines():
-        if line.startswith("# §"):
-            section = line.split()[1]
-        elif line.startswith("action "):
-            found[line.split()[1].removesuffix(":")] = section
-    return found
 
 
 if __name__ == "__main__":

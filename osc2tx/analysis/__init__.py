@@ -13,7 +13,7 @@ and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` ru
 3. Levels. `levels` says for each scenario whether it is abstract, logical or concrete, with what is
    open; `cast_checks` judges its actors, `value_text` writes values in the units of the source.
 
-Facts about the standard library that are not in its declarations are tables in `library_facts`.
+What actions and modifiers are besides their declarations says the catalogue (`library_facts`).
 `tree_walk` walks syntax trees.
 
 Invariants: a contradiction that is reported is one; what cannot be known when compiling counts as

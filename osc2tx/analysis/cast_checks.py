@@ -7,15 +7,9 @@ from dataclasses import field
 
 from osc2tx.analysis.applied_modifiers import library_modifiers
 from osc2tx.analysis.constraints import ConstraintAnalysis, State
-from osc2tx.analysis.library_facts import (
-    PACING_MODIFIERS,
-    PLACING_ACTIONS,
-    PLACING_MODIFIERS,
-    UNPACED_ACTIONS,
-    is_instant,
-    is_library_actor,
-)
+from osc2tx.analysis.library_facts import entry_of, is_library_actor
 from osc2tx.analysis.tree_walk import do_directives, do_members
+from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
@@ -104,11 +98,12 @@ def _look_at_modifier(
     if part is None or binding is None or part.is_settled:
         return
     at = next((value for p, value in binding.arguments if p.name == "at"), None)
-    if at is not None and at.span.text.rpartition("!")[2] == "end":
-        part.has_pace |= node.modifier.text in PACING_MODIFIERS
+    entry = catalogue().modifiers.get(node.modifier.text)
+    if entry is None:
         return
-    part.has_place |= node.modifier.text in PLACING_MODIFIERS
-    part.has_pace |= node.modifier.text in PACING_MODIFIERS
+    part.has_pace |= entry.paces
+    if at is None or at.span.text.rpartition("!")[2] != "end":
+        part.has_place |= entry.places
 
 
 def _look_at_invocation(model: SemanticModel, cast: _Cast, node: ast.Invocation) -> None:
@@ -129,12 +124,11 @@ def _look_at_invocation(model: SemanticModel, cast: _Cast, node: ast.Invocation)
     part = _part_of(model, cast, node.actor)
     if part is None or part.is_settled:
         return
-    part.has_place |= callee.name in PLACING_ACTIONS
-    if is_instant(callee):
-        part.has_pace |= callee.name == "assign_speed"
-    else:
-        part.has_pace |= callee.name not in UNPACED_ACTIONS
-        part.is_settled = True
+    entry = entry_of(callee)
+    if entry is not None:
+        part.has_place |= entry.places
+        part.has_pace |= entry.paces
+        part.is_settled = not entry.is_momentary
 
 
 def _settle(part: _Part | None) -> None:

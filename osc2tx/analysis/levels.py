@@ -12,13 +12,13 @@ from enum import Enum
 
 from osc2tx.analysis.cast_checks import openings_of_cast
 from osc2tx.analysis.constraints import ConstraintAnalysis, State
-from osc2tx.analysis.library_facts import LOOSE_OVERLAPS, RELATIONS
 from osc2tx.analysis.liveness import keyword_span
 from osc2tx.analysis.operation_list import Key
 from osc2tx.analysis.parameter_lookup import is_of_scope, name_of
 from osc2tx.analysis.termination import Endings
 from osc2tx.analysis.tree_walk import do_directives, do_members
 from osc2tx.analysis.value_text import format_free, format_range
+from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel, types
@@ -27,6 +27,9 @@ from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
 
 MOST_SHOWN = 5
+
+# Overlaps of `parallel` that leave start and end of the members open (§7.3.13.2).
+LOOSE_OVERLAPS = frozenset({"initial", "final", "inside", "full", "any"})
 
 
 class Level(Enum):
@@ -218,11 +221,10 @@ def _open_relations(model: SemanticModel, node: ast.ModifierApplication) -> Iter
     if binding is None or binding.callee.origin == "user":
         return
     given = {parameter.name: value for parameter, value in binding.arguments}
-    for name in given:
-        amounts = RELATIONS.get((binding.callee.name, name))
-        if amounts is not None and not amounts & given.keys():
-            text = " ".join(node.span.text.split())
-            yield Opening(f"amount of {text}", node.span, Level.ABSTRACT)
+    entry = catalogue().modifiers.get(binding.callee.name)
+    if entry is not None and entry.orders & given.keys() and not entry.amounts & given.keys():
+        text = " ".join(node.span.text.split())
+        yield Opening(f"amount of {text}", node.span, Level.ABSTRACT)
 
 
 def _open_event(event: ast.EventSpecification) -> Iterator[Opening]:

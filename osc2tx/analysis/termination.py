@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import cache
 
 from osc2tx.analysis.applied_modifiers import library_modifiers
-from osc2tx.analysis.library_facts import BOUNDING_MODIFIERS, is_instant, is_open_ended
+from osc2tx.analysis.library_facts import is_instant, is_open_ended
 from osc2tx.analysis.tree_walk import do_directives, do_members, nodes_below
+from osc2tx.catalogue import catalogue
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.support.light_dataclass import dataclass
@@ -128,9 +129,15 @@ def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> 
 def _is_goal(model: SemanticModel, member: ast.WithMember) -> bool:
     """Whether a modifier says what is reached at the end."""
     return isinstance(member, ast.ModifierApplication) and any(
-        modifier.modifier.text in BOUNDING_MODIFIERS or _speaks_of_end(modifier)
+        _bounds(modifier) or _speaks_of_end(modifier)
         for modifier in library_modifiers(model, member)
     )
+
+
+def _bounds(modifier: ast.ModifierApplication) -> bool:
+    """Whether what a modifier says bounds an open-ended action."""
+    entry = catalogue().modifiers.get(modifier.modifier.text)
+    return entry is not None and entry.bounds
 
 
 def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:

@@ -12,37 +12,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import field, replace
 
 from osc2tx import ir
+from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.carla_paths import START
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.shape_arguments import first_value, says_start
 from osc2tx.support.light_dataclass import dataclass
 
-# Modifiers that say something about a single instant and so can place an actor.
-PLACING = frozenset({"acceleration", "lane", "lateral", "orientation", "position", "speed", "yaw"})
-
-# Modifiers of maps: what declared roads and lanes are like, for the whole scenario (§8.12.2.2).
-MAP_MEMBERS = frozenset(
-    {"compound_lane_side", "crossing_connects", "end_lane", "lane_side", "number_of_lanes"}
-    | {"roads_follow_in_junction"}
-    | {"routes_are_in_sequence", "routes_are_opposite", "routes_overlap", "set_map_file"}
-    | {"set_traffic_lights_control_file", "start_lane"}
-)
-
-# Modifiers of actors that say the same as members of a scenario, for the whole of it.
-PLACING_MEMBERS = frozenset({"location", "tow_trailer"}) | MAP_MEMBERS
-
 # Types of routes of a map, on which an actor can start.
 ROUTES = frozenset(
     {"compound_lane", "compound_route", "crossing", "lane", "lane_section", "road", "route"}
-)
-
-# Actions that take no time, so that the next member of a serial still begins at the start.
-INSTANT = frozenset(
-    {"air", "assign_acceleration", "assign_celestial_position", "assign_orientation"}
-    | {"assign_position", "assign_speed", "clouds", "fog", "rain", "set_lights", "snow", "wind"}
-    | {"set_bulb_state", "set_group_bulb_state", "set_group_semantic_state", "set_group_state"}
-    | {"set_semantic_state", "set_state"}
 )
 
 
@@ -163,6 +142,21 @@ class PlacementLowering:
         return node
 
 
+def can_place(modifier: ir.ModifierCall) -> bool:
+    """Whether a modifier says something about a single instant, and so can place an actor."""
+    entry = catalogue().modifiers.get(modifier.name)
+    return entry is not None and entry.combining.starts
+
+
+def owner_of(modifier: ir.ModifierCall) -> str:
+    """Return the actor of which a modifier is a member; empty for those of actions.
+
+    Members say the same for the whole of a scenario; those of `map` what its roads are like.
+    """
+    entry = catalogue().modifiers.get(modifier.name)
+    return "" if entry is None else entry.owner
+
+
 def _path_of(modifier: ir.ModifierCall) -> str:
     return " ".join(argument.value.span.text for argument in modifier.arguments)
 
@@ -171,7 +165,7 @@ def _places(modifier: ir.ModifierCall) -> bool:
     """Whether a modifier says where or how an actor is at an instant."""
     if modifier.name == "along":
         return any(argument.value.type.name in ROUTES for argument in modifier.arguments)
-    return modifier.name in PLACING and says_start(modifier)
+    return can_place(modifier) and says_start(modifier)
 
 
 def _subject(modifier: ir.ModifierCall) -> str:
@@ -210,14 +204,16 @@ def merged(placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
 
 
 def is_instant(node: ir.Behavior) -> bool:
-    """Whether a member takes no time."""
+    """Whether what follows a member still begins at the start."""
     match node:
         case ir.Serial() | ir.Parallel():
             return all(is_instant(member) for member in node.members)
         case ir.OneOf():
             return any(is_instant(member) for member in node.members)
-        case ir.Invoke(action=action):
-            return action in INSTANT
+        case ir.Invoke(owner=owner, action=action):
+            name = f"{owner}.{action}"
+            entry = catalogue().actions.get(name)
+            return name in catalogue().lowered or (entry is not None and entry.is_momentary)
         case ir.Emit() | ir.Finish() | ir.Call():
             return True
         case ir.InvokeScenario() | ir.Wait() | ir.On():

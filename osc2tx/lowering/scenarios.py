@@ -17,11 +17,10 @@ from osc2tx.lowering.declaration_order import in_order_of_use
 from osc2tx.lowering.declarations import DeclarationLowering
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.initial_placement import (
-    MAP_MEMBERS,
-    PLACING,
-    PLACING_MEMBERS,
     PlacementLowering,
+    can_place,
     merged,
+    owner_of,
 )
 from osc2tx.lowering.method_overriding import object_types
 from osc2tx.lowering.modifiers import is_override
@@ -289,8 +288,8 @@ def _member_placements(
         what = statement.actor.span.text if statement.actor else "actor"
         actor = lower_expression(ctx, statement.actor) if statement.actor else None
         for modifier in ModifierLowering(ctx, constraints, what, actor, None).lower(statement):
-            is_start = modifier.at == "start" and modifier.name in PLACING
-            is_placing = is_start or modifier.name in PLACING_MEMBERS
+            is_start = modifier.at == "start" and can_place(modifier)
+            is_placing = is_start or bool(owner_of(modifier))
             if not is_placing or not isinstance(target, sym.FieldSymbol):
                 ctx.unsupported(
                     "OSC508",
@@ -304,7 +303,7 @@ def _member_placements(
                     modifiers=(replace(modifier, comments=()),),
                     span=statement.span,
                     comments=modifier.comments,
-                    of_map=modifier.name in MAP_MEMBERS,
+                    of_map=owner_of(modifier) == "map",
                 )
             )
     return tuple(placements)

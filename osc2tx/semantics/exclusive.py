@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 
+from osc2tx.catalogue import catalogue
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -13,29 +15,17 @@ from osc2tx.semantics.symbols import (
     Symbol,
 )
 from osc2tx.syntax import ast
+from osc2tx_rules import Rule, violations
 
-EXCLUSIVE: Mapping[str, Sequence[frozenset[str]]] = {
-    "position": (
-        frozenset({"distance", "time", "distance_range", "time_range", "at_point", "x"}),
-        frozenset({"ahead_of", "behind", "ahead_of_point", "behind_point", "at_point"}),
-    ),
-    "speed": (
-        frozenset({"speed", "speed_range"}),
-        frozenset({"faster_than", "slower_than", "same_as"}),
-    ),
-    "change_speed": (frozenset({"speed", "speed_range"}),),
-    "acceleration": (frozenset({"acceleration", "acceleration_range"}),),
-    "lateral": (frozenset({"distance", "distance_range"}),),
-    "yaw": (frozenset({"angle", "angle_range"}),),
-    "lane": (frozenset({"side_of", "same_as", "from"}),),
-    "assign_position": (frozenset({"position", "route_point", "odr_point"}),),
-    "change_position": (frozenset({"target_position", "target_st", "target_odr", "target_xyz"}),),
-    "follow_lane": (frozenset({"offset", "offset_range"}),),
-    "follow_path": (frozenset({"absolute", "relative"}),),
-    "follow_trajectory": (frozenset({"absolute", "relative"}),),
-    "replay_path": (frozenset({"absolute", "relative"}),),
-    "replay_trajectory": (frozenset({"absolute", "relative"}),),
-}
+
+class _Written(dict[str, ast.Expression]):
+    """Arguments by parameter; what they are is nothing that these rules ask for."""
+
+    def word(self, name: str) -> None:
+        """No rule looks at words."""
+
+    def number(self, name: str) -> None:
+        """No rule looks at numbers."""
 
 
 def check_exclusive(
@@ -44,14 +34,20 @@ def check_exclusive(
     pairs: Sequence[tuple[FieldSymbol | ParameterSymbol, ast.Expression]],
 ) -> None:
     """Report arguments of a library modifier or action of which only one may be given."""
+    given = _Written({parameter.name: value for parameter, value in pairs})
+    for rule in _rules(callee):
+        if rule.kind == "at_most_one":
+            in_order = tuple(name for name in given if name in rule.of)
+            for broken in violations(f"`{callee.name}`", [replace(rule, of=in_order)], given):
+                assert broken.parameter is not None
+                r.report("OSC408", given[broken.parameter].span, f"`{callee.name}`: {broken.text}")
+
+
+def _rules(callee: Symbol) -> Sequence[Rule]:
     if not isinstance(callee, ModifierSymbol | ActionSymbol) or callee.origin == "user":
-        return
-    for group in EXCLUSIVE.get(callee.name, ()):
-        given = [(p.name, value) for p, value in pairs if p.name in group]
-        if len(given) > 1:
-            (first, _), (second, value) = given[:2]
-            r.report(
-                "OSC408",
-                value.span,
-                f"`{callee.name}` takes `{first}` or `{second}`, not both",
-            )
+        return ()
+    if isinstance(callee, ActionSymbol):
+        action = catalogue().actions.get(callee.qualified_name)
+        return () if action is None else action.rules
+    modifier = catalogue().modifiers.get(callee.name)
+    return () if modifier is None else modifier.rules

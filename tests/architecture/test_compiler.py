@@ -25,11 +25,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     # stages, in the order in which they run
     "syntax": {"diagnostics", "support"},
     "stdlib": {"diagnostics", "support", "syntax", "version"},
-    "semantics": {"diagnostics", "stdlib", "support", "syntax.ast"},
-    "analysis": {"diagnostics", "options", "semantics", "support", "syntax.ast"},
+    "catalogue": {"support"},
+    "semantics": {"catalogue", "diagnostics", "stdlib", "support", "syntax.ast"},
+    "analysis": {"catalogue", "diagnostics", "options", "semantics", "support", "syntax.ast"},
     "ir": {"diagnostics", "support"},
-    "lowering": {"analysis", "diagnostics", "ir", "options", "semantics", "support", "syntax.ast"},
-    "backends": {"diagnostics", "ir", "options", "resources", "support"},
+    "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
+    | {"diagnostics", "options", "support"},
+    "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support"},
     # what runs them
     "formatter": {"diagnostics", "syntax"},
     "config": {"diagnostics.suggestions", "options", "support"},
@@ -48,8 +50,9 @@ MAY_IMPORT: dict[str, set[str]] = {
 # Part or folder -> packages of others that it imports, besides the standard library.
 OTHERS = {
     "syntax": {"antlr4"},
-    "semantics": {"pint"},
-    "backends/py_trees": {"black", "jinja2"},
+    "catalogue": {"osc2tx_rules"},  # the rules of calls are stated and interpreted once
+    "semantics": {"osc2tx_rules", "pint"},
+    "backends/py_trees": {"black", "jinja2", "osc2tx_rules"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "backends/xosc/xml": {"lxml"},
     "cli": {"click", "osc2tx_runtime", "rich"},

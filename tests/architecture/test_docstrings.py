@@ -2,6 +2,7 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -15,31 +16,42 @@ PACKAGES = sorted(
 WORD = re.compile(r"`([a-z_][a-z0-9_]*(?:\.[a-z0-9_]+)*)`")
 
 
-def known_names(init: Path) -> set[str]:
-    """Return the names of all modules, and what this package defines, exports and its words."""
+@cache
+def module_names() -> frozenset[str]:
+    """Return the names of all modules, each with all its ends."""
     names = set()
     for root in ROOTS:
         for path in root.rglob("*.py"):
             parts = path.relative_to(root.parent).with_suffix("").parts
             parts = parts[:-1] if parts[-1] == "__init__" else parts
             names |= {".".join(parts[start:]) for start in range(len(parts))}
-    return names | {path.name for path in init.parent.iterdir()}
+    return frozenset(names)
+
+
+def known_names(init: Path) -> set[str]:
+    """Return the names of all modules, and of what lies in the folder of a package."""
+    return module_names() | {path.name for path in init.parent.iterdir()}
+
+
+@cache
+def names_in(path: Path) -> frozenset[str]:
+    """Return the functions, methods, classes and attributes that a module defines."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.alias):
+            names.add(node.asname or node.name)
+        elif isinstance(node, ast.arg):
+            names.add(node.arg)
+        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            names.add(node.target.id)
+    return frozenset(names)
 
 
 def defined_names(init: Path) -> set[str]:
-    """Return the functions, methods, classes and attributes that a package defines."""
-    names = set()
-    for path in init.parent.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.FunctionDef | ast.ClassDef):
-                names.add(node.name)
-            elif isinstance(node, ast.alias):
-                names.add(node.asname or node.name)
-            elif isinstance(node, ast.arg):
-                names.add(node.arg)
-            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-                names.add(node.target.id)
-    return names
+    """Return what the modules of a package define."""
+    return set().union(*map(names_in, init.parent.rglob("*.py")))
 
 
 def names_member(name: str, modules: set[str]) -> bool:

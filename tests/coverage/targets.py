@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import Protocol
 
 from osc2tx.backends.py_trees.naming import identifier
-from osc2tx.backends.py_trees.runtime_api import STRUCT_CLASSES, runtime_support
+from osc2tx.backends.py_trees.runtime_api import STRUCT_CLASSES
+from osc2tx.catalogue import catalogue, object_tables
 from tests.coverage.library import Item, heirs
 from tests.coverage.sources import Source
 
@@ -50,21 +51,20 @@ class PyTrees:
                 return self._field(item)
 
     def _action(self, item: Item) -> str:
-        support = runtime_support().actions.get(item.name)
-        return "OSC507" if support is None else _all_but(item, support.arguments)
+        entry = catalogue().actions.get(item.name)
+        return "OSC507" if entry is None else _all_but(item, entry.arguments)
 
     def _modifier(self, item: Item) -> str:
-        runtime, name = runtime_support(), item.name.rpartition(".")[2]
-        known = runtime.modifiers.get(name)
-        return "OSC508" if known is None else _all_but(item, known)
+        entry = catalogue().modifiers.get(item.name.rpartition(".")[2])
+        return "OSC508" if entry is None else _all_but(item, entry.parameters)
 
     def _method(self, item: Item) -> str:
-        known = runtime_support().methods.get(item.name)
+        known = object_tables().methods.get(item.name)
         return "OSC503" if known is None else _all_but(item, known, "OSC503")
 
     def _field(self, item: Item) -> str:
         owner, _, name = item.name.partition(".")
-        runtime = runtime_support()
+        runtime = object_tables()
         kind = next((heir for heir in heirs(owner) if heir in runtime.objects), None)
         if kind is None:
             return "OSC501"
@@ -77,7 +77,7 @@ class PyTrees:
 
 def _all_but(item: Item, known: frozenset[str], code: str = "OSC509") -> str:
     """`runs`, with the parameters that are refused."""
-    refused = [f"`{name}`" for name in item.parameters if identifier(name) not in known]
+    refused = [f"`{name}`" for name in item.parameters if not {name, identifier(name)} & known]
     return "runs" if not refused else f"runs; {code}: {', '.join(refused)}"
 
 

@@ -1,13 +1,16 @@
 """The committed modules: fresh, clean by every tool, and running by themselves."""
 
+import runpy
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from py_trees.display import ascii_tree
 
 from osc2tx.testing import assert_build_fresh
 from tests.end_to_end.harness import REPOSITORY, SCENARIOS
+from tests.processes import forked
 
 GENERATED = REPOSITORY / "generated"
 MODULES = sorted(GENERATED.glob("*.py"))
@@ -63,11 +66,10 @@ def test_they_run_by_themselves(module: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda path: path.stem)
 def test_viewers_get_a_tree(module: Path) -> None:
-    code = (
-        "import runpy, py_trees;"
-        f"root = runpy.run_path({str(module)!r})['create_root']();"
-        "print(py_trees.display.ascii_tree(root))"
+    """As with `py-trees-render`; in a copy of this process, as the module stays loaded."""
+    ended = forked(
+        lambda: print(ascii_tree(runpy.run_path(str(module))["create_root"]())),
+        folder=module.parent,
     )
-    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert result.returncode == 0, result.stderr
-    assert module.stem in result.stdout
+    assert ended.code == 0, ended.err
+    assert module.stem in ended.out

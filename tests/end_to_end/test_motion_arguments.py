@@ -8,7 +8,7 @@ import pytest
 
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
-from osc2tx.backends.py_trees.runtime_api import runtime_support
+from osc2tx.catalogue import catalogue
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.options import CompileOptions
@@ -79,17 +79,17 @@ def test_it_is_refused(row: tuple[str, str, str, str], tmp_path: Path) -> None:
 
 def test_every_argument_has_a_row() -> None:
     """All that the runtime lists for motion is tried."""
-    runtime = runtime_support()
+    library = catalogue()
     wanted = {
         (name.partition(".")[2], argument)
-        for name, entry in runtime.actions.items()
+        for name, entry in library.actions.items()
         if name.startswith(MOTION)
         for argument in entry.arguments
     }
     wanted |= {
-        (name, argument.rstrip("_"))
-        for name in {name for name, *_ in ROWS} & set(runtime.modifiers)
-        for argument in runtime.modifiers[name]
+        (name, argument)
+        for name in {name for name, *_ in ROWS} & set(library.modifiers)
+        for argument in library.modifiers[name].parameters
         if (name, argument) not in DIALECT
     }
     tried = {

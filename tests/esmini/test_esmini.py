@@ -22,11 +22,11 @@ from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.processes import HANGING
+from tests.unit.backends.xosc.documents import compiled
 from tests.unit.backends.xosc.played import (
     PLAIN,
     Played,
     compare,
-    compiled,
     spread,
     with_values_of,
     world,

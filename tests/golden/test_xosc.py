@@ -11,16 +11,18 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems, untraced
+from tests.unit.backends.xosc.documents import documents, module_of
 
 HERE = Path(__file__).parent / "xosc"
 CASES = sorted(path.parent for path in HERE.glob("*/input.osc"))
@@ -42,16 +44,19 @@ def given(text: str) -> GivenOptions:
 
 
 @cache
+def compilation_of(case: Path) -> Compilation:
+    """Return the compilation of a case, under the name of its folder."""
+    path = case / "input.osc"
+    options = GivenOptions(target="xosc").over(given(path.read_text(encoding="utf-8")))
+    return Compilation(path, f"{case.name}.osc", options.complete())
+
+
 def written(case: Path, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
     """Return the document of the last scenario of a case."""
-    path = case / "input.osc"
-    options = given(path.read_text(encoding="utf-8"))
-    asked = GivenOptions(
-        target="xosc", xml_version=version, allow_approx=allow_approx or None
-    ).over(options)
-    compilation = Compilation(path, f"{case.name}.osc", asked.complete())
-    assert compilation.ir is not None, compilation.diagnostics
-    return compilation.xml[-1]
+    compilation = compilation_of(case)
+    stated = compilation.options.xml
+    allowed = allow_approx or stated.allow_approx
+    return documents(compilation, replace(stated, version=version, allow_approx=allowed))[-1]
 
 
 def verdict(case: Path, version: XmlVersion) -> str:
@@ -93,28 +98,36 @@ def test_which_version_can_say_it(case: Path, golden: Golden) -> None:
     golden("".join(lines), case / "expected" / "versions.txt")
 
 
-@pytest.mark.parametrize("version", XML_VERSIONS)
 @pytest.mark.parametrize("case", CASES, ids=name)
-def test_documents_are_valid_and_can_end(case: Path, version: XmlVersion) -> None:
-    found = written(case, version, allow_approx=True)
-    assert (found.xml is None) == bool(found.report.obstacles)
+def test_what_is_exact_stays_so_where_approximations_are_allowed(case: Path) -> None:
+    found = written(case, "1.3")
     if found.xml is not None:
-        assert schema_errors(found.xml, version) == []
-        assert story_problems(found.xml) == []
-        assert untraced(found) == []
-    if found.parameters is not None:
-        assert schema_errors(found.parameters, version) == []
+        compilation = compilation_of(case)
+        options = replace(compilation.options.xml, allow_approx=True)
+        *_, allowed = emit(module_of(compilation), options, compilation.path.parent)
+        assert (allowed.xml, allowed.parameters) == (found.xml, found.parameters)
 
 
-@pytest.mark.parametrize("version", XML_VERSIONS)
 @pytest.mark.parametrize("case", CASES, ids=name)
-def test_the_quality_checker_has_no_objection(
-    case: Path, version: XmlVersion, tmp_path: Path
-) -> None:
-    found = written(case, version, allow_approx=True)
-    for text in (found.xml, found.parameters):
-        if text is not None:
-            assert checker_issues(text, tmp_path) == []
+def test_documents_are_valid_and_can_end(case: Path) -> None:
+    for version in XML_VERSIONS:
+        found = written(case, version, allow_approx=True)
+        assert (found.xml is None) == bool(found.report.obstacles), version
+        if found.xml is not None:
+            assert schema_errors(found.xml, version) == [], version
+            assert story_problems(found.xml) == [], version
+            assert untraced(found) == [], version
+        if found.parameters is not None:
+            assert schema_errors(found.parameters, version) == [], version
+
+
+@pytest.mark.parametrize("case", CASES, ids=name)
+def test_the_quality_checker_has_no_objection(case: Path, tmp_path: Path) -> None:
+    for version in XML_VERSIONS:
+        found = written(case, version, allow_approx=True)
+        for text in (found.xml, found.parameters):
+            if text is not None:
+                assert checker_issues(text, tmp_path) == [], version
 
 
 @pytest.mark.slow

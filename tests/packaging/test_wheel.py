@@ -119,9 +119,10 @@ def files_of(package: Path) -> set[str]:
     return set(run(*command, folder=package.parent).split())
 
 
-def test_the_wheel_of_the_runtime_holds_its_package(wheels: Path) -> None:
+def test_the_wheel_of_the_runtime_holds_its_packages(wheels: Path) -> None:
     held = contents(wheel_of(wheels, "osc2tx_runtime"))
-    assert held == files_of(REPOSITORY / "runtime_lib" / "osc2tx_runtime")
+    packages = ("osc2tx_rules", "osc2tx_runtime")
+    assert held == set[str]().union(*(files_of(REPOSITORY / "runtime_lib" / n) for n in packages))
     kinds = {Path(name).suffix for name in held}
     assert kinds == {".py", ".typed", ".xodr", ".js", ".css", ".html"}
 

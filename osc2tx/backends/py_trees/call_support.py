@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.argument_rules import Given, by_name, violations
+from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_name
 from osc2tx.backends.py_trees.combinations import CombinationCheck
-from osc2tx.backends.py_trees.naming import identifier
-from osc2tx.backends.py_trees.runtime_api import RuntimeSupport
+from osc2tx.catalogue import Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.diagnostics.suggestions import nearest
+from osc2tx_rules import Rule, violations
 
 # Names that constructors of actions take for themselves.
 ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
 
 
 class CallCheck:
-    """Checks invocations and placements against what the runtime knows.
+    """Checks invocations and placements against what the runtime carries out.
 
     Args:
-        runtime: Its tables.
+        library: The catalogue.
+        objects: Its tables of objects.
         sink: Where complaints go.
         expressions: Checks expressions.
         lineages: The types of the scenario's objects, each with its bases.
@@ -28,53 +30,52 @@ class CallCheck:
 
     def __init__(
         self,
-        runtime: RuntimeSupport,
+        library: Catalogue,
+        objects: ObjectTables,
         sink: DiagnosticSink,
         expressions: Callable[[Iterable[ir.Expression]], None],
         lineages: Mapping[str, tuple[str, ...]],
     ) -> None:
         """See the class."""
         self._lineages = lineages
-        self._combinations = CombinationCheck(runtime, sink, lineages)
-        self._runtime = runtime
+        self._combinations = CombinationCheck(library, objects, sink, lineages)
+        self._library = library
+        self._objects = objects
         self._sink = sink
         self._expressions = expressions
 
     def placing(self, modifier: ir.ModifierCall) -> None:
         """Check a modifier that places an actor."""
-        if modifier.name not in self._runtime.placement:
+        entry = self._library.modifiers.get(modifier.name)
+        if entry is None or not entry.placement:
             self._sink.report(
                 "OSC508", modifier.span, f"modifier `{modifier.name}` cannot place an actor"
             )
             return
-        known = self._runtime.placement[modifier.name]
-        self._arguments(modifier.arguments, known, f"modifier `{modifier.name}`")
-        self._asked(modifier)
-        self._rules(modifier.name, modifier.span, modifier.arguments)
+        self._modifier_arguments(modifier, entry)
 
     def invocation(self, node: ir.Invoke) -> None:
         """Check an action with its modifiers."""
         key = f"{node.owner}.{node.action}"
-        support = self._runtime.actions.get(key)
-        if support is None and node.is_own:
+        entry = self._library.actions.get(key)
+        if entry is None and node.is_own:
             self._user_action(node, key)
             return
-        if support is None:
-            near = nearest(key, self._runtime.actions)
+        if entry is None:
+            near = nearest(key, self._library.actions)
             help_ = f"the runtime has `{near}`" if near else None
             self._sink.report(
                 "OSC507", node.span, f"the runtime has no action `{key}` yet", help=help_
             )
             return
         self._expressions((node.actor,))
-        self._arguments(node.arguments, support.arguments, f"action `{key}`")
-        self._required(node, key, support.required)
-        self._rules(key, node.span, node.arguments, {"with": None} if node.modifiers else {})
-        if support.moves:
-            self._combinations.check(node, physical=support.physical)
-            for modifier in node.modifiers:
-                self._moving(modifier)
-        self._modifiers(node, key, support.modifiers)
+        self._arguments(node.arguments, entry.arguments, f"action `{key}`")
+        self._required(node, key, entry.required)
+        others = {"with": None} if node.modifiers else {}
+        self._rules(f"`{node.action}`", entry.rules, node.span, node.arguments, others)
+        if entry.moves:
+            self._combinations.check(node, physical=entry.physical)
+        self._modifiers(node, key, entry.modifiers)
 
     def _user_action(self, node: ir.Invoke, key: str) -> None:
         """Check an action that a package of the user carries out: it takes what it declares."""
@@ -86,7 +87,7 @@ class CallCheck:
                     f"`{argument.parameter}` is a word of the runtime's own here; rename it",
                 )
         self._expressions((node.actor, *(argument.value for argument in node.arguments)))
-        self._modifiers(node, key, frozenset(self._runtime.modifiers))
+        self._modifiers(node, key, frozenset(self._library.modifiers))
 
     def _modifiers(self, node: ir.Invoke, key: str, accepted: frozenset[str]) -> None:
         for modifier in node.modifiers:
@@ -94,48 +95,37 @@ class CallCheck:
         self._combinations.twice(node)
 
     def _modifier(self, modifier: ir.ModifierCall, action: str, accepted: frozenset[str]) -> None:
-        starts = modifier.at == "start" and modifier.name in self._runtime.placement
-        if modifier.name not in accepted and not starts:
+        entry = self._library.modifiers.get(modifier.name)
+        starts = modifier.at == "start" and entry is not None and entry.placement
+        if entry is None or (modifier.name not in accepted and not starts):
             self._sink.report(
                 "OSC508",
                 modifier.span,
                 f"action `{action}` cannot honour modifier `{modifier.name}` yet",
             )
             return
-        known = self._runtime.modifiers[modifier.name]
-        if modifier.at == "end" and "at" not in known:
+        if modifier.at == "end" and "at" not in entry.parameters:
             self._sink.report(
                 "OSC509",
                 modifier.span,
                 f"modifier `{modifier.name}` cannot be asked for `at: end` yet",
             )
-        self._arguments(modifier.arguments, known, f"modifier `{modifier.name}`")
-        self._asked(modifier)
-        self._rules(modifier.name, modifier.span, modifier.arguments)
-        self._shape(modifier)
+        self._modifier_arguments(modifier, entry)
+        self._shape(modifier, entry)
 
-    def _asked(self, modifier: ir.ModifierCall) -> None:
-        given = {identifier(argument.parameter) for argument in modifier.arguments}
-        for name in sorted(self._runtime.asked.get(modifier.name, frozenset()) - given):
-            self._sink.report("OSC509", modifier.span, f"modifier `{modifier.name}` needs `{name}`")
+    def _modifier_arguments(self, modifier: ir.ModifierCall, entry: ModifierEntry) -> None:
+        name, arguments = modifier.name, modifier.arguments
+        self._arguments(arguments, entry.parameters, f"modifier `{name}`")
+        for missing in sorted(entry.required - {argument.parameter for argument in arguments}):
+            self._sink.report("OSC509", modifier.span, f"modifier `{name}` needs `{missing}`")
+        self._rules(f"`{name}`", entry.rules, modifier.span, arguments)
 
-    def _moving(self, modifier: ir.ModifierCall) -> None:
-        if modifier.at == "start" and modifier.name in self._runtime.no_start:
-            self._sink.report(
-                "OSC509",
-                modifier.span,
-                f"modifier `{modifier.name}` says nothing about a start",
-                help="leave `at: start` out",
-            )
-        what = "a start" if modifier.at == "start" else f"{modifier.name} while moving"
-        self._rules(what, modifier.span, modifier.arguments, {"at": modifier.at})
-
-    def _shape(self, modifier: ir.ModifierCall) -> None:
+    def _shape(self, modifier: ir.ModifierCall, entry: ModifierEntry) -> None:
         """Report a shape of something else than the modifier is about."""
         for argument in modifier.arguments:
-            if argument.parameter != "shape" or modifier.name not in self._runtime.shapes:
+            if argument.parameter != "shape" or entry.shape is None:
                 continue
-            wanted, value = self._runtime.shapes[modifier.name], argument.value
+            wanted, value = entry.shape, argument.value
             if wanted not in (*self._kinds(value), "any_shape"):
                 self._sink.report(
                     "OSC513",
@@ -164,7 +154,7 @@ class CallCheck:
         self, arguments: tuple[ir.Argument, ...], known: frozenset[str], what: str
     ) -> None:
         for argument in arguments:
-            if identifier(argument.parameter) not in known:
+            if argument.parameter not in known:
                 self._sink.report(
                     "OSC509",
                     argument.span,
@@ -173,7 +163,7 @@ class CallCheck:
             self._expressions((argument.value,))
 
     def _required(self, node: ir.Invoke, action: str, needed: frozenset[str]) -> None:
-        given = {identifier(argument.parameter) for argument in node.arguments}
+        given = {argument.parameter for argument in node.arguments}
         missing = sorted(needed - given)
         if missing:
             names = ", ".join(f"`{name}`" for name in missing)
@@ -183,12 +173,12 @@ class CallCheck:
 
     def _rules(
         self,
-        what: str,
+        subject: str,
+        rules: Sequence[Rule],
         span: Span,
         arguments: tuple[ir.Argument, ...],
-        others: Given | None = None,
+        others: Given = MappingProxyType({}),
     ) -> None:
-        given = {**by_name(arguments), **(others or {})}
-        short = what.partition(" ")[0].rpartition(".")[2]
-        for where, text in violations(short, self._runtime.rules.get(what, ()), span, given):
-            self._sink.report("OSC513", where, text)
+        given = GivenArguments({**by_name(arguments), **others})
+        for broken in violations(subject, rules, given):
+            self._sink.report("OSC513", given.span(broken.parameter, span), broken.text)

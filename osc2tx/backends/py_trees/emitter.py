@@ -15,7 +15,6 @@ from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     API_LEVEL,
     STRUCT_CLASSES,
-    runtime_support,
 )
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
@@ -23,6 +22,7 @@ from osc2tx.backends.py_trees.type_table import TypeTable, class_key
 from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
+from osc2tx.catalogue import object_tables
 from osc2tx.support.portable_names import is_portable
 
 # Names a module may import; a scenario class must not hide them.
@@ -74,7 +74,7 @@ class GeneratedModule:
 def emit(module: ir.Module) -> GeneratedModule:
     """Write the module for one source file with at least one scenario."""
     uses = Uses()
-    classes = NameTable(RUNTIME_CLASSES | runtime_support().enums)
+    classes = NameTable(RUNTIME_CLASSES | object_tables().enums)
     for scenario in module.scenarios:
         plain = scenario.name.rpartition(".")[2]
         classes.add(scenario.key, class_name(plain), "Scenario")

@@ -9,12 +9,12 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     STRUCT_CLASSES,
-    RuntimeSupport,
     constructor_path,
     list_element,
     nested_object,
 )
 from osc2tx.backends.py_trees.type_table import ROOT
+from osc2tx.catalogue import ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.light_dataclass import dataclass
 
@@ -40,16 +40,16 @@ class ObjectCheck:
 
     Args:
         own: The module's own types.
-        runtime: The tables of the runtime.
+        objects: What the runtime can make.
         sink: Where complaints go.
     """
 
     def __init__(
-        self, own: Mapping[str, ir.OwnType], runtime: RuntimeSupport, sink: DiagnosticSink
+        self, own: Mapping[str, ir.OwnType], objects: ObjectTables, sink: DiagnosticSink
     ) -> None:
         """See the class."""
         self._own = own
-        self._runtime = runtime
+        self._tables = objects
         self._sink = sink
 
     def check(self, declaration: ir.Actor | ir.Struct) -> None:
@@ -67,7 +67,7 @@ class ObjectCheck:
         kind = next((name for name in object_.lineage if name in classes), None)
         is_own = object_.lineage[0] in self._own and object_.lineage[-1] in {*self._own, ROOT}
         is_own = is_own and kind is None
-        if not is_own and (kind is None or kind not in self._runtime.objects):
+        if not is_own and (kind is None or kind not in self._tables.objects):
             self._sink.report(
                 "OSC501",
                 object_.span,
@@ -120,12 +120,12 @@ class ObjectCheck:
         inner = nested_object(lineage, member)
         if inner is not None and below:
             return self._can_fix(inner, (inner,), tuple(below))
-        return not below and member in self._runtime.objects[kind]
+        return not below and member in self._tables.objects[kind]
 
     def _needed(self, object_: _Object, kind: str) -> None:
         """Report members that a value cannot do without."""
         given = {constructor_path(object_.lineage, value.path)[0] for value in object_.values}
-        missing = ", ".join(f"`{name}`" for name in sorted(self._runtime.needed[kind] - given))
+        missing = ", ".join(f"`{name}`" for name in sorted(self._tables.needed[kind] - given))
         if missing:
             self._sink.report(
                 "OSC501",

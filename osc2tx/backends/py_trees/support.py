@@ -12,8 +12,8 @@ from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
     STRUCT_CLASSES,
-    runtime_support,
 )
+from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
 
 # CPython gives up on expressions of about 3,000 parts; nobody reads one of this length anyway.
@@ -38,10 +38,10 @@ class _SupportCheck:
         self.own_fields = {(t.name, f.name) for t in own.values() for f in t.fields}
         self.own = own
         self.sink = sink
-        self.runtime = runtime_support()
+        self.objects = object_tables()
         objects = (d for d in scenario.declarations if isinstance(d, ir.Actor | ir.Struct))
         lineages = {each.name: each.lineage for each in objects}
-        self.calls = CallCheck(self.runtime, sink, self.expressions, lineages)
+        self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, lineages)
 
     def run(self) -> None:
         for declaration in self.scenario.declarations:
@@ -97,7 +97,7 @@ class _SupportCheck:
         if isinstance(declaration, ir.Struct) and declaration.value is not None:
             self.expressions((declaration.value,))
             return
-        ObjectCheck(self.own, self.runtime, self.sink).check(declaration)
+        ObjectCheck(self.own, self.objects, self.sink).check(declaration)
         self.expressions(value.value for value in declaration.values)
 
     def behavior(self, node: ir.Behavior) -> None:
@@ -215,7 +215,7 @@ class _SupportCheck:
                     )
                 elif not self.is_readable(part) and self.is_readable(base):
                     self.unreadable(part.span, f"member `{name}` of `{owner}`")
-                elif f"{owner}.{name}" in self.runtime.unknown:
+                elif f"{owner}.{name}" in self.objects.unknown:
                     self.said(part, base)
             case ir.MethodCall(base=ir.ScenarioSelf()):
                 pass  # checked where it is declared
@@ -226,10 +226,10 @@ class _SupportCheck:
                     self.unreadable(part.span, f"a test for actor type `{name}`")
             case ir.MethodCall(owner=owner, method=method, arguments=arguments):
                 key = f"{owner}.{method}"
-                if key not in self.runtime.methods:
+                if key not in self.objects.methods:
                     self.unreadable(part.span, f"method `{key}`")
                 else:
-                    known = self.runtime.methods[key]
+                    known = self.objects.methods[key]
                     for argument in arguments:
                         if identifier(argument.parameter) not in known:
                             self.unreadable(
@@ -256,7 +256,7 @@ class _SupportCheck:
             return True
         if (part.owner, part.name) in self.own_fields:
             return True
-        return part.owner in STRUCT_CLASSES or f"{part.owner}.{part.name}" in self.runtime.fields
+        return part.owner in STRUCT_CLASSES or f"{part.owner}.{part.name}" in self.objects.fields
 
     def unreadable(self, span: Span, what: str) -> None:
         self.sink.report("OSC503", span, f"{what} is not supported by the runtime yet")

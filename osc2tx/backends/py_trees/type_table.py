@@ -11,9 +11,9 @@ from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
     STRUCT_CLASSES,
-    runtime_support,
 )
 from osc2tx.backends.py_trees.uses import Uses
+from osc2tx.catalogue import object_tables
 
 CLASSES = {**ACTOR_CLASSES, **STRUCT_CLASSES}
 
@@ -40,7 +40,7 @@ class TypeTable:
         self._own = {each.name: each for each in own}
         self._classes = classes
         self._uses = uses
-        self._of_actors = runtime_support().reserved | {"fields", "self"}
+        self._of_actors = object_tables().reserved | {"fields", "self"}
         self._of_structs = frozenset(_seen_by_classes(own))
 
     def class_of(self, lineage: Sequence[str]) -> PyName:

@@ -11,10 +11,10 @@ from collections.abc import Iterable
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr, literal
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
-from osc2tx.backends.py_trees.runtime_api import runtime_support
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import UserActionView
+from osc2tx.catalogue import catalogue
 
 
 def action_key(owner: str, action: str) -> str:
@@ -28,7 +28,7 @@ def is_function(node: ir.Invoke) -> bool:
 
 
 def _is_method(owner: str, action: str) -> bool:
-    return f"{owner}.{action}" in runtime_support().actions
+    return f"{owner}.{action}" in catalogue().actions
 
 
 def write_actions(

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
+from pkgutil import iter_modules
 
 from osc2tx import ir
+from osc2tx.backends.xosc import actions
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
 from osc2tx.backends.xosc.facts.run_options import read_signal, read_spawn
@@ -22,26 +24,8 @@ from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.support.light_dataclass import dataclass
 
-HANDLERS = (
-    "acceleration",
-    "environment",
-    "gaps",
-    "lanes",
-    "lateral_modifiers",
-    "movement",
-    "paths",
-    "position_actions",
-    "position_modifiers",
-    "speed_modifiers",
-    "traffic_light_cycles",
-    "traffic_lights",
-    "trailers",
-    "vehicle_lights",
-)
-"""Modules of `actions` that register handlers when they are imported."""
-
-for _module in HANDLERS:
-    import_module(f"{__package__}.actions.{_module}")
+for _module in iter_modules(actions.__path__):  # they register the forms that they write
+    import_module(f"{actions.__name__}.{_module.name}")
 
 
 @dataclass(frozen=True, slots=True)

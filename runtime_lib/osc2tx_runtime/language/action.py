@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, TypeVar
 
+from osc2tx_rules import Rule
 from osc2tx_runtime.errors import (
     USER_CODE_ERRORS,
     ScenarioError,
@@ -12,7 +13,6 @@ from osc2tx_runtime.errors import (
     blame,
     is_own,
 )
-from osc2tx_runtime.language.argument_rules import Rule
 from osc2tx_runtime.language.registry import Method
 from osc2tx_runtime.language.tree.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.language.tree.duration_limits import Duration, Limits

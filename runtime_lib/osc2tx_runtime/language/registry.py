@@ -29,6 +29,7 @@ __all__ = [
     "Ends",
     "Method",
     "MethodRegistry",
+    "Need",
     "action",
     "carried_out",
     "methods",
@@ -43,7 +44,10 @@ LATERAL = "lateral"
 
 _OPTIONS = ("duration", "label")  # what every action takes
 
-Ends = Literal["goal", "open", "instant"]
+Ends = Literal["goal", "open", "instant", "step"]
+Need = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
+"""What a world must have beside moving actors."""
+
 ActionT = TypeVar("ActionT", bound="type[Action]")
 ClassT = TypeVar("ClassT")
 
@@ -55,9 +59,15 @@ class Method:
     Attributes:
         kind: Actor kind of the DSL (`vehicle`).
         name: Method name (`change_lane`).
-        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing.
-        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once.
+        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
+            moves as its modifiers say controls nothing itself.
+        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once,
+            `step` at the next step, where what it assigns can be seen.
         factory: The class that carries it out.
+        places: Whether its arguments say where the actor is.
+        paces: Whether it sets or holds the speed of the actor.
+        needs: What a world must have to carry it out.
+        undeclared: Why the library does not declare it, if it does not.
     """
 
     kind: str
@@ -65,6 +75,10 @@ class Method:
     slots: tuple[str, ...]
     ends: Ends
     factory: type[Action]
+    places: bool = False
+    paces: bool = False
+    needs: tuple[Need, ...] = ()
+    undeclared: str = ""
 
     def signature(self) -> str:
         """Return the call as one writes it: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
@@ -108,6 +122,10 @@ class MethodRegistry:
         *,
         slots: Iterable[str] = (),
         ends: Ends = "goal",
+        places: bool = False,
+        paces: bool | None = None,
+        needs: Iterable[Need] = (),
+        undeclared: str = "",
         replace: bool = False,
     ) -> Callable[[ActionT], ActionT]:
         """Register the decorated `Action` class as method `name` of actors of `kind`.
@@ -117,6 +135,10 @@ class MethodRegistry:
             name: Method name.
             slots: Slots the action claims for as long as it runs.
             ends: When it ends.
+            places: Its arguments say where the actor is.
+            paces: It sets or holds the speed; by default if it claims the longitudinal slot.
+            needs: What a world must have to carry it out.
+            undeclared: Why the library does not declare an action of ours.
             replace: Take the place of a registered class instead of reporting it.
 
         Raises:
@@ -130,7 +152,14 @@ class MethodRegistry:
                     f"{kind}.{name} is registered already, by {known.factory.__qualname__};"
                     " pass replace=True to take its place"
                 )
-            method = Method(kind, name, tuple(slots), ends, factory)
+            claimed = tuple(slots)
+            method = Method(
+                *(kind, name, claimed, ends, factory),
+                places=places,
+                paces=LONGITUDINAL in claimed if paces is None else paces,
+                needs=tuple(needs),
+                undeclared=undeclared,
+            )
             self._methods[kind, name] = method
             if "method" not in vars(factory):  # for instances made without the registry
                 factory.method = method

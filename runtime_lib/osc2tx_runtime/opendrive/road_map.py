@@ -251,6 +251,10 @@ class RoadMap:
 
     def spawn_points(self) -> tuple[LanePosition, ...]:
         """Default start places: driving lanes outside junctions, every 20 m from 10 m."""
+        return self._spawn_points
+
+    @cached_property
+    def _spawn_points(self) -> tuple[LanePosition, ...]:
         return spawn_points(self._roads.values())
 
     def lane_outlines(

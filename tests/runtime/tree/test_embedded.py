@@ -25,7 +25,7 @@ from osc2tx_runtime import (
     rise,
     run_scenario,
 )
-from osc2tx_runtime.domain.modifiers import lane, position, speed
+from osc2tx_runtime.modifiers import lane, position, speed
 
 DOCUMENT = Path(__file__).parents[3] / "docs/trace.md"
 

@@ -19,7 +19,7 @@ DOCUMENT = ROOT / "docs/extending.md"
 
 SCENARIO = """
 from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, Wait, elapsed, main
-from osc2tx_runtime.domain.modifiers import lane, position, speed
+from osc2tx_runtime.modifiers import lane, position, speed
 
 
 class Slow(Scenario):

@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime.domain.actors import Environment, Map, Vehicle
-from osc2tx_runtime.domain.modifiers import lane, position, speed
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
 from osc2tx_runtime.language.scenario import Scenario, within
 from osc2tx_runtime.language.tree import (
@@ -24,6 +23,7 @@ from osc2tx_runtime.language.tree import (
     elapsed,
     rise,
 )
+from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.running.runner import run_scenario
 from osc2tx_runtime.running.settings import RunSettings
 

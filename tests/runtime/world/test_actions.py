@@ -20,7 +20,8 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.errors import ScenarioError, SlotConflict, UnsupportedError
+from osc2tx_runtime.modifiers import (
     acceleration,
     keep_lane,
     lane,
@@ -30,7 +31,6 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.errors import ScenarioError, SlotConflict, UnsupportedError
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

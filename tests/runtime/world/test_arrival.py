@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Pose, Serial, Wait, elapsed, within
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.modifiers import (
     along,
     distance,
     lane,
@@ -18,7 +19,6 @@ from osc2tx_runtime.domain.modifiers import (
     position,
     speed,
 )
-from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.world.guidance import rate_to_place, rate_to_place_and_speed
 from tests.runtime.world.two_cars import TwoCars, scenario
 

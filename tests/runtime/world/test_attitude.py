@@ -23,7 +23,8 @@ from osc2tx_runtime import (
     StationaryObject,
     Vehicle,
 )
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.points_and_poses import Orientation
+from osc2tx_runtime.modifiers import (
     lane,
     location,
     orientation,
@@ -32,7 +33,6 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.domain.points_and_poses import Orientation
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.attitude import tilt_on
 

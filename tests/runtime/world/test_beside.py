@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Call, Map, Parallel, Serial
-from osc2tx_runtime.domain.modifiers import keep_lane, lane, lateral, position, speed
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.modifiers import keep_lane, lane, lateral, position, speed
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -10,7 +10,7 @@ import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Person, Serial
 from osc2tx_runtime.domain.actors import Point
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.modifiers import (
     avoid_collisions,
     keep_position,
     lane,

@@ -15,7 +15,7 @@ from osc2tx_runtime import (
     Vehicle,
 )
 from osc2tx_runtime.domain.actors import OdrPoint, Point
-from osc2tx_runtime.domain.modifiers import position, yaw
+from osc2tx_runtime.modifiers import position, yaw
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

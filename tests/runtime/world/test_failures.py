@@ -8,7 +8,10 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, OdrPoint, Parallel, Person, Point, Pose, Serial, Wait, elapsed
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.paths.path_values import Path, RelativePathSt, Trajectory
+from osc2tx_runtime.domain.points_and_poses import RoutePoint
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
+from osc2tx_runtime.modifiers import (
     along,
     change_lane,
     distance,
@@ -20,9 +23,6 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.domain.paths.path_values import Path, RelativePathSt, Trajectory
-from osc2tx_runtime.domain.points_and_poses import RoutePoint
-from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Environment, Map, Scenario, Serial, Vehicle, Wait, elapsed
-from osc2tx_runtime.domain.modifiers import acceleration, lane, position, speed
+from osc2tx_runtime.modifiers import acceleration, lane, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.commands import Accelerate, LaneChange, SpeedChange

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Serial
-from osc2tx_runtime.domain.modifiers import lane, physical_movement, position, speed
 from osc2tx_runtime.domain.shapes import AnySpeedShape, CommonSpeedShape, OwnShape
+from osc2tx_runtime.modifiers import lane, physical_movement, position, speed
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -22,7 +22,9 @@ from osc2tx_runtime import (
     at_most,
     within,
 )
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
+from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
+from osc2tx_runtime.modifiers import (
     compound_lane_side,
     end_lane,
     lane_side,
@@ -33,8 +35,6 @@ from osc2tx_runtime.domain.modifiers import (
     routes_overlap,
     start_lane,
 )
-from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.opendrive import RoadMap
 
 Load = Callable[[str], RoadMap]

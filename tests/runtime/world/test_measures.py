@@ -7,11 +7,12 @@ from collections.abc import Callable
 
 import pytest
 
+from osc2tx_runtime.domain import capabilities
 from osc2tx_runtime.domain.actors import Person, StationaryObject, Vehicle
-from osc2tx_runtime.domain.capabilities import capabilities
-from osc2tx_runtime.domain.modifiers import MODIFIERS, speed
+from osc2tx_runtime.domain.modifiers import MODIFIERS
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 
@@ -116,15 +117,19 @@ def test_shapes_come_from_field_model_or_kind() -> None:
 
 
 def test_capabilities_list_what_works() -> None:
-    listed = capabilities()
-    drive = listed["actions"]["vehicle.drive"]
+    actions, listed = capabilities.actions(), capabilities.modifiers()
+    drive = actions["vehicle.drive"]
     assert drive["ends"] == "open" and "speed" in drive["modifiers"]
-    assert listed["actions"]["movable_object.change_speed"]["arguments"] == [
+    assert actions["movable_object.change_speed"]["arguments"] == [
         "target",
         "rate_profile",
         "rate_peak",
     ]
-    taken = {name for each in listed["actions"].values() for name in each["modifiers"]}
-    assert taken | set(listed["placement"]) == set(MODIFIERS) == set(listed["modifiers"])
-    assert listed["methods"]["traffic_participant.space_gap"] == ["reference", "direction"]
+    taken = {name for each in actions.values() for name in each["modifiers"]}
+    placing = {name for name, each in listed.items() if each["placement"]}
+    assert taken | placing == set(MODIFIERS) == set(listed)
+    assert capabilities.objects()["methods"]["traffic_participant.space_gap"] == [
+        "reference",
+        "direction",
+    ]
     assert speed(1.0).name == "speed"

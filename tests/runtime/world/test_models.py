@@ -19,8 +19,8 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.domain.modifiers import lane, position, speed
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.modifiers import lane, position, speed
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]

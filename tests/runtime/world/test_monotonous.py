@@ -8,18 +8,12 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Serial
-from osc2tx_runtime.domain.modifiers import (
-    distance,
-    lateral,
-    physical_movement,
-    position,
-    speed,
-)
 from osc2tx_runtime.domain.shapes import (
     AnyPositionShape,
     OwnShape,
 )
 from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.modifiers import distance, lateral, physical_movement, position, speed
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -9,17 +9,6 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Person, Serial
-from osc2tx_runtime.domain.modifiers import (
-    acceleration,
-    change_lane,
-    change_speed,
-    lane,
-    lateral,
-    physical_movement,
-    position,
-    speed,
-    yaw,
-)
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
@@ -33,6 +22,17 @@ from osc2tx_runtime.domain.shapes import (
     OwnShape,
 )
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import (
+    acceleration,
+    change_lane,
+    change_speed,
+    lane,
+    lateral,
+    physical_movement,
+    position,
+    speed,
+    yaw,
+)
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -18,9 +18,9 @@ from osc2tx_runtime import (
     elapsed,
 )
 from osc2tx_runtime.domain.actors import Point, Pose
-from osc2tx_runtime.domain.modifiers import along, physical_movement, position, yaw
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePath
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
+from osc2tx_runtime.modifiers import along, physical_movement, position, yaw
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

@@ -24,15 +24,8 @@ from osc2tx_runtime import (
     elapsed,
     run_scenario,
 )
-from osc2tx_runtime.domain.modifiers import (
-    acceleration,
-    avoid_collisions,
-    lane,
-    lateral,
-    position,
-    speed,
-)
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import acceleration, avoid_collisions, lane, lateral, position, speed
 from tests.runtime.world.two_cars import TwoCars
 
 Made = Callable[[], Behaviour]

@@ -23,7 +23,9 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.routes.map_solver import MapSolver
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.modifiers import (
     along,
     lane,
     lane_side,
@@ -34,8 +36,6 @@ from osc2tx_runtime.domain.modifiers import (
     set_map_file,
     speed,
 )
-from osc2tx_runtime.domain.routes.map_solver import MapSolver
-from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.opendrive import RoadMap
 
 Load = Callable[[str], RoadMap]

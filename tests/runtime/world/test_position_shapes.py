@@ -9,16 +9,6 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Parallel, Pose, within
-from osc2tx_runtime.domain.modifiers import (
-    acceleration,
-    along,
-    along_trajectory,
-    distance,
-    keep_speed,
-    physical_movement,
-    position,
-    speed,
-)
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.domain.shapes import (
@@ -29,6 +19,16 @@ from osc2tx_runtime.domain.shapes import (
     OwnShape,
 )
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.modifiers import (
+    acceleration,
+    along,
+    along_trajectory,
+    distance,
+    keep_speed,
+    physical_movement,
+    position,
+    speed,
+)
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

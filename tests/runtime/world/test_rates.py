@@ -9,14 +9,8 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, Serial
-from osc2tx_runtime.domain.modifiers import (
-    acceleration,
-    distance,
-    physical_movement,
-    position,
-    speed,
-)
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.modifiers import acceleration, distance, physical_movement, position, speed
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

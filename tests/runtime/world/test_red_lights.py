@@ -20,7 +20,7 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.domain.modifiers import avoid_collisions, lane, position, speed
+from osc2tx_runtime.modifiers import avoid_collisions, lane, position, speed
 
 LINE = 149.0  # m: s of all lights of the map, on roads of 150 m
 FRONT = 4.6 - 0.92  # m from the rear axle of a car to its front

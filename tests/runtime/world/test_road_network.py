@@ -10,7 +10,6 @@ import pytest
 
 from osc2tx_runtime import Behaviour, Vehicle, Wait, elapsed
 from osc2tx_runtime.domain.actors import OdrPoint, Point, Pose
-from osc2tx_runtime.domain.modifiers import lane, lateral, position, speed
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePath
 from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
@@ -18,6 +17,7 @@ from osc2tx_runtime.domain.routes.lane_coordinates import along_lane, place_of_r
 from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import lane, lateral, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from tests.runtime.world.two_cars import TwoCars, scenario
 

@@ -35,8 +35,8 @@ from osc2tx_runtime import (
 from osc2tx_runtime import (
     Path as Way,
 )
-from osc2tx_runtime.domain.modifiers import roads_follow_in_junction, routes_are_in_sequence
 from osc2tx_runtime.domain.points_and_poses import Point
+from osc2tx_runtime.modifiers import roads_follow_in_junction, routes_are_in_sequence
 from osc2tx_runtime.running.runner import embedded_world, make_context, place_actors
 
 MAPS = Path(osc2tx_runtime.__file__).parent / "maps"

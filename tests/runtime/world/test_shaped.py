@@ -19,7 +19,9 @@ from osc2tx_runtime import (
     elapsed,
     within,
 )
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.modifiers import (
     along,
     avoid_collisions,
     change_speed,
@@ -31,8 +33,6 @@ from osc2tx_runtime.domain.modifiers import (
     speed,
     yaw,
 )
-from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.errors import UnsupportedError
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

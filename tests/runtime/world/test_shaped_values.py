@@ -18,7 +18,14 @@ from osc2tx_runtime import (
     elapsed,
     within,
 )
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
+from osc2tx_runtime.domain.shapes import (
+    CommonAccelerationShape,
+    CommonLateralShape,
+    CommonSpeedShape,
+)
+from osc2tx_runtime.modifiers import (
     acceleration,
     change_lane,
     change_speed,
@@ -29,13 +36,6 @@ from osc2tx_runtime.domain.modifiers import (
     position,
     speed,
     yaw,
-)
-from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
-from osc2tx_runtime.domain.shapes import (
-    CommonAccelerationShape,
-    CommonLateralShape,
-    CommonSpeedShape,
 )
 from tests.runtime.world.two_cars import TwoCars, scenario
 

@@ -24,7 +24,8 @@ from osc2tx_runtime import (
     methods,
 )
 from osc2tx_runtime.domain.actors import Trailer
-from osc2tx_runtime.domain.modifiers import (
+from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
+from osc2tx_runtime.modifiers import (
     acceleration,
     along,
     along_trajectory,
@@ -43,7 +44,6 @@ from osc2tx_runtime.domain.modifiers import (
     tow_trailer,
     yaw,
 )
-from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]

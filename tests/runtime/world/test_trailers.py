@@ -19,10 +19,10 @@ from osc2tx_runtime import (
     elapsed,
 )
 from osc2tx_runtime.domain.actors import Point, Pose, Trailer
-from osc2tx_runtime.domain.modifiers import lane, position, speed, tow_trailer
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.modifiers import lane, position, speed, tow_trailer
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]

@@ -12,8 +12,8 @@ from osc2tx_runtime import (
     Behaviour,
 )
 from osc2tx_runtime.domain.actors import Pose
-from osc2tx_runtime.domain.modifiers import along_trajectory, physical_movement
 from osc2tx_runtime.domain.paths.path_values import RelativeTrajectory, Trajectory
+from osc2tx_runtime.modifiers import along_trajectory, physical_movement
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

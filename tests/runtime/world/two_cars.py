@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from osc2tx_runtime import Behaviour, Environment, Map, Scenario, Vehicle
-from osc2tx_runtime.domain.modifiers import lane, position, speed
+from osc2tx_runtime.modifiers import lane, position, speed
 
 
 class TwoCars(Scenario):

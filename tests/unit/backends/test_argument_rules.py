@@ -1,4 +1,4 @@
-"""The compiler and the runtime read the same rules, and judge alike."""
+"""The compiler and the runtime see the same calls, and find the same wrong with them."""
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations
@@ -7,17 +7,18 @@ from typing import Any
 import pytest
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.argument_rules import violations
-from osc2tx.backends.py_trees.runtime_api import ArgumentRule, runtime_support
+from osc2tx.backends.py_trees.argument_rules import GivenArguments
+from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import SourceFile, Span
-from osc2tx_runtime.domain.modifiers import MODIFIERS
-from osc2tx_runtime.language.argument_rules import Rule
-from osc2tx_runtime.language.registry import methods
+from osc2tx_rules import Rule, above, at_least, at_least_one, at_most_one, none_of, violations
+from osc2tx_runtime.language.argument_rules import GivenValues
 
 SPAN = Span(SourceFile("x.osc", "x"), 0, 1)
+LIBRARY = catalogue()
 RULES = {
-    **{name: kind.rules for name, kind in MODIFIERS.items()},
-    **{f"{m.kind}.{m.name}": m.factory.rules for m in methods.all()},
+    name: entry.rules
+    for name, entry in (*LIBRARY.modifiers.items(), *LIBRARY.actions.items())
+    if entry.rules
 }
 
 
@@ -47,20 +48,37 @@ def cases(rules: tuple[Rule, ...]) -> Iterator[Mapping[str, Any]]:
                 yield {name: values[name][min(index, len(values[name]) - 1)] for name in names}
 
 
-@pytest.mark.parametrize("name", [name for name in sorted(RULES) if RULES[name]])
+@pytest.mark.parametrize("name", sorted(RULES))
 def test_both_find_the_same(name: str) -> None:
-    table: tuple[ArgumentRule, ...] = runtime_support().rules[name]
-    assert len(table) == len(RULES[name])
     judged = set()
     for given in cases(RULES[name]):
-        for rule, read in zip(RULES[name], table, strict=True):
+        for rule in RULES[name]:
             arguments = {each: argument(each, value) for each, value in given.items()}
-            found = list(violations(name, [read], SPAN, arguments))
-            wrong = rule.violation(given)
-            assert bool(found) == (wrong is not None), (given, rule)
-            judged.add(wrong is None)
+            found = list(violations("it", [rule], GivenArguments(arguments)))
+            assert found == list(violations("it", [rule], GivenValues(given))), (given, rule)
+            judged.add(bool(found))
     assert judged == {True, False}
 
 
-def test_there_are_rules() -> None:
-    assert sum(bool(rules) for rules in RULES.values()) >= 12
+def test_what_each_kind_of_rule_says() -> None:
+    given = GivenValues({"a": 1.0, "b": "left", "c": True})
+    rules = [
+        at_most_one("a", "b"),
+        at_least_one("d", when=["c"], values=["true"]),
+        at_least_one("d", "e"),
+        at_least_one("d", unless=["a"]),
+        none_of("a", when=["b"]),
+        none_of("a", when=["b"], values=["right"]),
+        at_least(1, "a"),
+        at_least(2, "a"),
+        above(1, "a", "b"),
+    ]
+    found = [(each.parameter, each.text) for each in violations("it", rules, given)]
+    assert found == [
+        ("b", "`a` and `b` exclude each other"),
+        (None, "`c: true` needs `d`"),
+        (None, "it needs `d` or `e`"),
+        ("a", "`b` leaves no room for `a`"),
+        ("a", "`a` must not be less than 2"),
+        ("a", "`a` must be above 1"),
+    ]

@@ -7,7 +7,7 @@ import pytest
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.combinations import CombinationCheck
-from osc2tx.backends.py_trees.runtime_api import runtime_support
+from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx_runtime import Vehicle
 from osc2tx_runtime.domain import modifiers as runtime
@@ -80,7 +80,7 @@ def compiler_refuses(*calls: tuple[str, dict[str, Any], str]) -> bool:
         modifiers=tuple(call(*each) for each in calls),
         duration=second,
     )
-    check = CombinationCheck(runtime_support(), sink, {"ego": ("vehicle",)})
+    check = CombinationCheck(catalogue(), object_tables(), sink, {"ego": ("vehicle",)})
     check.check(node, physical=False)
     check.twice(node)
     return sink.has_errors

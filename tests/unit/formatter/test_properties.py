@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,7 @@ def assert_well_formatted(text: str) -> bool:
     return True
 
 
+@cache
 def format_of(text: str) -> str | None:
     """Return the formatted text; `None` if it has syntax errors."""
     sink, source = DiagnosticSink(), SourceFile("s.osc", text)

@@ -1,15 +1,14 @@
 """Names of files and folders never become code, never leave the output folder, never collide."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from osc2tx import cli
 from osc2tx.building.build import BuildOptions, BuildResult, build
 from osc2tx.config import GivenOptions
 from osc2tx.support.portable_names import is_portable
+from tests.processes import forked
 from tests.unit.building.projects import DRIVE, contents, drive, listing, write
 from tests.unit.hostile.texts import MULTILINE, TEXTS, skeleton, strings
 
@@ -193,15 +192,6 @@ def test_a_file_somebody_names_may_be_a_link(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["-o.osc", "--help.osc", "@x.osc", "$HOME.osc", "*.osc"])
 def test_names_on_the_command_line(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text(DRIVE.format(name="top", speed=30))
-    root = Path(__file__).parents[3]
-    folders = os.pathsep.join([str(root), str(root / "runtime_lib")])
-    ended = subprocess.run(
-        [sys.executable, "-m", "osc2tx", "build", "-o", "out", "--", name],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        env={**os.environ, "PYTHONPATH": folders},
-        check=False,
-    )
-    assert ended.returncode == 0, ended.stderr
+    ended = forked(lambda: cli.main(["build", "-o", "out", "--", name]), folder=tmp_path)
+    assert ended.code == 0, ended.err
     assert len(list((tmp_path / "out").glob("*.py"))) == 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
-from osc2tx.backends.xosc.actions.registry import MODIFIERS
+from osc2tx.backends.xosc.actions.registry import MODIFIERS, WITHOUT_FORM
 from osc2tx.backends.xosc.report import Inexpressible
 
 
@@ -13,9 +13,9 @@ def modified(leaf: Leaf) -> tuple[Change, ...]:
     for call in leaf.node.modifiers:
         handler = MODIFIERS.get(call.name)
         if handler is None:
-            leaf.ctx.report.cannot(
-                f"modifier {call.name}", call.span, f"`{call.name}` has no counterpart here"
-            )
+            reason = f"`{call.name}` has no counterpart here"
+            reason = WITHOUT_FORM["modifier"].get(call.name, reason)
+            leaf.ctx.report.cannot(f"modifier {call.name}", call.span, reason)
             continue
         with leaf.ctx.report_as(f"modifier {call.name}", call.span):
             if call.at == "start" and call.name != "speed":

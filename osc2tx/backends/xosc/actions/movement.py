@@ -85,7 +85,7 @@ def _keep_speed(leaf: Leaf) -> Performance:
     return Performance(changes, "open")
 
 
-@action("remain_stationary")
+@action("remain_stationary", takes=(LONGITUDINAL,))
 def _remain_stationary(leaf: Leaf) -> Performance:
     if leaf.state.speed == known(0.0):
         return Performance(modified(leaf), "open")

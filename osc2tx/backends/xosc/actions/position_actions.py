@@ -26,7 +26,7 @@ from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 
-@action("assign_position")
+@action("assign_position", takes=(LATERAL,))
 def _assign_position(leaf: Leaf) -> Performance:
     names = ("position", "route_point", "odr_point")
     name = next((each for each in names if each in leaf.arguments), None)

@@ -16,9 +16,7 @@ from osc2tx.backends.xosc.facts.actors import Linear
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.xml.tree import element
-
-STEADY = frozenset({"change_lane", "drive", "follow_lane", "keep_speed", "move"})
-"""Actions that leave the speed as it is, if no modifier says otherwise."""
+from osc2tx.catalogue import catalogue
 
 
 @modifier("position")
@@ -166,7 +164,8 @@ def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
 
 
 def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
-    if node.action not in STEADY:
+    entry = catalogue().actions.get(f"{node.owner}.{node.action}")
+    if entry is None or (entry.paces and node.action != "keep_speed"):
         return False
     for call in node.modifiers:
         if call.name in ("keep_speed", "keep_lane", "lane", "lateral", "change_lane"):

@@ -1,8 +1,13 @@
-"""Who writes down which action and which modifier."""
+"""The forms that actions and modifiers have in XML, and the reasons why some have none.
+
+Each action and modifier of the library is stated here or where its form is written, by the
+decorators and by `without_form`; `tools/make_catalogue.py` fails if one is missing.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Literal
 
 from osc2tx.backends.xosc.actions.leaf import Modify, Perform, PerformGlobal
 
@@ -10,36 +15,52 @@ ACTIONS: dict[str, Perform] = {}
 GLOBAL_ACTIONS: dict[str, PerformGlobal] = {}
 MODIFIERS: dict[str, Modify] = {}
 
-OF_THE_RUNTIME = frozenset({"vehicle.set_lights"})
-"""Actions that the embedded world has and scenarios declare."""
+TAKES: dict[str, frozenset[str]] = {}
+"""Domains that a form takes over, where it is not what the action or modifier controls."""
+
+AT_START: set[str] = set()
+"""Modifiers whose form is the start of an actor or the choice of the map."""
+
+What = Literal["action", "modifier"]
+WITHOUT_FORM: dict[What, dict[str, str]] = {"action": {}, "modifier": {}}
+"""Why there is no form."""
 
 
-def action(*names: str) -> Callable[[Perform], Perform]:
-    """Register a handler for actions of the library."""
+def action(*names: str, takes: Iterable[str] | None = None) -> Callable[[Perform], Perform]:
+    """Register a handler for actions of the library.
+
+    Args:
+        *names: The actions, without their actors.
+        takes: Domains that the elements take over; by default what the actions control.
+    """
 
     def register(handler: Perform) -> Perform:
         for name in names:
             assert name not in ACTIONS, f"two handlers for action {name}"
             ACTIONS[name] = handler
+            if takes is not None:
+                TAKES[name] = frozenset(takes)
         return handler
 
     return register
 
 
-def modifier(*names: str) -> Callable[[Modify], Modify]:
-    """Register a handler for modifiers of the library."""
+def modifier(*names: str, takes: Iterable[str] | None = None) -> Callable[[Modify], Modify]:
+    """Register a handler for modifiers of the library; parameters as of `action`."""
 
     def register(handler: Modify) -> Modify:
         for name in names:
             assert name not in MODIFIERS, f"two handlers for modifier {name}"
             MODIFIERS[name] = handler
+            if takes is not None:
+                TAKES[f"modifier {name}"] = frozenset(takes)
         return handler
 
     return register
 
 
 def global_action(*names: str) -> Callable[[PerformGlobal], PerformGlobal]:
-    """Register a handler for actions that concern no entity; they take no time."""
+    """Register a handler for actions that concern no entity."""
 
     def register(handler: PerformGlobal) -> PerformGlobal:
         for name in names:
@@ -48,3 +69,18 @@ def global_action(*names: str) -> Callable[[PerformGlobal], PerformGlobal]:
         return handler
 
     return register
+
+
+def at_start(*names: str) -> None:
+    """Say of modifiers that they are written as the start of an actor or the choice of the map."""
+    AT_START.update(names)
+
+
+def without_form(what: What, name: str, reason: str) -> None:
+    """Say of an action or modifier why XML cannot have it; scenarios that use it are refused."""
+    WITHOUT_FORM[what][name] = reason
+
+
+def with_form(what: What) -> set[str]:
+    """Return the actions or modifiers that have a form."""
+    return {*ACTIONS, *GLOBAL_ACTIONS} if what == "action" else {*MODIFIERS, *AT_START}

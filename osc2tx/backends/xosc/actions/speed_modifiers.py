@@ -41,7 +41,7 @@ def _physical(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     return ()  # steps are written for changes that may jump, courses for all others
 
 
-@modifier("avoid_collisions")
+@modifier("avoid_collisions", takes=())
 def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if arguments.get("avoid") is not False:
         leaf.ctx.report.approximate(
@@ -54,12 +54,12 @@ def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
     return ()
 
 
-@modifier("keep_speed", "keep_lane")
+@modifier("keep_speed", "keep_lane", takes=())
 def _keep(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     return ()
 
 
-@modifier("keep_position")
+@modifier("keep_position", takes=(LONGITUDINAL,))
 def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if leaf.state.speed == known(0.0):
         return ()
@@ -190,7 +190,7 @@ def _change_speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tu
 # --- ways ---------------------------------------------------------------------------------------
 
 
-@modifier("distance")
+@modifier("distance", takes=())
 def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     way = arguments.number("distance")
     if way is None:

@@ -22,7 +22,6 @@ from osc2tx.backends.xosc.actions.traffic_lights import (
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.adjacent_members import is_first, is_last
-from osc2tx.backends.xosc.flattening.tree_queries import SWITCHES
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
@@ -84,7 +83,7 @@ def _play_cycles(
 
 def _switches(node: ir.Behavior) -> bool:
     """Whether a member switches traffic lights."""
-    return isinstance(node, ir.Invoke) and node.action in SWITCHES | {"play_cycles"}
+    return isinstance(node, ir.Invoke) and node.owner == "traffic_light_controller"
 
 
 # --- what a scenario says -----------------------------------------------------------------------

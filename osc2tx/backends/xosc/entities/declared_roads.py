@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.map_search import (
     PARTS,
@@ -17,8 +18,11 @@ from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Bounds, Constant, Made, Member, Named
 
-FILES = frozenset({"set_map_file", "set_traffic_lights_control_file"})
-"""Modifiers of the map that name a file."""
+without_form(
+    "modifier",
+    "set_traffic_lights_control_file",
+    "cycles of a file that only the embedded world reads",
+)
 
 
 def stretch_of(ctx: Context, value: Constant | None) -> Stretch | None:
@@ -40,9 +44,9 @@ def check_map(ctx: Context, placement: ir.Placement) -> None:
     """
     for call in placement.modifiers:
         with ctx.report_as(f"modifier {call.name}", call.span):
-            if call.name == "set_traffic_lights_control_file":
-                raise Inexpressible("cycles of a file that only the embedded world reads")
-            if call.name not in FILES:
+            if call.name in WITHOUT_FORM["modifier"]:
+                raise Inexpressible(WITHOUT_FORM["modifier"][call.name])
+            if call.name != "set_map_file":
                 _stretches(ctx)
 
 
@@ -82,7 +86,7 @@ def _stretches(ctx: Context) -> dict[str, Stretch]:
             for placement in ctx.scenario.placements
             if is_map(ctx, placement.actor)
             for call in placement.modifiers
-            if call.name not in FILES
+            if call.name != "set_map_file" and call.name not in WITHOUT_FORM["modifier"]
         ]
         ctx.stretches = found_on(required_roads(ctx), parts, relations)
     return ctx.stretches

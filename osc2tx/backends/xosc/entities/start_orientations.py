@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start
@@ -14,6 +15,8 @@ from osc2tx.backends.xosc.xml.tree import Element, element
 
 AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 """Angle (rad) between the lines that `yaw_measure_by` names."""
+
+at_start("yaw", "orientation")
 
 
 def turned(ctx: Context, start: Start, along: float) -> tuple[float, float | None, float | None]:

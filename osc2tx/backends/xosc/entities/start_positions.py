@@ -5,6 +5,7 @@ from __future__ import annotations
 from osc2tx.backends.xosc.actions.lateral_offsets import offset_in_lane
 from osc2tx.backends.xosc.actions.leaf import Arguments
 from osc2tx.backends.xosc.actions.points_and_lines import start_of_way
+from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import required_roads
@@ -16,6 +17,8 @@ from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.backends.xosc.values.constants import Named
 from osc2tx.backends.xosc.xml.tree import Element, element
+
+at_start("location", "position", "along", "lane", "lateral")
 
 
 def position_of(ctx: Context, start: Start) -> tuple[Element, ActorState]:

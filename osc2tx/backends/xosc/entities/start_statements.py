@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import check_map, is_map
@@ -35,6 +36,8 @@ RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
 TURNS = frozenset({"orientation", "speed", "tow_trailer", "yaw"})
 """Modifiers that name others without a place beside them."""
 
+without_form("modifier", "on_path", "which piece of road it is, only the embedded world finds out")
+
 
 def starts_of(ctx: Context) -> list[Start]:
     """Return the start of each actor; what is wrong with one is in the report."""
@@ -62,6 +65,9 @@ def starts_of(ctx: Context) -> list[Start]:
 
 
 def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placement) -> Start:
+    for call in placement.modifiers:
+        if call.name in WITHOUT_FORM["modifier"]:
+            raise Inexpressible(WITHOUT_FORM["modifier"][call.name], call.span)
     modifiers = {call.name: Arguments(ctx, call.arguments, call) for call in placement.modifiers}
     tow = towing(ctx).get(member.name)
     references = [] if tow is None else [tow]

@@ -6,12 +6,15 @@ from collections.abc import Iterator
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import DRAWBAR
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Named
 from osc2tx.backends.xosc.xml.tree import Element, element
+
+at_start("tow_trailer")
 
 
 def towing(ctx: Context) -> dict[str, str]:

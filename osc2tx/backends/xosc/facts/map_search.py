@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.modifiers.map_files import MAP_MODIFIERS, MapModifier
+from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
@@ -98,7 +98,7 @@ def found_on(
     try:
         for name, wanted in parts.items():
             made[name] = _made(PARTS[wanted.kind], wanted, made)
-        kinds = {cls.name: cls for cls in MAP_MODIFIERS}
+        kinds = {n: each for n, each in MODIFIERS.items() if issubclass(each, MapModifier)}
         modifiers = [_made(kinds[wanted.kind], wanted, made) for wanted in relations]
         solver = MapSolver(roads.map, list(made.values()), [Relation(m, None) for m in modifiers])
         solver.solve()

@@ -7,7 +7,7 @@ from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
-from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, OF_THE_RUNTIME
+from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.user_actions import own_action
 from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
@@ -18,7 +18,7 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import (
     Loom,
     construct_of,
 )
-from osc2tx.backends.xosc.flattening.tree_queries import OPEN_GLOBALS
+from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element
@@ -29,10 +29,10 @@ def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     if node.action in GLOBAL_ACTIONS:
         return _invoke_global(loom, node, start)
     ctx = loom.ctx
-    is_known = not node.is_own or f"{node.owner}.{node.action}" in OF_THE_RUNTIME
+    is_known = entry_of(node) is not None
     leaf_handler = ACTIONS.get(node.action) if is_known else own_action
     if leaf_handler is None:
-        raise Inexpressible(f"there is no counterpart of `{node.owner}.{node.action}`")
+        raise Inexpressible(WITHOUT_FORM["action"][node.action])
     member = ctx.cast.get(ctx.values.actor(node.actor))
     if member is None:
         raise Inexpressible(f"`{node.actor.span.text}` is no entity of the XML")
@@ -116,7 +116,8 @@ def _invoke_global(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
         arguments = Arguments(ctx, node.arguments, node)
         actions = GLOBAL_ACTIONS[node.action](ctx, node, arguments)
         arguments.finish()
-    lasts = node.action in OPEN_GLOBALS
+    entry = entry_of(node)
+    lasts = entry is not None and entry.ends == "open"
     if lasts:
         start = loom.latched(start, node.name)
     if node.modifiers or (not lasts and (node.until or node.duration is not None)):

@@ -5,21 +5,9 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.run_options import plan_starts
-from osc2tx.backends.xosc.flattening.tree_queries import MOVEMENTS, is_instant
+from osc2tx.backends.xosc.flattening.tree_queries import entry_of, is_instant
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Bounds
-
-OPEN = MOVEMENTS | {
-    "follow_lane",
-    "keep_acceleration",
-    "keep_space_gap",
-    "keep_space_headway",
-    "keep_speed",
-    "keep_time_gap",
-    "keep_time_headway",
-    "remain_stationary",
-}
-"""Actions without an end of their own."""
 
 
 def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
@@ -55,8 +43,10 @@ def _bounds(ctx: Context, expression: ir.Expression | None) -> tuple[float, floa
 def is_open(node: ir.Behavior) -> bool:
     """Whether a member goes on for as long as one likes."""
     match node:
-        case ir.Invoke(action=action):
-            return action in OPEN and node.duration is None and not node.until
+        case ir.Invoke():
+            entry = entry_of(node)
+            is_endless = entry is not None and entry.ends == "open"
+            return is_endless and node.duration is None and not node.until
         case ir.Serial(members=members):
             return not node.until and node.duration is None and is_open(members[-1])
         case ir.Parallel(members=members) | ir.OneOf(members=members):

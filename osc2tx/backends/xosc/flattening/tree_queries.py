@@ -3,50 +3,17 @@
 from __future__ import annotations
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
+from osc2tx.catalogue import ActionEntry, catalogue
 
-WEATHER = frozenset({"air", "assign_celestial_position", "clouds", "fog", "rain", "snow", "wind"})
-SWITCHES = frozenset(
-    {
-        "set_bulb_state",
-        "set_group_bulb_state",
-        "set_group_semantic_state",
-        "set_group_state",
-        "set_semantic_state",
-        "set_state",
-    }
-)
-INSTANT = WEATHER | SWITCHES | {"connect_trailer", "disconnect_trailer", "set_lights"}
-"""Actions that take no time, and so bound no `parallel`."""
+DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
+"""Directions of an action that is about the speed; in others it is about the place in the lane."""
 
-OPEN_GLOBALS = frozenset({"play_cycles"})
-"""Actions without entity that go on until something ends them."""
 
-LATERAL_ACTIONS = frozenset(
-    {
-        "assign_orientation",
-        "assign_position",
-        "change_lane",
-        "change_position",
-        "follow_lane",
-        "follow_path",
-        "replay_path",
-    }
-)
-"""Actions on the place across the road, or on the way, that leave the speed alone."""
-
-GAP_ACTIONS = frozenset({"change_space_gap", "keep_space_gap"})
-"""Actions on the speed or on the place across the road, by their direction."""
-
-TIMED_ACTIONS = frozenset({"follow_trajectory", "replay_trajectory"})
-"""Actions on both."""
-
-SPEED_MODIFIERS = frozenset(
-    {"speed", "change_speed", "acceleration", "position", "keep_position", "along_trajectory"}
-)
-LANE_MODIFIERS = frozenset({"along", "along_trajectory", "change_lane", "lane", "lateral"})
-MOVEMENTS = frozenset({"drive", "move", "walk"})
-FREE_SPEED = LATERAL_ACTIONS | MOVEMENTS | INSTANT
+def entry_of(node: ir.Invoke) -> ActionEntry | None:
+    """Return what the catalogue says of an action; `None` for one that the scenario brings."""
+    return catalogue().actions.get(f"{node.owner}.{node.action}")
 
 
 def is_instant(node: ir.Behavior) -> bool:
@@ -56,8 +23,9 @@ def is_instant(node: ir.Behavior) -> bool:
             return node.duration is None and all(is_instant(member) for member in members)
         case ir.OneOf(members=members):
             return all(is_instant(member) for member in members)
-        case ir.Invoke(action=action):
-            return action in INSTANT and node.duration is None
+        case ir.Invoke():
+            entry = entry_of(node)
+            return entry is not None and entry.ends == "instant" and node.duration is None
         case ir.Emit() | ir.Finish() | ir.Call() | ir.On():
             return True
         case ir.InvokeScenario() | ir.Wait():
@@ -116,23 +84,24 @@ def claims(node: ir.Behavior) -> frozenset[tuple[str, str]]:
 
 
 def _domains(node: ir.Invoke) -> frozenset[str]:
-    modifiers = {call.name for call in node.modifiers}
-    domains = set()
-    if node.action not in FREE_SPEED or modifiers & SPEED_MODIFIERS:
-        domains.add(LONGITUDINAL)
-    if node.action in GAP_ACTIONS and _is_sideways(node):
+    entry, modifiers = entry_of(node), catalogue().modifiers
+    slots = () if entry is None else entry.slots
+    if LONGITUDINAL in slots and _is_sideways(node):
         return frozenset((LATERAL,))
-    if node.action in LATERAL_ACTIONS | TIMED_ACTIONS or modifiers & LANE_MODIFIERS:
-        domains.add(LATERAL)
+    domains = {*TAKES.get(node.action, slots)}
+    for call in node.modifiers:
+        domains |= {*TAKES.get(f"modifier {call.name}", modifiers[call.name].slots)}
     return frozenset(domains)
 
 
 def _is_sideways(node: ir.Invoke) -> bool:
-    """Whether a gap is one across the road."""
-    for argument in node.arguments:
-        if argument.parameter == "direction" and isinstance(argument.value, ir.EnumValue):
-            return argument.value.member not in ("ahead", "behind", "longitudinal")
-    return False
+    """Whether an action is about the place across the road by its direction."""
+    return any(
+        argument.parameter == "direction"
+        and isinstance(argument.value, ir.EnumValue)
+        and argument.value.member not in DIRECTIONS_ALONG
+        for argument in node.arguments
+    )
 
 
 def actors_of(node: ir.Behavior) -> tuple[str, ...]:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["AssignAcceleration", "ChangeAcceleration", "KeepAcceleration"]
 
 
-@action("movable_object", "assign_acceleration", slots=(LONGITUDINAL,))
+@action("movable_object", "assign_acceleration", ends="step", slots=(LONGITUDINAL,))
 class AssignAcceleration(OneStepAction):
     """Have an acceleration (m/s^2) over the next step, whatever the limits."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
+from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime.domain.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.placing.initial_state import Spot
@@ -13,7 +14,6 @@ from osc2tx_runtime.domain.planning.motion_action import OneStepAction
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.attitude import Tilt
 
@@ -26,7 +26,14 @@ PLACES = ("position", "route_point", "odr_point", "with")
 Target = Point | RoutePoint | OdrPoint
 
 
-@action("movable_object", "assign_position", slots=(LONGITUDINAL, LATERAL))
+@action(
+    "movable_object",
+    "assign_position",
+    ends="step",
+    slots=(LONGITUDINAL, LATERAL),
+    places=True,
+    paces=False,
+)
 class AssignPosition(OneStepAction):
     """Be somewhere else at the next step; the speed stays.
 
@@ -79,7 +86,7 @@ class AssignPosition(OneStepAction):
         )
 
 
-@action("movable_object", "assign_orientation", slots=(LATERAL,))
+@action("movable_object", "assign_orientation", ends="step", slots=(LATERAL,))
 class AssignOrientation(OneStepAction):
     """Have a heading, pitch and roll at the next step.
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Unpack, cast
 
+from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.modifiers.base import now
@@ -24,7 +25,6 @@ from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, action
 from osc2tx_runtime.opendrive import DRIVING, LanePosition
 from osc2tx_runtime.world.commands import Command

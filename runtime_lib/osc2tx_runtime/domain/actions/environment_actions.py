@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
+from osc2tx_rules import at_least_one
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.planning.motion_action import note_lights
 from osc2tx_runtime.language.action import Action, ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.language.tree.base import Status
 
@@ -83,7 +83,7 @@ def _impossible(name: str, value: float) -> str | None:
     return f"{name.replace('_', ' ')} {value:g}{unit} is {bound}{unit}"
 
 
-@action("environment", "air", ends="instant")
+@action("environment", "air", ends="instant", needs=("weather",))
 class Air(_Weather):
     """Set temperature (K), pressure (Pa) and relative humidity (0 to 1)."""
 
@@ -106,7 +106,7 @@ class Air(_Weather):
         super().__init__(actor, modifiers, values, options)
 
 
-@action("environment", "rain", ends="instant")
+@action("environment", "rain", ends="instant", needs=("weather",))
 class Rain(_Weather):
     """Set the intensity of rain (m/s of water column)."""
 
@@ -120,7 +120,7 @@ class Rain(_Weather):
         super().__init__(actor, modifiers, {"rain_intensity": intensity}, options)
 
 
-@action("environment", "snow", ends="instant")
+@action("environment", "snow", ends="instant", needs=("weather",))
 class Snow(_Weather):
     """Set the intensity of snow (m/s of water column)."""
 
@@ -134,7 +134,7 @@ class Snow(_Weather):
         super().__init__(actor, modifiers, {"snow_intensity": intensity}, options)
 
 
-@action("environment", "wind", ends="instant")
+@action("environment", "wind", ends="instant", needs=("weather",))
 class Wind(_Weather):
     """Set speed (m/s) and direction (rad) of the wind."""
 
@@ -152,7 +152,7 @@ class Wind(_Weather):
         super().__init__(actor, modifiers, values, options)
 
 
-@action("environment", "fog", ends="instant")
+@action("environment", "fog", ends="instant", needs=("weather",))
 class Fog(_Weather):
     """Set the visual range (m)."""
 
@@ -166,7 +166,7 @@ class Fog(_Weather):
         super().__init__(actor, modifiers, {"visual_range": visual_range}, options)
 
 
-@action("environment", "clouds", ends="instant")
+@action("environment", "clouds", ends="instant", needs=("weather",))
 class Clouds(_Weather):
     """Set the cloud cover (okta)."""
 
@@ -180,7 +180,7 @@ class Clouds(_Weather):
         super().__init__(actor, modifiers, {"cloudiness": cloudiness}, options)
 
 
-@action("environment", "assign_celestial_position", ends="instant")
+@action("environment", "assign_celestial_position", ends="instant", needs=("weather",))
 class AssignCelestialPosition(_Weather):
     """Set azimuth (rad from +y, clockwise) and elevation (rad) of the sun or the moon.
 

@@ -156,26 +156,26 @@ class _ChangeGap(_OneAxis):
         return (self.direction == "inside") == right_hand
 
 
-@action("vehicle", "change_space_gap", slots=(LONGITUDINAL,))
+@action("vehicle", "change_space_gap", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeSpaceGap(_ChangeGap):
     """Reach a space (m) between facing ends or sides, in a direction from the reference."""
 
 
-@action("vehicle", "change_time_gap", slots=(LONGITUDINAL,))
+@action("vehicle", "change_time_gap", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeTimeGap(_ChangeGap):
     """Reach a time (s) between facing ends at the speed of the one behind, or between sides."""
 
     timed = True
 
 
-@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,))
+@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeSpaceHeadway(_ChangeGap):
     """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
 
     measure = "headway"
 
 
-@action("vehicle", "change_time_headway", slots=(LONGITUDINAL,))
+@action("vehicle", "change_time_headway", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeTimeHeadway(_ChangeGap):
     """Reach a time (s) between fronts, at the speed of the one behind."""
 
@@ -229,28 +229,40 @@ class _KeepGap(_OneAxis):
         return -(me.time_headway(other) if self.timed else me.space_headway(other))
 
 
-@action("vehicle", "keep_space_gap", slots=(LONGITUDINAL,), ends="open")
+@action("vehicle", "keep_space_gap", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepSpaceGap(_KeepGap):
     """Hold the present space between facing ends, or sides."""
 
 
-@action("vehicle", "keep_time_gap", slots=(LONGITUDINAL,), ends="open")
+@action("vehicle", "keep_time_gap", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepTimeGap(_KeepGap):
     """Hold the present time between facing ends, or sides."""
 
     timed = True
 
 
-@action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open")
-class KeepSpaceHeadway(_KeepGap):
+class _KeepHeadway(_KeepGap):
+    """Holds the distance or time between fronts, which is one along the road."""
+
+    measure = "headway"
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        reference: Vehicle,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, reference=reference, **options)
+
+
+@action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
+class KeepSpaceHeadway(_KeepHeadway):
     """Hold the present distance between fronts."""
 
-    measure = "headway"
 
-
-@action("vehicle", "keep_time_headway", slots=(LONGITUDINAL,), ends="open")
-class KeepTimeHeadway(_KeepGap):
+@action("vehicle", "keep_time_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
+class KeepTimeHeadway(_KeepHeadway):
     """Hold the present time between fronts."""
 
-    measure = "headway"
     timed = True

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
 
+from osc2tx_rules import above, at_least, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
 from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
@@ -12,7 +13,6 @@ from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import above, at_least, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, action
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.language.tree.duration_limits import Duration
@@ -96,7 +96,7 @@ class _OnLane(ShapedAction):
         return None
 
 
-@action("vehicle", "change_lane", slots=(LATERAL,))
+@action("vehicle", "change_lane", slots=(LATERAL,), needs=("lanes",))
 class ChangeLane(_OnLane):
     """End in another lane, aligned with it.
 
@@ -186,7 +186,7 @@ class ChangeLane(_OnLane):
         return 1 if self.drawn_side(count) == "left" else -1
 
 
-@action("vehicle", "follow_lane", slots=(LATERAL,), ends="open")
+@action("vehicle", "follow_lane", slots=(LATERAL,), ends="open", needs=("lanes",))
 class FollowLane(_OnLane):
     """Stay in a lane.
 

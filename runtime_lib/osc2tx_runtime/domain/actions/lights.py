@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["SetLights"]
 
 
-@action("vehicle", "set_lights", ends="instant")
+@action("vehicle", "set_lights", ends="instant", needs=("lights",))
 class SetLights(Action):
     """Switch the lights.
 

@@ -14,10 +14,8 @@ from typing import ClassVar, Unpack
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import (
     Along,
-    AlongTrajectory,
     AvoidCollisions,
     Distance,
-    KeepPosition,
     Lane,
     Lateral,
     Modifier,
@@ -40,7 +38,7 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import Careful, Command
 
 from .modifier_checks import check_modifiers, check_options
-from .modifier_groups import AT_START, LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
+from .modifier_groups import PATH_SHAPERS
 
 __all__ = ["ShapedAction"]
 
@@ -52,13 +50,11 @@ class ShapedAction(ModifiedMotion):
     `drive() with: speed(...)` and `change_lane(...)` run side by side.
 
     Attributes:
-        moves_itself: Whether its slots are its own, or those that modifiers speak of.
         commands_speed: Whether it has a command of its own where it controls the speed.
         stands: Whether it goes nowhere, so that all its modifiers are about where it is.
         own: Slots that the action controls itself.
     """
 
-    moves_itself: ClassVar[bool] = True
     commands_speed: ClassVar[bool] = True
     stands: ClassVar[bool] = False
 
@@ -82,16 +78,12 @@ class ShapedAction(ModifiedMotion):
     @cached_property
     def own(self) -> tuple[str, ...]:
         """Slots that the action controls itself; read when it is complete."""
-        return self.slots if self.moves_itself else ()
+        return self.slots
 
     @cached_property
     def has_goal(self) -> bool:
         """True if a modifier says what is to be reached."""
-        return any(
-            isinstance(modifier, (Distance, *PATH_SHAPERS))
-            or getattr(modifier, "at", "all") == "end"
-            for modifier in self.modifiers
-        )
+        return any(m.facts.bounds or getattr(m, "at", "all") == "end" for m in self.modifiers)
 
     @cached_property
     def follows_path(self) -> bool:
@@ -100,9 +92,7 @@ class ShapedAction(ModifiedMotion):
 
     def takes(self, modifier: Modifier) -> bool:
         """Whether the action can carry out a modifier."""
-        if getattr(modifier, "at", "all") == "start" and isinstance(modifier, AT_START):
-            return True
-        return isinstance(modifier, self.accepts)
+        return modifier.is_start or isinstance(modifier, self.accepts)
 
     def speaks_of(self, slot: str) -> bool:
         """Whether a modifier says something about a slot."""
@@ -120,22 +110,13 @@ class ShapedAction(ModifiedMotion):
                 return (LATERAL,)
             case Along(shape=shape) if shape is not None:
                 return (LONGITUDINAL, LATERAL)
-            case Distance(shape=shape) if shape is not None:
-                return (LONGITUDINAL,)
-            case AlongTrajectory() | KeepPosition():
-                return (LONGITUDINAL, LATERAL)
             case AvoidCollisions(avoid=False):
                 return ()
-            case Distance():
-                timed = self.duration is not None or self.end_is_known
-                return (LONGITUDINAL,) if timed else ()
-            case Along():
-                return (LATERAL,)
+            case Distance(shape=None) if self.duration is None and not self.end_is_known:
+                return ()
             case Orient(yaw=None) if self.movable.lane_bound:
                 return ()
-        if isinstance(modifier, SPEED_SHAPERS):
-            return (LONGITUDINAL,)
-        return (LATERAL,) if isinstance(modifier, (*LANE_SHAPERS, *TURN_SHAPERS)) else ()
+        return modifier.facts.slots
 
     # --- how it runs --------------------------------------------------------------------------
 

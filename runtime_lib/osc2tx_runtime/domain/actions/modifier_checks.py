@@ -2,178 +2,97 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
 
-from osc2tx_runtime.domain.modifiers import Acceleration, Distance, Modifier, Position, Speed
+from osc2tx_rules import Clash, Timing, clashes, is_across
+from osc2tx_runtime.domain.modifiers import MODIFIERS, Modifier, Speed
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.language.argument_rules import check_arguments
-
-from .combinations import (
-    CONFLICTS,
-    CONTRADICTIONS,
-    EXCLUSIVE,
-    MOVING,
-    NO_START,
-    ON_LANES,
-    STARTING,
-    sorts_of,
-)
+from osc2tx_runtime.language.argument_rules import GivenValues
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 
 __all__ = ["check_modifiers", "check_options"]
 
-ModifierT = TypeVar("ModifierT", bound=Modifier)
+RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Call:
+    """A modifier, as the rules see it."""
+
+    modifier: Modifier
+
+    @property
+    def name(self) -> str:
+        return self.modifier.name
+
+    @property
+    def at(self) -> str:
+        return at_of(self.modifier)
+
+    @property
+    def given(self) -> GivenValues:
+        return GivenValues({**self.modifier.given(), "at": self.at})
+
+    @property
+    def shaped(self) -> bool:
+        return isinstance(self.modifier, Speed) and self.modifier.shaped
+
+
+_Clash: TypeAlias = Clash[_Call]
+
+
+def at_of(modifier: Modifier) -> str:
+    """Return when a modifier holds: `start`, `end` or `all`."""
+    return str(getattr(modifier, "at", "all"))
 
 
 def check_modifiers(action: ModifiedMotion) -> None:
-    """Refuses modifiers that contradict each other, or have no effect here.
+    """Refuse modifiers that contradict each other, or have no effect here.
 
     Raises:
         UnsupportedError: They cannot be carried out together, or at that time.
-        ScenarioError: A modifier is given twice.
+        ScenarioError: A modifier is given twice, or without what it needs.
     """
-    lasting, name = action.lasting, action.action_name
-    along = [m for m in lasting if isinstance(m, Speed) and m.direction == "longitudinal"]
-    rest = [m for m in lasting if not isinstance(m, Speed)]
-    for modifier in lasting:
-        _conflicts(action, modifier, along)
-    if action.duration is not None or action.end_is_known:
-        if not _arrives(action, along):
-            _alone(name, along, rest, (Distance,))
-        _alone(name, _of(rest, Acceleration), rest, (Distance,))
-    for kinds in EXCLUSIVE:
-        _exclusive(name, rest, *kinds)
-    _twice(action)
-    _at(action)
-    _contradictions(action)
-    for modifier in lasting:
-        at = getattr(modifier, "at", "all")
-        rules = MOVING.get(modifier.name, ())
-        check_arguments(f"{name}: {modifier.name}", rules, {**modifier.given(), "at": at})
+    calls = [_Call(modifier) for modifier in action.modifiers]
+    timing = Timing(action.duration is not None, action.end_is_known)
+    for clash in clashes(calls, RULES, timing):
+        raise _error(action.action_name, clash)
 
 
-def _conflicts(action: ModifiedMotion, modifier: Modifier, along: Sequence[Speed]) -> None:
-    """Refuses what a modifier leaves no room for."""
-    room = not _shaped(action) and _room_for_place(action, along)
-    for sort in sorted(sorts_of(modifier)):
-        kinds = CONFLICTS.get(sort, ())
-        if sort in ("speed", "acceleration") and room:
-            kinds = tuple(kind for kind in kinds if kind is not Position)
-        others = [m for m in action.lasting if m is not modifier and _is_along(m)]
-        _alone(action.action_name, [modifier], others, kinds)
-
-
-def _is_along(modifier: Modifier) -> bool:
-    """Whether it is no speed across the lane, which leaves room for everything along it."""
-    return not isinstance(modifier, Speed) or modifier.direction == "longitudinal"
-
-
-def _shaped(action: ModifiedMotion) -> bool:
-    """Whether a shape says where the actor is."""
-    return any(position.shape is not None for position in _of(action.lasting, Position))
-
-
-def _room_for_place(action: ModifiedMotion, speeds: Sequence[Speed]) -> bool:
-    """Whether there can be a place beside speeds and accelerations: at the end, when it comes."""
-    ends = all(position.at == "end" for position in _of(action.lasting, Position))
-    rates = [m.at for m in (*speeds, *_of(action.lasting, Acceleration))]
-    return ends and (_arrives(action, speeds) or all(at == "all" for at in rates))
-
-
-def _arrives(action: ModifiedMotion, speeds: Sequence[Speed]) -> bool:
-    """Whether a place and a speed at the end of a known time are asked for."""
-    return (
-        action.end_is_known
-        and all(speed.at == "end" and not speed.shaped for speed in speeds)
-        and all(position.at == "end" for position in _of(action.lasting, Position))
-    )
-
-
-def _of(modifiers: Sequence[Modifier], kind: type[ModifierT]) -> list[ModifierT]:
-    return [modifier for modifier in modifiers if isinstance(modifier, kind)]
-
-
-def _alone(
-    name: str,
-    first: Sequence[Modifier],
-    others: Sequence[Modifier],
-    kinds: tuple[type[Modifier], ...],
-) -> None:
-    for other in others:
-        if first and isinstance(other, kinds) and other not in first:
-            _refuse(name, first[0], other)
-
-
-def _exclusive(name: str, modifiers: Sequence[Modifier], *kinds: type[Modifier]) -> None:
-    found = [modifier for modifier in modifiers if isinstance(modifier, kinds)]
-    for other in found[1:]:
-        if type(other) is not type(found[0]):
-            _refuse(name, found[0], other)
-
-
-def _refuse(name: str, one: Modifier, other: Modifier) -> None:
-    raise UnsupportedError(f"{name}: {one.name} and {other.name} speak of the same thing; give one")
-
-
-def _twice(action: ModifiedMotion) -> None:
-    starts = [m for m in action.modifiers if m not in action.lasting]
-    for group in (action.lasting, starts):
-        found: set[frozenset[str]] = set()
-        for modifier in group:
-            sort = frozenset((modifier.name, *({"lateral speed"} & sorts_of(modifier))))
-            if sort in found:
-                raise ScenarioError(f"{action.action_name} has {modifier.name} twice")
-            found.add(sort)
-
-
-def _at(action: ModifiedMotion) -> None:
-    for modifier in action.modifiers:
-        if getattr(modifier, "at", "all") != "start":
-            continue
-        why = NO_START.get(type(modifier))
-        if why is not None:
-            raise UnsupportedError(f"{action.action_name}: {modifier.name} {why}")
-        what = f"{action.action_name}: {modifier.name}"
-        check_arguments(what, STARTING, {**modifier.given(), "at": "start"})
-
-
-def _contradictions(action: ModifiedMotion) -> None:
-    for one, other in CONTRADICTIONS:
-        said = {
-            (name, value)
-            for modifier in action.modifiers
-            for name, value in modifier.given().items()
-            if isinstance(value, str)
-        }
-        if one in said and other in said:
-            raise UnsupportedError(
-                f"{action.action_name}: {one[1]} and {other[1]} exclude each other"
-            )
+def _error(action: str, clash: _Clash) -> ScenarioError:
+    *_, last = clash.calls
+    match clash.kind:
+        case "same thing":
+            both = " and ".join(call.name for call in clash.calls)
+            return UnsupportedError(f"{action}: {both} speak of the same thing; give one")
+        case "twice":
+            return ScenarioError(f"{action} has {last.name} twice")
+        case "no start":
+            return UnsupportedError(f"{action}: {last.name} {clash.text}")
+        case "contradiction":
+            return UnsupportedError(f"{action}: {clash.text}")
+        case "rule":
+            return ScenarioError(f"{action}: {last.name}: {clash.text}")
 
 
 def check_options(action: ModifiedMotion) -> None:
-    """Refuses what only vehicles on lanes can do; called when the actor is known to be one or not.
+    """Refuse what only vehicles on lanes can do; called when the actor is known to be one or not.
 
     Raises:
         UnsupportedError: The actor follows no lanes.
     """
-    if action.movable.lane_bound:
-        return
+    if not action.movable.lane_bound:
+        for text in _bound_to_lanes(action):
+            raise UnsupportedError(f"{action.action_name}: {text}", action.source or None)
+
+
+def _bound_to_lanes(action: ModifiedMotion) -> Iterator[str]:
     for modifier in action.modifiers:
-        sideways = isinstance(modifier, Speed) and modifier.direction == "lateral"
-        lanes = isinstance(modifier, ON_LANES)
-        starts = getattr(modifier, "at", "all") == "start"
-        if sideways:
-            raise UnsupportedError(
-                f"{action.action_name}: only vehicles on lanes have a lateral speed",
-                action.source or None,
-            )
-        if lanes and not starts:
-            raise UnsupportedError(
-                f"{action.action_name}: {modifier.name} is for vehicles, which follow lanes",
-                action.source or None,
-            )
+        if is_across(_Call(modifier), RULES):
+            yield "only vehicles on lanes have a lateral speed"
+        if modifier.facts.rules.lanes_only and at_of(modifier) != "start":
+            yield f"{modifier.name} is for vehicles, which follow lanes"

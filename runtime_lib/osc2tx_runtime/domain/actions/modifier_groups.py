@@ -21,7 +21,6 @@ from osc2tx_runtime.domain.modifiers import (
 )
 
 __all__ = [
-    "AT_START",
     "LANE_SHAPERS",
     "PATH_SHAPERS",
     "PLACES",
@@ -38,9 +37,6 @@ PATH_SHAPERS = (Along, AlongTrajectory)
 
 PLACES = (Position, Lane, Lateral, Yaw, Orient)
 """What says where an actor is."""
-
-AT_START = (*PLACES, Speed)
-"""What can speak of the start alone."""
 
 SPEED_FREE: tuple[type, ...] = (*SPEED_SHAPERS, PhysicalMovement)
 """What actions on the lane or the pose take."""

@@ -14,7 +14,7 @@ from osc2tx_runtime.domain.modifiers import (
     PhysicalMovement,
     Speed,
 )
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.language.registry import action
 
 from .modifiable import ShapedAction
 from .modifier_groups import LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
@@ -22,14 +22,8 @@ from .modifier_groups import LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHA
 __all__ = ["Drive", "Move", "Walk"]
 
 
-class Movement(ShapedAction):
-    """Moves as the modifiers say, until it is ended from outside or reaches what they say."""
-
-    moves_itself = False
-
-
-@action("movable_object", "move", slots=(LONGITUDINAL, LATERAL), ends="open")
-class Move(Movement):
+@action("movable_object", "move", ends="open")
+class Move(ShapedAction):
     """Move as the modifiers say."""
 
     accepts: ClassVar[tuple[type, ...]] = (
@@ -41,16 +35,21 @@ class Move(Movement):
     )
 
 
-@action("vehicle", "drive", slots=(LONGITUDINAL, LATERAL), ends="open")
-class Drive(Movement):
+@action("vehicle", "drive", ends="open")
+class Drive(ShapedAction):
     """Drive as the modifiers say; without any, on in the lane at the present speed."""
 
     accepts: ClassVar[tuple[type, ...]] = Move.accepts
 
 
-@action("animal", "walk", slots=(LONGITUDINAL, LATERAL), ends="open")
-@action("person", "walk", slots=(LONGITUDINAL, LATERAL), ends="open")
-class Walk(Movement):
+@action(
+    "animal",
+    "walk",
+    ends="open",
+    undeclared="the text of §8.8.4.1 lets animals walk, its types do not",
+)
+@action("person", "walk", ends="open")
+class Walk(ShapedAction):
     """Walk as the modifiers say, straight on or along a path."""
 
     accepts: ClassVar[tuple[type, ...]] = (

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
+from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.paths.path_values import (
@@ -23,7 +24,6 @@ from osc2tx_runtime.domain.planning.path_commands import path_command, trajector
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Command
 
@@ -139,7 +139,7 @@ class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
         return Trajectory(points, relative.time_stamps, relative.interpolation)
 
 
-@action("movable_object", "follow_path", slots=(LATERAL,))
+@action("movable_object", "follow_path", slots=(LATERAL,), places=True)
 class FollowPath(_OnPath):
     """Follow a path as the limits of the actor allow.
 
@@ -158,14 +158,14 @@ class FollowPath(_OnPath):
     replays = False
 
 
-@action("movable_object", "replay_path", slots=(LATERAL,))
+@action("movable_object", "replay_path", slots=(LATERAL,), places=True)
 class ReplayPath(_OnPath):
     """Be on a path exactly, whatever the limits; arguments as of `follow_path`."""
 
     replays = True
 
 
-@action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL))
+@action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
 class FollowTrajectory(_OnTrajectory):
     """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
 
@@ -184,7 +184,7 @@ class FollowTrajectory(_OnTrajectory):
     replays = False
 
 
-@action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL))
+@action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
 class ReplayTrajectory(_OnTrajectory):
     """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`."""
 

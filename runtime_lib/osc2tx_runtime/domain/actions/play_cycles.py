@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["PlayCycles"]
 
 
-@action("traffic_light_controller", "play_cycles", ends="open")
+@action("traffic_light_controller", "play_cycles", ends="open", needs=("traffic_lights",))
 class PlayCycles(SignalAction):
     """Run cycles, again and again, until another action switches one of the lights.
 

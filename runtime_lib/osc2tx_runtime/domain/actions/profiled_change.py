@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
+from osc2tx_rules import above
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.planning.feasibility import check_peak
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.argument_rules import above
 from osc2tx_runtime.world.profiles import PROFILES
 
 from .modifiable import ShapedAction

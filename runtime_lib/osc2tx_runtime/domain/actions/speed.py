@@ -82,7 +82,7 @@ class KeepSpeed(ShapedAction):
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
 
 
-@action("movable_object", "assign_speed", slots=(LONGITUDINAL,))
+@action("movable_object", "assign_speed", ends="step", slots=(LONGITUDINAL,))
 class AssignSpeed(OneStepAction):
     """Have a speed (m/s) at the next step, whatever the limits."""
 

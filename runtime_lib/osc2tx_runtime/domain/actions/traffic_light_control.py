@@ -35,7 +35,7 @@ def _alone(light: TrafficLight) -> Callable[[Signals], tuple[str, ...]]:
     return lambda signals: (light.find(signals),)
 
 
-@action("traffic_light_controller", "set_bulb_state", ends="instant")
+@action("traffic_light_controller", "set_bulb_state", ends="instant", needs=("traffic_lights",))
 class SetBulbState(Switch):
     """Switch one lamp of a box, chosen by its color and symbol."""
 
@@ -54,7 +54,7 @@ class SetBulbState(Switch):
         super().__init__(actor, modifiers, _alone(traffic_light), sync, lamp, options)
 
 
-@action("traffic_light_controller", "set_state", ends="instant")
+@action("traffic_light_controller", "set_state", ends="instant", needs=("traffic_lights",))
 class SetState(Switch):
     """Switch all lamps of a box, in their order."""
 
@@ -70,7 +70,7 @@ class SetState(Switch):
         super().__init__(actor, modifiers, _alone(traffic_light), sync, AllLamps(state), options)
 
 
-@action("traffic_light_controller", "set_semantic_state", ends="instant")
+@action("traffic_light_controller", "set_semantic_state", ends="instant", needs=("traffic_lights",))
 class SetSemanticState(Switch):
     """Let a box say something; ignored if it has no lamps for it."""
 
@@ -86,7 +86,9 @@ class SetSemanticState(Switch):
         super().__init__(actor, modifiers, _alone(traffic_light), sync, Saying(state), options)
 
 
-@action("traffic_light_controller", "set_group_bulb_state", ends="instant")
+@action(
+    "traffic_light_controller", "set_group_bulb_state", ends="instant", needs=("traffic_lights",)
+)
 class SetGroupBulbState(Switch):
     """Switch one lamp in every box of the group that a light belongs to."""
 
@@ -105,7 +107,7 @@ class SetGroupBulbState(Switch):
         super().__init__(actor, modifiers, traffic_light.lights, sync, lamp, options)
 
 
-@action("traffic_light_controller", "set_group_state", ends="instant")
+@action("traffic_light_controller", "set_group_state", ends="instant", needs=("traffic_lights",))
 class SetGroupState(Switch):
     """Switch all lamps of every box of a group."""
 
@@ -121,7 +123,12 @@ class SetGroupState(Switch):
         super().__init__(actor, modifiers, group.lights, sync, AllLamps(state), options)
 
 
-@action("traffic_light_controller", "set_group_semantic_state", ends="instant")
+@action(
+    "traffic_light_controller",
+    "set_group_semantic_state",
+    ends="instant",
+    needs=("traffic_lights",),
+)
 class SetGroupSemanticState(Switch):
     """Let every box of a group say something; boxes without lamps for it ignore it."""
 

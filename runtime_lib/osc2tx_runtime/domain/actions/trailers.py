@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["ConnectTrailer", "DisconnectTrailer"]
 
 
-@action("vehicle", "connect_trailer")
+@action("vehicle", "connect_trailer", needs=("towing",))
 class ConnectTrailer(OneStepAction):
     """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end."""
 
@@ -50,7 +50,7 @@ class ConnectTrailer(OneStepAction):
         self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
 
 
-@action("vehicle", "disconnect_trailer")
+@action("vehicle", "disconnect_trailer", needs=("towing",))
 class DisconnectTrailer(OneStepAction):
     """Uncouple the trailer, which brakes and stands."""
 

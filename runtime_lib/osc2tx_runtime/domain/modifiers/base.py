@@ -7,11 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 
+from osc2tx_rules import Rule
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.argument_rules import Rule, check_arguments
+from osc2tx_runtime.language.argument_rules import check_arguments
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+
+from .facts import ModifierFacts
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.parameters import Range
@@ -123,11 +126,13 @@ class Modifier:
 
     Attributes:
         name: Name in the DSL.
+        facts: What is stated of it at its registration.
         rules: Which parameters go together; the compiler knows them as well.
         shaped_by: The base of shapes that give the course of its value; None: there are none.
     """
 
     name: ClassVar[str] = ""
+    facts: ClassVar[ModifierFacts] = ModifierFacts()
     rules: ClassVar[tuple[Rule, ...]] = ()
     shaped_by: ClassVar[type[AnyShape] | None] = None
 
@@ -138,6 +143,11 @@ class Modifier:
         wanted = self.shaped_by
         if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
             raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")
+
+    @property
+    def is_start(self) -> bool:
+        """Whether it is a demand on the start alone."""
+        return getattr(self, "at", "all") == "start" and self.facts.rules.starts
 
     def given(self) -> dict[str, Any]:
         """Parameters with values that are not those of a modifier without arguments."""

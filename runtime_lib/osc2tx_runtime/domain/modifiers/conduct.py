@@ -6,10 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from osc2tx_rules import Sort
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
 from osc2tx_runtime.enums import MovementOptions
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, now
+from .facts import COURSE, LANE, SIDE
+from .registry import modifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors.parts import Towable
@@ -26,14 +30,30 @@ __all__ = [
 ]
 
 
+@modifier("physical_movement")
 @dataclass(frozen=True, slots=True)
 class PhysicalMovement(Modifier):
     """Whether a quantity may jump to its value."""
 
-    name = "physical_movement"
     option: MovementOptions = "must_be_physical"
 
 
+@modifier(
+    "along",
+    slots=(LATERAL,),
+    topics=(LANE, SIDE),
+    sorts=(
+        Sort(
+            "course along a route",
+            given=("shape",),
+            excludes=(COURSE, "speed", "acceleration", "distance"),
+        ),
+    ),
+    no_start="does not take effect at the start; use position(at: start) for a place on it",
+    placement=True,
+    places=True,
+    bounds=True,
+)
 @dataclass(frozen=True, slots=True)
 class Along(MovementModifier):
     """A path to move along, or a route of the map; then in its lanes, from wherever one is.
@@ -45,7 +65,6 @@ class Along(MovementModifier):
         shape: Course of the metres along it, from its start.
     """
 
-    name = "along"
     shaped_by = AnyPositionShape
     route: Path | Route | Callable[[], Path | Route]
     start_offset: Value = 0.0
@@ -60,16 +79,30 @@ class Along(MovementModifier):
         return found
 
 
+@modifier(
+    "along_trajectory",
+    slots=(LONGITUDINAL, LATERAL),
+    topics=(COURSE, LANE, SIDE),
+    no_start="does not take effect at the start; use position(at: start)",
+    places=True,
+    paces=True,
+    bounds=True,
+)
 @dataclass(frozen=True, slots=True)
 class AlongTrajectory(MovementModifier):
     """A trajectory to move along; offsets as for `along`."""
 
-    name = "along_trajectory"
     trajectory: Trajectory | Callable[[], Trajectory]
     start_offset: Value = 0.0
     end_offset: Value = 0.0
 
 
+@modifier(
+    "on_path",
+    placement=True,
+    needs=("map",),
+    undeclared="what `drive(path)` and `walk(path)` of dialect `carla` become",
+)
 @dataclass(frozen=True, slots=True)
 class OnPath(Modifier):
     """Starts on a piece of road, wherever there is room if nothing else says where.
@@ -78,10 +111,10 @@ class OnPath(Modifier):
         path: The piece of road.
     """
 
-    name = "on_path"
     path: RoadPath
 
 
+@modifier("avoid_collisions", slots=(LONGITUDINAL,))
 @dataclass(frozen=True, slots=True)
 class AvoidCollisions(Modifier):
     """Whether to slow down for what is ahead in the lane.
@@ -90,13 +123,12 @@ class AvoidCollisions(Modifier):
     it, because scenarios of near misses and crashes are what most people write.
     """
 
-    name = "avoid_collisions"
     avoid: bool = True
 
 
+@modifier("tow_trailer", placement=True, needs=("towing",))
 @dataclass(frozen=True, slots=True)
 class TowTrailer(Modifier):
     """A trailer that is coupled from the start."""
 
-    name = "tow_trailer"
     trailer: Towable

@@ -6,11 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_rules import Sort, at_least, at_least_one, at_most_one
 from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
 from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
-from osc2tx_runtime.language.argument_rules import at_least, at_least_one, at_most_one
+from osc2tx_runtime.language.registry import LATERAL
 
 from .base import Modifier, MovementModifier, Value, now, wanted
+from .facts import LANE, SIDE
+from .registry import modifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
@@ -21,6 +24,15 @@ _EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left
 __all__ = ["ChangeLane", "KeepLane", "Lane", "Lateral"]
 
 
+@modifier(
+    "lane",
+    slots=(LATERAL,),
+    topics=(LANE,),
+    lanes_only=True,
+    placement=True,
+    places=True,
+    needs=("lanes",),
+)
 @dataclass(frozen=True, slots=True)
 class Lane(MovementModifier):
     """A lane.
@@ -34,10 +46,9 @@ class Lane(MovementModifier):
         shape: Course on the way there: of the place left of the centre of the lane.
     """
 
-    name = "lane"
     shaped_by = AnyLateralShape
     rules = (
-        at_most_one("same_as", "side_of"),
+        at_most_one("same_as", "side_of", "from_"),
         at_least_one("side", when=["side_of"]),
         at_least(1, "lane", unless=["side_of"]),  # the outermost one is 1
         at_least(0, "lane", when=["side_of"]),
@@ -60,6 +71,16 @@ class Lane(MovementModifier):
         return self.same_as or self.side_of
 
 
+@modifier(
+    "lateral",
+    slots=(LATERAL,),
+    topics=(SIDE,),
+    sorts=(Sort("place beside an actor", given=("side_of",), excludes=(LANE,)),),
+    lanes_only=True,
+    placement=True,
+    places=True,
+    needs=("lanes",),
+)
 @dataclass(frozen=True, slots=True)
 class Lateral(MovementModifier):
     """Place across the lane, or beside another actor.
@@ -74,7 +95,6 @@ class Lateral(MovementModifier):
         shape: Course of the distance, and its value if none is given here.
     """
 
-    name = "lateral"
     shaped_by = AnyLateralShape
     rules = (
         at_most_one("distance", "distance_range"),
@@ -121,6 +141,14 @@ class Lateral(MovementModifier):
         return left + _EDGE[other] * other_width - _EDGE[own] * own_width
 
 
+@modifier(
+    "change_lane",
+    slots=(LATERAL,),
+    topics=(LANE,),
+    no_start="cannot change the lane at the start",
+    lanes_only=True,
+    needs=("lanes",),
+)
 @dataclass(frozen=True, slots=True)
 class ChangeLane(MovementModifier):
     """Lanes to the side of the lane at the start of the action.
@@ -131,7 +159,6 @@ class ChangeLane(MovementModifier):
         shape: As of `lane`.
     """
 
-    name = "change_lane"
     shaped_by = AnyLateralShape
     lane: int | Callable[[], int] = 1
     side: SideLeftRight | None = None
@@ -143,8 +170,7 @@ class ChangeLane(MovementModifier):
         return int(now(self.lane))
 
 
+@modifier("keep_lane", slots=(LATERAL,), topics=(LANE,), lanes_only=True, needs=("lanes",))
 @dataclass(frozen=True, slots=True)
 class KeepLane(Modifier):
     """The lane at the start of the action."""
-
-    name = "keep_lane"

@@ -1,4 +1,8 @@
-"""Base of the map modifiers: relations between stretches of a map."""
+"""Base of the map modifiers: what declared roads and lanes are like (DSL 8.12.2.2).
+
+Each is a relation between stretches of the map; `rows` lists those for which it holds, in a fixed
+order. `MapSolver` chooses among them before the start.
+"""
 
 from __future__ import annotations
 

@@ -15,12 +15,14 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import ScenarioError
 
 from .map_base import Known, MapModifier, Row, fits
+from .registry import modifier
 
 __all__ = ["CrossingConnects", "implied"]
 
 _SAME = 0.05  # m along a lane
 
 
+@modifier("crossing_connects", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class CrossingConnects(MapModifier):
     """A crossing leads straight from the middle of one lane to that of another.
@@ -37,7 +39,6 @@ class CrossingConnects(MapModifier):
         start_angle: Between the first lane and the crossing (rad), as seen from that lane.
     """
 
-    name = "crossing_connects"
     leads: ClassVar[bool] = True
     crossing: Crossing
     start_lane: RoadPart | None = None

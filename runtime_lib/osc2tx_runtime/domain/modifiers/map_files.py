@@ -1,8 +1,4 @@
-"""Map modifiers: what declared roads and lanes are like (DSL 8.12.2.2).
-
-Each is a relation between stretches of the map; `rows` lists those for which it holds, in a fixed
-order. `MapSolver` chooses among them before the start.
-"""
+"""Map modifiers that name files (DSL 8.12.2.2.11, 8.12.2.2.12)."""
 
 from __future__ import annotations
 
@@ -12,38 +8,16 @@ from dataclasses import dataclass
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 
 from .map_base import Known, MapModifier, Row
-from .map_crossings import CrossingConnects
-from .map_lanes import CompoundLaneSide, EndLane, LaneSide, NumberOfLanes, StartLane
-from .map_routes import (
-    RoadsFollowInJunction,
-    RoutesAreInSequence,
-    RoutesAreOpposite,
-    RoutesOverlap,
-)
+from .registry import modifier
 
-__all__ = [
-    "MAP_MODIFIERS",
-    "CompoundLaneSide",
-    "CrossingConnects",
-    "EndLane",
-    "LaneSide",
-    "MapModifier",
-    "NumberOfLanes",
-    "RoadsFollowInJunction",
-    "RoutesAreInSequence",
-    "RoutesAreOpposite",
-    "RoutesOverlap",
-    "SetMapFile",
-    "SetTrafficLightsControlFile",
-    "StartLane",
-]
+__all__ = ["SetMapFile", "SetTrafficLightsControlFile"]
 
 
+@modifier("set_map_file", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class SetMapFile(MapModifier):
     """The file of the map; says the same as the field `map_file`."""
 
-    name = "set_map_file"
     file: str
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
@@ -51,30 +25,13 @@ class SetMapFile(MapModifier):
         yield {}
 
 
+@modifier("set_traffic_lights_control_file", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class SetTrafficLightsControlFile(MapModifier):
     """The file with the cycles of the traffic lights; see `control_file` for its format."""
 
-    name = "set_traffic_lights_control_file"
     file: str
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
         """One, about nothing."""
         yield {}
-
-
-MAP_MODIFIERS: tuple[type[MapModifier], ...] = (
-    SetMapFile,
-    SetTrafficLightsControlFile,
-    NumberOfLanes,
-    RoutesAreInSequence,
-    RoadsFollowInJunction,
-    RoutesOverlap,
-    LaneSide,
-    CompoundLaneSide,
-    StartLane,
-    EndLane,
-    RoutesAreOpposite,
-    CrossingConnects,
-)
-"""Modifiers of maps that have an effect."""

@@ -13,10 +13,12 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.enums import Directionality, LaneType, LaneUse, SideLeftRight
 
 from .map_base import Known, MapModifier, Row, fits
+from .registry import modifier
 
 __all__ = ["CompoundLaneSide", "EndLane", "LaneSide", "NumberOfLanes", "StartLane"]
 
 
+@modifier("number_of_lanes", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class NumberOfLanes(MapModifier):
     """A route has so many lanes: both directions of a road, one of a lane section.
@@ -29,7 +31,6 @@ class NumberOfLanes(MapModifier):
         directionality: In which directions.
     """
 
-    name = "number_of_lanes"
     route: RoadPart
     num_of_lanes: int
     lane_type: LaneType | None = None
@@ -65,6 +66,7 @@ class NumberOfLanes(MapModifier):
         )
 
 
+@modifier("lane_side", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class LaneSide(MapModifier):
     """A lane is so many lanes beside another one, in the same direction.
@@ -77,7 +79,6 @@ class LaneSide(MapModifier):
         lane_section: The section that both belong to.
     """
 
-    name = "lane_side"
     lane1: RoadPart
     side: SideLeftRight
     lane2: RoadPart
@@ -106,6 +107,7 @@ def _beside(
             yield lanes[index + step], second
 
 
+@modifier("compound_lane_side", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class CompoundLaneSide(MapModifier):
     """A compound lane is so many lanes beside another one, over its whole length.
@@ -118,7 +120,6 @@ class CompoundLaneSide(MapModifier):
         route: The road that both belong to.
     """
 
-    name = "compound_lane_side"
     lane1: RoadPart
     side: SideLeftRight
     lane2: RoadPart
@@ -145,11 +146,11 @@ class CompoundLaneSide(MapModifier):
         return (one, other) in _beside(graph.lanes_of(section), self.side, self.count)
 
 
+@modifier("start_lane", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class StartLane(MapModifier):
     """A lane that begins here: no lane of the section before leads to it."""
 
-    name = "start_lane"
     lane: RoadPart
     forwards: ClassVar[bool] = False
 
@@ -161,9 +162,9 @@ class StartLane(MapModifier):
                 yield {"lane": lane}
 
 
+@modifier("end_lane", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class EndLane(StartLane):
     """A lane that ends here: it leads to no lane of the section after."""
 
-    name = "end_lane"
     forwards: ClassVar[bool] = True

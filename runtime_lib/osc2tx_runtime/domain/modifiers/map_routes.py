@@ -13,6 +13,7 @@ from osc2tx_runtime.enums import JunctionDirection, LateralOverlapKind, RouteOve
 from osc2tx_runtime.errors import UnsupportedError
 
 from .map_base import Known, MapModifier, Row, fits
+from .registry import modifier
 
 __all__ = ["RoadsFollowInJunction", "RoutesAreInSequence", "RoutesAreOpposite", "RoutesOverlap"]
 
@@ -26,6 +27,7 @@ _TURNS: Mapping[JunctionDirection, float] = {
 }
 
 
+@modifier("routes_are_in_sequence", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoutesAreInSequence(MapModifier):
     """One route follows another: a lane at the end of it leads to one at the begin of the other.
@@ -36,7 +38,6 @@ class RoutesAreInSequence(MapModifier):
         road: The road that contains both.
     """
 
-    name = "routes_are_in_sequence"
     preceding: RoadPart
     succeeding: RoadPart
     road: RoadPart | None = None
@@ -91,6 +92,7 @@ def _onward(graph: RoadGraph, stretch: Stretch) -> Iterator[Stretch]:
                 yield from graph.after(after)
 
 
+@modifier("roads_follow_in_junction", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoadsFollowInJunction(MapModifier):
     """A way through a junction from one road to another.
@@ -108,7 +110,6 @@ class RoadsFollowInJunction(MapModifier):
         resulting_route: In-road, lane in between and out-road.
     """
 
-    name = "roads_follow_in_junction"
     junction: RoadPart | None = None
     in_road: RoadPart | None = None
     out_road: RoadPart | None = None
@@ -156,6 +157,7 @@ class RoadsFollowInJunction(MapModifier):
         return fits.get(self.direction, not any(fits.values()))
 
 
+@modifier("routes_overlap", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoutesOverlap(MapModifier):
     """Two routes run side by side, or one on the other, over a part of the same road.
@@ -167,7 +169,6 @@ class RoutesOverlap(MapModifier):
             start, its end, a part `inside` of it; `other`: more than that.
     """
 
-    name = "routes_overlap"
     route1: RoadPart
     route2: RoadPart
     overlap_kind: RouteOverlapKind
@@ -229,6 +230,7 @@ def _extent(graph: RoadGraph, stretch: Stretch) -> dict[str, tuple[float, float]
     return {stretch.road: (section.begin, section.end)}
 
 
+@modifier("routes_are_opposite", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoutesAreOpposite(MapModifier):
     """Two routes of one road run in opposite directions.
@@ -240,7 +242,6 @@ class RoutesAreOpposite(MapModifier):
         lateral_overlap: Whether they share lanes: `always` needs lanes for both directions.
     """
 
-    name = "routes_are_opposite"
     route1: RoadPart
     route2: RoadPart
     containing_road: RoadPart | None = None

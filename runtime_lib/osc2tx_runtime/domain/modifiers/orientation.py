@@ -6,11 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_rules import at_least_one, at_most_one, none_of
 from osc2tx_runtime.domain.shapes import AnyShape, OwnShape
 from osc2tx_runtime.enums import OrientationMeasuredBy, YawMeasureBy
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one, none_of
+from osc2tx_runtime.language.registry import LATERAL
 
 from .base import MovementModifier, Value, value_of, wanted
+from .facts import LANE, SIDE
+from .registry import modifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
@@ -22,6 +25,7 @@ BETWEEN_AXES = ("length_to_length", "length_to_width", "width_to_length", "width
 __all__ = ["Orient", "Yaw"]
 
 
+@modifier("yaw", slots=(LATERAL,), topics=(LANE, SIDE), placement=True)
 @dataclass(frozen=True, slots=True)
 class Yaw(MovementModifier):
     """Heading (rad) against the road, or against another actor.
@@ -36,7 +40,6 @@ class Yaw(MovementModifier):
             for there are no common ones of angles.
     """
 
-    name = "yaw"
     shaped_by = AnyShape
     rules = (
         at_most_one("angle", "angle_range"),
@@ -54,6 +57,7 @@ class Yaw(MovementModifier):
         return wanted(self.angle, self.angle_range, self.shape)
 
 
+@modifier("orientation", slots=(LATERAL,), topics=(LANE, SIDE), placement=True)
 @dataclass(frozen=True, slots=True)
 class Orient(MovementModifier):
     """Attitude (rad) against the road, the world or another actor: the angles that are given.
@@ -71,7 +75,6 @@ class Orient(MovementModifier):
         shape: Course of the yaw, as of `yaw`.
     """
 
-    name = "orientation"
     shaped_by = AnyShape
     rules = (
         at_least_one("yaw", "pitch", "roll"),

@@ -6,10 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from osc2tx_rules import Sort, at_least_one, at_most_one, none_of
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one, none_of
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, band_of, wanted
+from .facts import COURSE
+from .registry import modifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
@@ -21,6 +24,28 @@ REFERENCES = ("ahead_of", "behind", "ahead_of_point", "behind_point")
 __all__ = ["Distance", "KeepPosition", "Location", "Position"]
 
 
+@modifier(
+    "position",
+    slots=(LONGITUDINAL,),
+    topics=(COURSE,),
+    sorts=(
+        Sort("place on the lane", lacks=("ahead_of", "behind"), excludes=("along",)),
+        Sort(
+            "course of the place",
+            given=("shape",),
+            excludes=(COURSE, "speed", "acceleration", "distance"),
+        ),
+    ),
+    lanes_only=True,
+    while_moving=(
+        at_least_one("ahead_of", "behind", "shape", when=["at"], values=["all"]),
+        none_of("at_point", when=["project_on_route"], values=["false"]),
+    ),
+    placement=True,
+    places=True,
+    orders=("ahead_of", "behind"),
+    amounts=("distance", "time", "distance_range", "time_range"),
+)
 @dataclass(frozen=True, slots=True)
 class Position(MovementModifier):
     """Place along the road, or in the world.
@@ -46,7 +71,6 @@ class Position(MovementModifier):
             value if none is given here.
     """
 
-    name = "position"
     shaped_by = AnyPositionShape
     rules = (
         at_most_one("ahead_of", "behind", "ahead_of_point", "behind_point"),
@@ -107,21 +131,34 @@ class Position(MovementModifier):
         return self.at_point is not None or self.x is not None
 
 
+@modifier("location", placement=True, places=True)
 @dataclass(frozen=True, slots=True)
 class Location(Modifier):
     """A fixed pose of the reference point, for objects that never move."""
 
-    name = "location"
     pose: Pose
 
 
+@modifier("keep_position", slots=(LONGITUDINAL, LATERAL), topics=(COURSE,), paces=True)
 @dataclass(frozen=True, slots=True)
 class KeepPosition(Modifier):
     """The place in the world at the start of the action."""
 
-    name = "keep_position"
 
-
+@modifier(
+    "distance",
+    slots=(LONGITUDINAL,),
+    sorts=(
+        Sort(
+            "course of the way",
+            given=("shape",),
+            excludes=(COURSE, "speed", "acceleration", "distance"),
+        ),
+    ),
+    no_start="is covered during the action, not at its start",
+    paces=True,
+    bounds=True,
+)
 @dataclass(frozen=True, slots=True)
 class Distance(MovementModifier):
     """Way (m) covered during the action: it ends then, or takes exactly its duration for it.
@@ -131,7 +168,6 @@ class Distance(MovementModifier):
         shape: Course of the metres.
     """
 
-    name = "distance"
     shaped_by = AnyPositionShape
     distance: Value
     shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_rules import LATERAL_SPEED, Sort, at_least_one, at_most_one
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
     AnySpeedShape,
@@ -15,9 +16,11 @@ from osc2tx_runtime.domain.shapes import (
 )
 from osc2tx_runtime.enums import DynamicProfile, LonLat
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.argument_rules import at_least_one, at_most_one
+from osc2tx_runtime.language.registry import LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, course_of, value_of, wanted
+from .facts import COURSE, LANE, SIDE
+from .registry import modifier
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
@@ -26,6 +29,16 @@ if TYPE_CHECKING:
 __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]
 
 
+@modifier(
+    "speed",
+    slots=(LONGITUDINAL,),
+    excludes=(COURSE,),
+    sorts=(Sort(LATERAL_SPEED, given=("direction",), value="lateral", excludes=(LANE, SIDE)),),
+    placement=True,
+    paces=True,
+    orders=("faster_than", "slower_than"),
+    amounts=("speed", "speed_range"),
+)
 @dataclass(frozen=True, slots=True)
 class Speed(MovementModifier):
     """Speed, absolute or relative to another actor.
@@ -43,7 +56,6 @@ class Speed(MovementModifier):
         shape: Course of the speed or difference, and its value if none is given here.
     """
 
-    name = "speed"
     shaped_by = AnySpeedShape
     rules = (
         at_most_one("speed", "speed_range"),
@@ -101,6 +113,13 @@ class Speed(MovementModifier):
         return (-high, -low) if self.slower_than is not None else (low, high)
 
 
+@modifier(
+    "change_speed",
+    slots=(LONGITUDINAL,),
+    topics=(COURSE,),
+    no_start="cannot change the speed at the start",
+    paces=True,
+)
 @dataclass(frozen=True, slots=True)
 class ChangeSpeed(MovementModifier):
     """Speed relative to that at the start of the action.
@@ -111,7 +130,6 @@ class ChangeSpeed(MovementModifier):
         shape: Course of the difference, and its value if none is given here.
     """
 
-    name = "change_speed"
     shaped_by = AnySpeedShape
     rules = (
         at_most_one("speed", "speed_range"),
@@ -131,13 +149,13 @@ class ChangeSpeed(MovementModifier):
         return wanted(self.speed, self.speed_range, self.shape)
 
 
+@modifier("keep_speed", slots=(LONGITUDINAL,), topics=(COURSE,), paces=True)
 @dataclass(frozen=True, slots=True)
 class KeepSpeed(Modifier):
     """The speed at the start of the action."""
 
-    name = "keep_speed"
 
-
+@modifier("acceleration", slots=(LONGITUDINAL,), excludes=(COURSE,), paces=True)
 @dataclass(frozen=True, slots=True)
 class Acceleration(MovementModifier):
     """Rate of change of the speed.
@@ -151,7 +169,6 @@ class Acceleration(MovementModifier):
         shape: Course of its change, and a value if none is given here.
     """
 
-    name = "acceleration"
     shaped_by = AnyAccelerationShape
     rules = (
         at_most_one("acceleration", "acceleration_range"),

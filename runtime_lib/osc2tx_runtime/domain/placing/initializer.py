@@ -12,7 +12,7 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.placing.initial_state import Spot
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.start_order import PLACEMENT_MODIFIERS, Start, couple, cycle_of
+from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of
 from osc2tx_runtime.domain.routes.crossings import Crossing
 from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.placement import Placement
 
-__all__ = ["PLACEMENT_MODIFIERS", "ScenarioInitializer"]
+__all__ = ["ScenarioInitializer"]
 
 
 class ScenarioInitializer:

@@ -6,36 +6,15 @@ from collections.abc import Sequence
 
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
-    Along,
-    Lane,
-    Lateral,
     Location,
     Modifier,
-    OnPath,
-    Orient,
     Position,
-    Speed,
     TowTrailer,
-    Yaw,
 )
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.errors import PlacementError
 
-__all__ = ["PLACEMENT_MODIFIERS", "Start", "couple", "cycle_of"]
-
-PLACEMENT_MODIFIERS: tuple[type[Modifier], ...] = (
-    Along,
-    Position,
-    Location,
-    Lane,
-    Lateral,
-    Speed,
-    Yaw,
-    Orient,
-    TowTrailer,
-    OnPath,
-)
-"""Modifiers that say where and how an actor starts."""
+__all__ = ["Start", "couple", "cycle_of"]
 
 
 class Start:
@@ -59,7 +38,7 @@ class Start:
         self.references: list[PhysicalObject] = []
         self.towed_by: PhysicalObject | None = None
         for modifier in modifiers:
-            if not isinstance(modifier, PLACEMENT_MODIFIERS):
+            if not modifier.facts.placement:
                 raise PlacementError(f"{actor.id} cannot start with {modifier.name}", source)
             if getattr(modifier, "at", "all") == "end":
                 raise PlacementError(f"{actor.id}: {modifier.name} at the end is no start", source)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Unpack
 
-from osc2tx_runtime.domain.actions.modifier_groups import AT_START
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.language.action import ActionOptions
@@ -33,11 +32,7 @@ class ModifiedMotion(MotionAction):
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
         """The modifiers but those that only speak of the start."""
-        return tuple(
-            m
-            for m in self.modifiers
-            if getattr(m, "at", "all") != "start" or not isinstance(m, AT_START)
-        )
+        return tuple(modifier for modifier in self.modifiers if not modifier.is_start)
 
     @property
     def end_is_known(self) -> bool:

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from osc2tx_runtime.domain.modifiers.map_base import MapModifier
 from osc2tx_runtime.domain.modifiers.map_crossings import implied
-from osc2tx_runtime.domain.modifiers.map_files import MapModifier
 from osc2tx_runtime.domain.modifiers.map_members import listed_members
 from osc2tx_runtime.domain.modifiers.map_paths import differences
 from osc2tx_runtime.domain.routes.crossings import Crossing

@@ -8,7 +8,6 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from itertools import combinations
 from pathlib import Path
 
@@ -17,11 +16,10 @@ from lxml import etree
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.cli.module_loading import scenarios_of_module
-from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, run_scenario
+from tests.unit.backends.xosc.documents import compiled
 
-PLAIN = CompileOptions()
 Row = tuple[float, float, float, float]  # t, x, y, v
 
 
@@ -56,11 +54,6 @@ class Difference:
     def farthest(self) -> float:
         """Metres between an actor here and there, at most."""
         return max((metres for metres, _ in self.apart.values()), default=0.0)
-
-
-@cache
-def compiled(path: Path, options: CompileOptions = PLAIN) -> Compilation:
-    return Compilation(path, path.name, options)
 
 
 def world(path: Path, name: str, settings: RunSettings, options: CompileOptions) -> Played:

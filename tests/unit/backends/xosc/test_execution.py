@@ -5,16 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.xosc import XmlScenario, emit
+from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.report import Grade
 from osc2tx.options import XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
+from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
 from tests.unit.backends.xosc.played import (
-    PLAIN,
     Played,
     compare,
-    compiled,
     hops,
     spread,
     with_values_of,
@@ -37,10 +36,8 @@ OWN = ["cut_in", "follow_leader", "pedestrian_crossing"]
 @cache
 def document(path: Path, name: str, version: XmlVersion) -> tuple[XmlScenario, float]:
     """Return a document, and how far (m) from the world it may be at its times."""
-    module = compiled(path).ir
-    assert module is not None
     options = XmlOptions(version=version, allow_approx=True)
-    (found,) = (x for x in emit(module, options, path.parent) if x.name == name)
+    (found,) = (x for x in documents(compiled(path), options) if x.name == name)
     assert found.xml is not None, found.report.obstacles
     is_exact = all(entry.grade is Grade.EXACT for entry in found.report.entries)
     has_profiles = version >= "1.2"  # before, courses of speed have plainer shapes

@@ -8,6 +8,7 @@ from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import XML_VERSIONS, CompileOptions, XmlOptions, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems
+from tests.unit.backends.xosc.documents import compiled, documents
 
 SCENARIOS = Path(__file__).parents[4] / "scenarios"
 EXACT = {
@@ -30,10 +31,8 @@ OUTSIDE = {"hello_world": {"signals": ("go_signal@1s",), "spawns": ("hero=16,-3,
 def written(name: str, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
     dialect = "carla" if name == "hello_world" else "asam"
     path = SCENARIOS / f"{name}.osc"
-    module = Compilation(path, path.name, CompileOptions(dialect=dialect)).ir
-    assert module is not None
     options = XmlOptions(version=version, allow_approx=allow_approx, **OUTSIDE.get(name, {}))
-    (scenario,) = emit(module, options, path.parent)
+    (scenario,) = documents(compiled(path, CompileOptions(dialect=dialect)), options)
     return scenario
 
 

@@ -34,7 +34,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc import XmlScenario, emit
+from osc2tx.backends.xosc import XmlScenario
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import (
     ONE_OF_POLICIES,
@@ -51,6 +51,7 @@ from tests.unit.backends.xosc.checks import (
     story_problems,
     untraced,
 )
+from tests.unit.backends.xosc.documents import documents
 
 FOLDER = Path(__file__).parent / "rows"
 NEVER = "never"
@@ -190,30 +191,26 @@ def _rows() -> Iterator[Row]:
 ROWS = {f"{row.section}: {row.name}": row for row in _rows()}
 
 
-@cache
 def written(
     id_: str, version: XmlVersion, profile: XmlProfile = "generic", *, allow_approx: bool = False
 ) -> XmlScenario:
     """Return the document of a row."""
     options = ROWS[id_].options
     signals = (options["signal"],) if "signal" in options else ()
-    return emit(
+    return documents(
         compiled(id_),
         XmlOptions(version=version, profile=profile, allow_approx=allow_approx, signals=signals),
-        Path(),
     )[-1]
 
 
 @cache
-def compiled(id_: str):  # type: ignore[no-untyped-def]
-    """Return the IR of a row."""
+def compiled(id_: str) -> Compilation:
+    """Return the compilation of a row."""
     row = ROWS[id_]
     standard: Standard = "2.2" if row.options.get("standard") == "2.2" else "2.1"
     one_of = next((each for each in ONE_OF_POLICIES if each == row.options.get("one_of")), "race")
     options = CompileOptions(standard=standard, one_of=one_of)
-    compilation = Compilation(Path("row.osc"), "row.osc", options, text=row.text)
-    assert compilation.ir is not None, [each.message for each in compilation.sink.sorted()]
-    return compilation.ir
+    return Compilation(Path("row.osc"), "row.osc", options, text=row.text)
 
 
 def grade_of(scenario: XmlScenario) -> str:

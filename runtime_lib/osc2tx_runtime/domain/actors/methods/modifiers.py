@@ -29,4 +29,4 @@ SpeedModifier: TypeAlias = (
 LaneModifier: TypeAlias = Lane | Lateral | ChangeLane | KeepLane
 TurnModifier: TypeAlias = Yaw | Orient
 PathModifier: TypeAlias = Along | AlongTrajectory
-StartModifier: TypeAlias = Position | Lane | Lateral | Yaw | Orient | Speed
+StartModifier: TypeAlias = Lane | Lateral | Yaw | Orient | Position | Speed

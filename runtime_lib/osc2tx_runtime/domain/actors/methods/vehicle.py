@@ -12,6 +12,7 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from osc2tx_runtime.domain.actors import Vehicle
     from osc2tx_runtime.domain.actors.methods.modifiers import (
         LaneModifier,
         PathModifier,
@@ -191,8 +192,7 @@ class VehicleMethods:
     def keep_space_headway(
         self,
         *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
-        reference: PhysicalObject,
-        direction: RoadDistanceDirection = "longitudinal",
+        reference: Vehicle,
         duration: Duration | None = None,
         label: str | None = None,
     ) -> Behaviour:
@@ -211,8 +211,7 @@ class VehicleMethods:
     def keep_time_headway(
         self,
         *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
-        reference: PhysicalObject,
-        direction: RoadDistanceDirection = "longitudinal",
+        reference: Vehicle,
         duration: Duration | None = None,
         label: str | None = None,
     ) -> Behaviour:

@@ -1,0 +1,77 @@
+"""The registry of modifiers: which class a name of the DSL stands for, and what is stated of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from osc2tx_rules import ModifierRules, Rule, Sort
+from osc2tx_runtime.language.registry import Need
+
+from .base import Modifier, MovementModifier
+from .facts import ModifierFacts
+
+__all__ = ["MODIFIERS", "modifier"]
+
+MODIFIERS: dict[str, type[Modifier]] = {}
+"""Modifiers that have an effect, by their name in the DSL."""
+
+ModifierT = TypeVar("ModifierT", bound=type[Modifier])
+
+
+def modifier(
+    name: str,
+    *,
+    slots: Sequence[str] = (),
+    topics: Sequence[str] = (),
+    excludes: Sequence[str] = (),
+    sorts: Sequence[Sort] = (),
+    no_start: str = "",
+    lanes_only: bool = False,
+    while_moving: Sequence[Rule] = (),
+    places: bool = False,
+    paces: bool = False,
+    bounds: bool = False,
+    placement: bool = False,
+    orders: Sequence[str] = (),
+    amounts: Sequence[str] = (),
+    needs: Sequence[Need] = (),
+    undeclared: str = "",
+) -> Callable[[ModifierT], ModifierT]:
+    """Register the decorated class as the modifier `name`.
+
+    Parameters are those of `ModifierFacts` and of `ModifierRules`; `rules` of the arguments and
+    `shaped_by` stand in the class.
+
+    Raises:
+        ValueError: If there is a modifier of that name.
+    """
+
+    def register(kind: ModifierT) -> ModifierT:
+        if name in MODIFIERS:
+            raise ValueError(f"modifier {name} is {MODIFIERS[name].__qualname__} already")
+        MODIFIERS[name] = kind
+        kind.name = name
+        kind.facts = ModifierFacts(
+            ModifierRules(
+                topics=tuple(topics),
+                excludes=tuple(excludes),
+                sorts=tuple(sorts),
+                starts=placement and not no_start and issubclass(kind, MovementModifier),
+                no_start=no_start,
+                lanes_only=lanes_only,
+                while_moving=tuple(while_moving),
+            ),
+            slots=tuple(slots),
+            places=places,
+            paces=paces,
+            bounds=bounds,
+            placement=placement,
+            orders=tuple(orders),
+            amounts=tuple(amounts),
+            needs=tuple(needs),
+            undeclared=undeclared,
+        )
+        return kind
+
+    return register
