@@ -47,7 +47,7 @@ from osc2tx_runtime.domain.measuring.weather import (
     Weather,
     Wind,
 )
-from osc2tx_runtime.domain.modifiers.base import Late, Modifier
+from osc2tx_runtime.domain.modifiers.base import Late, Modifier, value_of
 from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePathOdr,
@@ -284,4 +284,5 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "action",
     "methods",
     "user_action",
+    "value_of",
 ]

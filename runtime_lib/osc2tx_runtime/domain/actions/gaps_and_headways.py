@@ -7,12 +7,12 @@ front. A gap in time across the road is the gap over the lateral speed towards t
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack, get_args
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.planning.arrival_time import arrival
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.enums import GapDirection, RoadDistanceDirection
+from osc2tx_runtime.enums import GapDirection, HeadwayDirection, RoadDistanceDirection
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
@@ -36,7 +36,7 @@ __all__ = [
     "KeepTimeHeadway",
 ]
 
-_DIRECTIONS: tuple[GapDirection, ...] = ("ahead", "behind", "left", "right", "inside", "outside")
+_DIRECTIONS: tuple[GapDirection, ...] = get_args(GapDirection)
 
 
 class _OneAxis(ShapedAction):
@@ -168,18 +168,34 @@ class ChangeTimeGap(_ChangeGap):
     timed = True
 
 
-@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
-class ChangeSpaceHeadway(_ChangeGap):
-    """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
+class _ChangeHeadway(_ChangeGap):
+    """Reaches a distance or time between fronts, along the road."""
 
     measure = "headway"
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        target: Value,
+        direction: HeadwayDirection,
+        reference: PhysicalObject,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(
+            actor, *modifiers, target=target, direction=direction, reference=reference, **options
+        )
+
+
+@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
+class ChangeSpaceHeadway(_ChangeHeadway):
+    """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
 
 
 @action("vehicle", "change_time_headway", slots=(LONGITUDINAL,), needs=("lanes",))
-class ChangeTimeHeadway(_ChangeGap):
+class ChangeTimeHeadway(_ChangeHeadway):
     """Reach a time (s) between fronts, at the speed of the one behind."""
 
-    measure = "headway"
     timed = True
 
 
@@ -250,7 +266,7 @@ class _KeepHeadway(_KeepGap):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        reference: Vehicle,
+        reference: PhysicalObject,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, reference=reference, **options)

@@ -12,7 +12,6 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from osc2tx_runtime.domain.actors import Vehicle
     from osc2tx_runtime.domain.actors.methods.modifiers import (
         LaneModifier,
         PathModifier,
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.enums import (
         DynamicProfile,
         GapDirection,
+        HeadwayDirection,
         LaneChangeSide,
         RoadDistanceDirection,
     )
@@ -95,7 +95,7 @@ class VehicleMethods:
         self,
         *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
         target: Value,
-        direction: GapDirection,
+        direction: HeadwayDirection,
         reference: PhysicalObject,
         duration: Duration | None = None,
         label: str | None = None,
@@ -120,7 +120,7 @@ class VehicleMethods:
         self,
         *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
         target: Value,
-        direction: GapDirection,
+        direction: HeadwayDirection,
         reference: PhysicalObject,
         duration: Duration | None = None,
         label: str | None = None,
@@ -192,7 +192,7 @@ class VehicleMethods:
     def keep_space_headway(
         self,
         *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
-        reference: Vehicle,
+        reference: PhysicalObject,
         duration: Duration | None = None,
         label: str | None = None,
     ) -> Behaviour:
@@ -211,7 +211,7 @@ class VehicleMethods:
     def keep_time_headway(
         self,
         *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
-        reference: Vehicle,
+        reference: PhysicalObject,
         duration: Duration | None = None,
         label: str | None = None,
     ) -> Behaviour:
