@@ -26,8 +26,6 @@ require_api(1)
 
 
 class CutIn(Scenario):
-    """Scenario `cut_in` (cut_in.osc:6)."""
-
     name = "cut_in"
     source = "cut_in.osc"
 
@@ -52,26 +50,25 @@ class CutIn(Scenario):
             speed(self.v_other),
         )
 
-    def behavior(self) -> Behaviour:  # cut_in.osc:18
+    def behavior(self) -> Behaviour:
         return Parallel(
             "cut_in",
-            self.ego.drive(speed(self.v_ego), label="ego_drives"),
+            self.ego.drive("ego_drives", speed(self.v_ego)),
             self.other_cuts_in(),
         )
 
-    def other_cuts_in(self) -> Behaviour:  # cut_in.osc:24
+    def other_cuts_in(self) -> Behaviour:
         return Serial(
             "other_cuts_in",
             Until(
-                self.other.drive(speed(self.v_other)),
+                self.other.drive("overtake", speed(self.v_other)),
                 rise(
                     lambda: self.other.space_gap(reference=self.ego, direction="longitudinal")
                     > self.gap
                 ),
-                label="overtake",
             ),
             self.other.change_lane(num_of_lanes=1, side="right"),
-            self.other.drive(speed(self.v_ego), duration=5 * s, label="settle"),
+            self.other.drive("settle", speed(self.v_ego), duration=5 * s),
         )
 
 

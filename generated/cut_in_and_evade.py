@@ -34,8 +34,6 @@ require_api(1)
 
 
 class CutInAndEvade(Scenario):
-    """Scenario `cut_in_and_evade` (cut_in_and_evade.osc:7)."""
-
     name = "cut_in_and_evade"
     source = "cut_in_and_evade.osc"
 
@@ -72,7 +70,7 @@ class CutInAndEvade(Scenario):
             speed(self.v_npc_fast),
         )
 
-    def behavior(self) -> Behaviour:  # cut_in_and_evade.osc:37
+    def behavior(self) -> Behaviour:
         return Serial(
             "cut_in_and_evade",
             # Twilight
@@ -82,7 +80,7 @@ class CutInAndEvade(Scenario):
             self.parallel(),
         )
 
-    def parallel(self) -> Behaviour:  # cut_in_and_evade.osc:41
+    def parallel(self) -> Behaviour:
         return Parallel(
             "parallel",
             self.hero_part(),
@@ -90,34 +88,31 @@ class CutInAndEvade(Scenario):
         )
 
     # --- Hero ---
-    def hero_part(self) -> Behaviour:  # cut_in_and_evade.osc:43
+    def hero_part(self) -> Behaviour:
         return Serial(
             "hero_part",
             Until(
-                self.hero.drive(speed(self.v_hero)),
+                self.hero.drive("cruise", speed(self.v_hero)),
                 # the truck is in front and the gap closes
                 fall(
                     lambda: self.hero.road_distance(reference=self.npc, direction="longitudinal")
                     > self.safety_gap
                 ),
-                label="cruise",
             ),
-            self.hero.change_lane(num_of_lanes=1, side="right", label="evade"),
+            self.hero.change_lane("evade", num_of_lanes=1, side="right"),
             Emit(self.crash_avoided),
             Until(
-                self.hero.drive(speed(self.v_hero)),
+                self.hero.drive("pass_by", speed(self.v_hero)),
                 self.obstacle_detected,
-                label="pass_by",
             ),
             # Pull alongside and stop
             self.hero.change_speed(target=25 * kph, rate_profile="smooth"),
             Until(
-                self.hero.drive(speed(25 * kph)),
+                self.hero.drive("alongside", speed(25 * kph)),
                 rise(
                     lambda: self.npc.road_distance(reference=self.hero, direction="longitudinal")
                     >= -1 * m
                 ),
-                label="alongside",
             ),
             self.hero.change_speed(target=0 * kph, rate_profile="asap"),
             Wait(lambda: self.hero.speed < 0.1 * kph),
@@ -125,31 +120,28 @@ class CutInAndEvade(Scenario):
         )
 
     # --- Truck ---
-    def npc_part(self) -> Behaviour:  # cut_in_and_evade.osc:68
+    def npc_part(self) -> Behaviour:
         return Serial(
             "npc_part",
             Until(
-                self.npc.drive(speed(self.v_npc_fast)),
+                self.npc.drive("overtake", speed(self.v_npc_fast)),
                 rise(
                     lambda: self.hero.road_distance(reference=self.npc, direction="longitudinal")
                     >= 4 * self.lag
                 ),
-                label="overtake",
             ),
-            self.npc.change_lane(num_of_lanes=1, side="left", label="cut_in"),
+            self.npc.change_lane("cut_in", num_of_lanes=1, side="left"),
             # Brake check, until the hero has evaded
             Until(
-                self.npc.drive(speed(self.v_npc_slow)),
+                self.npc.drive("brake_check", speed(self.v_npc_slow)),
                 self.crash_avoided,
-                label="brake_check",
             ),
             Until(
-                self.npc.drive(speed(self.v_npc_catchup)),
+                self.npc.drive("recover", speed(self.v_npc_catchup)),
                 rise(
                     lambda: self.npc.object_distance(reference=self.obstacle, direction="euclidean")
                     < 90 * m
                 ),
-                label="recover",
             ),
             Emit(self.obstacle_detected),
             self.npc.change_speed(target=0 * kph, rate_profile="asap"),

@@ -14,8 +14,6 @@ require_api(1)
 
 
 class FollowLeader(Scenario):
-    """Scenario `follow_leader` (follow_leader.osc:6)."""
-
     name = "follow_leader"
     source = "follow_leader.osc"
 
@@ -37,22 +35,20 @@ class FollowLeader(Scenario):
             speed(self.v_start),
         )
 
-    def behavior(self) -> Behaviour:  # follow_leader.osc:15
+    def behavior(self) -> Behaviour:
         return Parallel(
             "follow_leader",
             self.lead(),
-            self.follower.keep_space_gap(
-                reference=self.leader, direction="longitudinal", label="follow"
-            ),
+            self.follower.keep_space_gap("follow", reference=self.leader, direction="longitudinal"),
         )
 
-    def lead(self) -> Behaviour:  # follow_leader.osc:16
+    def lead(self) -> Behaviour:
         return Serial(
             "lead",
             self.leader.drive(speed(self.v_start), duration=4 * s),
-            self.leader.change_speed(target=self.v_low, rate_profile="smooth", label="slow_down"),
+            self.leader.change_speed("slow_down", target=self.v_low, rate_profile="smooth"),
             self.leader.drive(duration=4 * s),
-            self.leader.change_speed(target=self.v_start, rate_profile="smooth", label="speed_up"),
+            self.leader.change_speed("speed_up", target=self.v_start, rate_profile="smooth"),
             self.leader.drive(duration=6 * s),
         )
 

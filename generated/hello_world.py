@@ -31,8 +31,6 @@ require_api(1)
 
 
 class HelloWorld(Scenario):
-    """Scenario `hello_world` (hello_world.osc:4)."""
-
     name = "hello_world"
     source = "hello_world.osc"
 
@@ -72,14 +70,14 @@ class HelloWorld(Scenario):
         )
         self.place(self.obstacle, position(x=478.93, y=-14.07, z=0.0, h=-1.57 * rad, frame="carla"))
 
-    def behavior(self) -> Behaviour:  # hello_world.osc:34
+    def behavior(self) -> Behaviour:
         return Serial(
             "hello_world",
             self.do_serial(),
             self.do_parallel(),
         )
 
-    def do_serial(self) -> Behaviour:  # hello_world.osc:34
+    def do_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             # --- TWILIGHT SETTINGS ---
@@ -87,7 +85,7 @@ class HelloWorld(Scenario):
             self.hero.set_lights(mode="auto"),
         )
 
-    def do_parallel(self) -> Behaviour:  # hello_world.osc:51
+    def do_parallel(self) -> Behaviour:
         return Parallel(
             "do parallel",
             self.hero_serial(),
@@ -97,22 +95,22 @@ class HelloWorld(Scenario):
     # ==========================
     # --- HERO LOGIC ---
     # ==========================
-    def hero_serial(self) -> Behaviour:  # hello_world.osc:55
+    def hero_serial(self) -> Behaviour:
         return Serial(
             "hero: serial",
             Wait(self.go_signal),
             # --- Phase 1: Cruise ---
             OneOf(
-                "hero: drive or wait",
+                "hero: drive or wait npc ahead_of",
                 self.hero.drive(speed(self.v_hero)),
                 Wait(fall(lambda: self.npc.position.ahead_of(self.hero) > self.safety_gap)),
             ),
             # --- Phase 2: Hazard Detected - Flash High Beams & Swerve ---
             Parallel(
-                "hero: parallel",
+                "hero: change_lane with set_lights",
                 # Task A: The evasive physical maneuver
                 Serial(
-                    "hero: change_lane, emit",
+                    "hero: change_lane, emit CRASH_AVOIDED",
                     self.hero.change_lane(num_of_lanes=1, side="right"),
                     Emit(self.CRASH_AVOIDED),
                 ),
@@ -126,19 +124,19 @@ class HelloWorld(Scenario):
             ),
             # --- Phase 3: Approach & Synchronize ---
             OneOf(
-                "hero: drive or wait",
+                "hero: drive or wait OBSTACLE_DETECTED",
                 self.hero.drive(speed(self.v_hero)),
                 Wait(self.OBSTACLE_DETECTED),
             ),
             # --- Phase 4: Approach NPC smoothly and pull alongside ---
             Serial(
-                "hero: serial",
+                "hero: change_speed, drive",
                 self.hero.change_speed(target=25 * kph, rate_profile="smooth"),
                 OneOf(
-                    "hero: one_of",
+                    "hero: drive or wait hero ahead_of",
                     self.hero.drive(speed(25 * kph)),
                     Serial(
-                        "wait",
+                        "wait hero ahead_of",
                         Wait(rise(lambda: self.hero.position.ahead_of(self.npc) >= -1 * m)),
                     ),
                 ),
@@ -152,16 +150,16 @@ class HelloWorld(Scenario):
     # ==========================
     # --- NPC LOGIC ---
     # ==========================
-    def npc_serial(self) -> Behaviour:  # hello_world.osc:100
+    def npc_serial(self) -> Behaviour:
         return Serial(
             "npc: serial",
             Wait(self.go_signal),
             # --- Phase 1: Accelerate UNTIL ahead of Hero ---
             OneOf(
-                "npc: one_of",
+                "npc: drive or wait npc ahead_of",
                 self.npc.drive(speed(self.v_npc_fast)),
                 Serial(
-                    "wait",
+                    "wait npc ahead_of",
                     Wait(rise(lambda: self.npc.position.ahead_of(self.hero) >= self.lag * 2)),
                 ),
             ),
@@ -169,16 +167,16 @@ class HelloWorld(Scenario):
             self.npc.change_lane(num_of_lanes=1, side="left"),
             # --- Phase 3: Brake Check UNTIL Ego swerves ---
             OneOf(
-                "npc: drive or wait",
+                "npc: drive or wait CRASH_AVOIDED",
                 self.npc.drive(speed(self.v_npc_slow)),
                 Wait(self.CRASH_AVOIDED),
             ),
             # --- Phase 4: Recover & Approach Obstacle ---
             OneOf(
-                "npc: one_of",
+                "npc: drive or wait npc object_distance",
                 self.npc.drive(speed(self.v_npc_catchup, rate_profile="smooth")),
                 Serial(
-                    "wait",
+                    "wait npc object_distance",
                     Wait(
                         rise(
                             lambda: self.npc.object_distance(

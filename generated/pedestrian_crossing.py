@@ -30,8 +30,6 @@ require_api(1)
 
 
 class PedestrianCrossing(Scenario):
-    """Scenario `pedestrian_crossing` (pedestrian_crossing.osc:6)."""
-
     name = "pedestrian_crossing"
     source = "pedestrian_crossing.osc"
 
@@ -53,42 +51,40 @@ class PedestrianCrossing(Scenario):
         self.place(self.walker, position(at_point=self.curb, project_on_route=False), yaw(90 * deg))
         self.place(self.ego, lane(1), position(120 * m), speed(self.v_ego))
 
-    def behavior(self) -> Behaviour:  # pedestrian_crossing.osc:24
+    def behavior(self) -> Behaviour:
         return Parallel(
             "pedestrian_crossing",
             self.walker_part(),
             self.ego_part(),
         )
 
-    def walker_part(self) -> Behaviour:  # pedestrian_crossing.osc:25
+    def walker_part(self) -> Behaviour:
         return Serial(
             "walker_part",
             Until(
-                self.walker.remain_stationary(),
+                self.walker.remain_stationary("wait_at_curb"),
                 rise(
                     lambda: self.walker.object_distance(reference=self.ego, direction="euclidean")
                     < 45 * m
                 ),
-                label="wait_at_curb",
             ),
             Emit(self.crossing_started),
-            self.walker.walk(speed(self.v_walk), duration=8 * s, label="cross"),
+            self.walker.walk("cross", speed(self.v_walk), duration=8 * s),
             Emit(self.road_is_free),
             self.walker.remain_stationary(),
         )
 
-    def ego_part(self) -> Behaviour:  # pedestrian_crossing.osc:36
+    def ego_part(self) -> Behaviour:
         return Serial(
             "ego_part",
             Until(
-                self.ego.drive(speed(self.v_ego)),
+                self.ego.drive("approach", speed(self.v_ego)),
                 self.crossing_started,
-                label="approach",
             ),
-            self.ego.change_speed(target=0 * kph, rate_profile="smooth", label="brake"),
+            self.ego.change_speed("brake", target=0 * kph, rate_profile="smooth"),
             Wait(self.road_is_free),
             self.ego.change_speed(target=self.v_ego, rate_profile="smooth"),
-            self.ego.drive(speed(self.v_ego), duration=5 * s, label="leave"),
+            self.ego.drive("leave", speed(self.v_ego), duration=5 * s),
         )
 
 

@@ -24,9 +24,9 @@ from osc2tx.backends.py_trees.naming import class_name
 from osc2tx.catalogue import catalogue
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actions.modifier_groups import (
-    LANE_SHAPERS,
     PATH_SHAPERS,
-    SPEED_SHAPERS,
+    SIDE_FREE,
+    SPEED_FREE,
     TURN_SHAPERS,
 )
 from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
@@ -41,8 +41,8 @@ STARTS = "StartModifier"
 """Modifiers that actions take `at: start` alone."""
 
 GROUPS: dict[str, tuple[type, ...]] = {
-    "SpeedModifier": SPEED_SHAPERS,
-    "LaneModifier": LANE_SHAPERS,
+    "SpeedModifier": SPEED_FREE,
+    "SideModifier": SIDE_FREE,
     "TurnModifier": TURN_SHAPERS,
     "PathModifier": PATH_SHAPERS,
     STARTS: tuple(kind for kind in KINDS.values() if kind.facts.rules.starts),
@@ -119,11 +119,12 @@ def _formatted(*lines: str) -> str:
 
 
 def _method(method: Method, imports: Imports) -> Iterator[str]:
-    taken = list(_modifiers(method.factory, imports))
-    own = list(_parameters(method.factory, imports))
-    common = ("duration: Duration | None = None", "label: str | None = None")
-    first = f"*modifiers: {' | '.join(taken)}" if taken else "*"
-    yield f"    def {method.name}({', '.join(('self', first, *own, *common))}) -> Behaviour:"
+    taken = " | ".join(_modifiers(method.factory, imports))
+    own = _parameters(method.factory, imports)
+    label = f"label: str | {taken} | None = None" if taken else "label: str | None = None"
+    modifiers = f"*modifiers: {taken}" if taken else "*"
+    listed = ("self", label, "/", modifiers, *own, "duration: Duration | None = None")
+    yield f"    def {method.name}({', '.join(listed)}) -> Behaviour:"
     yield from (f"        {line}".rstrip() for line in _docstring(method))
     yield ""
 
@@ -132,11 +133,14 @@ def _modifiers(factory: type[Any], imports: Imports) -> Iterator[str]:
     """Yield the types of modifiers that an action takes: groups of them, then single ones."""
     taken = set(factory.accepts)
     left, own = set(taken), f"{PACKAGE}.modifiers"
-    groups = [name for name, group in GROUPS.items() if set(group) <= taken and name != STARTS]
-    for name in groups:
-        left -= set(GROUPS[name])
+    groups = []
+    for name, group in GROUPS.items():
+        if name != STARTS and set(group) <= taken and left & set(group):
+            groups.append(name)
+            left -= set(group)
     if issubclass(factory, ShapedAction) and not set(GROUPS[STARTS]) <= taken:
         groups.append(STARTS)
+        left -= set(GROUPS[STARTS])
     single = sorted(kind.__name__ for kind in left)
     imports.setdefault(own, set()).update(groups)
     imports.setdefault(MODIFIERS, set()).update(single)

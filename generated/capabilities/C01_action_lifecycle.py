@@ -26,8 +26,6 @@ require_api(1)
 
 
 class ActionLifecycle(Scenario):
-    """Scenario `action_lifecycle` (capabilities/C01_action_lifecycle.osc:7)."""
-
     name = "action_lifecycle"
     source = "capabilities/C01_action_lifecycle.osc"
 
@@ -40,23 +38,23 @@ class ActionLifecycle(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C01_action_lifecycle.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "action_lifecycle",
             # Ends by itself: 4 m/s at 2 m/s^2
             self.ego.change_speed(
-                target=14 * mps, rate_profile="constant", rate_peak=2 * mpss, label="speed_up"
+                "speed_up", target=14 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
             # Without a goal; somebody else has to end it
-            self.ego.keep_speed(duration=3 * s, label="cruise"),
+            self.ego.keep_speed("cruise", duration=3 * s),
             self.ego_one_of(),
         )
 
     # There are not nine lanes to the right: fails at once, and the other member goes on
-    def ego_one_of(self) -> Behaviour:  # capabilities/C01_action_lifecycle.osc:21
+    def ego_one_of(self) -> Behaviour:
         return OneOf(
             "ego: one_of",
-            self.ego.change_lane(num_of_lanes=9, side="right", label="impossible"),
+            self.ego.change_lane("impossible", num_of_lanes=9, side="right"),
             Wait(elapsed(1 * s)),
         )
 

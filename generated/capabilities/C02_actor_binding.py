@@ -15,10 +15,7 @@ require_api(1)
 
 
 class GainSpeed(Scenario):
-    """Scenario `vehicle.gain_speed` (capabilities/C02_actor_binding.osc:8).
-
-    Reaches a speed with a comfortable acceleration.
-    """
+    """Reaches a speed with a comfortable acceleration."""
 
     name = "vehicle.gain_speed"
     source = "capabilities/C02_actor_binding.osc"
@@ -28,7 +25,7 @@ class GainSpeed(Scenario):
         self.actor = Vehicle()
         self.target = self.parameter("target", 15 * mps)
 
-    def behavior(self) -> Behaviour:  # capabilities/C02_actor_binding.osc:11
+    def behavior(self) -> Behaviour:
         return Serial(
             "gain_speed",
             self.actor.change_speed(
@@ -38,8 +35,6 @@ class GainSpeed(Scenario):
 
 
 class ActorBinding(Scenario):
-    """Scenario `actor_binding` (capabilities/C02_actor_binding.osc:14)."""
-
     name = "actor_binding"
     source = "capabilities/C02_actor_binding.osc"
 
@@ -56,14 +51,14 @@ class ActorBinding(Scenario):
         self.place(self.second, lane(2), position(50 * m), speed(10 * mps))
         self.place(self.third, lane(3), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C02_actor_binding.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "actor_binding",
             self.settle(),
             self.gain(),
         )
 
-    def settle(self) -> Behaviour:  # capabilities/C02_actor_binding.osc:20
+    def settle(self) -> Behaviour:
         return Parallel(
             "settle",
             self.first.drive(duration=1 * s),
@@ -71,11 +66,11 @@ class ActorBinding(Scenario):
             self.third.drive(duration=1 * s),
         )
 
-    def gain(self) -> Behaviour:  # capabilities/C02_actor_binding.osc:33
+    def gain(self) -> Behaviour:
         return Parallel(
             "gain",
-            self.invoke(GainSpeed, actor=self.first, target=16 * mps, label="first_gains"),
-            self.invoke(GainSpeed, actor=self.second, target=20 * mps, label="second_gains"),
+            self.invoke("first_gains", GainSpeed, actor=self.first, target=16 * mps),
+            self.invoke("second_gains", GainSpeed, actor=self.second, target=20 * mps),
         )
 
 

@@ -30,8 +30,6 @@ require_api(1)
 
 
 class ActorParts(Scenario):
-    """Scenario `actor_parts` (capabilities/C02_actor_parts.osc:7)."""
-
     name = "actor_parts"
     source = "capabilities/C02_actor_parts.osc"
 
@@ -86,7 +84,7 @@ class ActorParts(Scenario):
         )
         self.place(self.load, lane(4), position(100 * m))
 
-    def behavior(self) -> Behaviour:  # capabilities/C02_actor_parts.osc:49
+    def behavior(self) -> Behaviour:
         return Parallel(
             "actor_parts",
             self.van.drive(speed(10 * mps)),
@@ -94,7 +92,7 @@ class ActorParts(Scenario):
             self.load.remain_stationary(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C02_actor_parts.osc:54
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class Composition(Scenario):
-    """Scenario `composition` (capabilities/C03_composition.osc:7)."""
-
     name = "composition"
     source = "capabilities/C03_composition.osc"
 
@@ -31,29 +29,29 @@ class Composition(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(10 * mps))
         self.place(self.other, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C03_composition.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "composition",
             self.ego_part(),
             self.other_part(),
         )
 
-    def ego_part(self) -> Behaviour:  # capabilities/C03_composition.osc:13
+    def ego_part(self) -> Behaviour:
         return Serial(
             "ego_part",
             self.ego.change_speed(
-                target=14 * mps, rate_profile="constant", rate_peak=2 * mpss, label="faster"
+                "faster", target=14 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
             self.ego.change_speed(
-                target=8 * mps, rate_profile="constant", rate_peak=3 * mpss, label="slower"
+                "slower", target=8 * mps, rate_profile="constant", rate_peak=3 * mpss
             ),
         )
 
-    def other_part(self) -> Behaviour:  # capabilities/C03_composition.osc:19
+    def other_part(self) -> Behaviour:
         return Serial(
             "other_part",
-            self.other.drive(duration=1 * s, label="pause"),
-            self.other.change_lane(side="left", duration=5 * s, label="swerve"),
+            self.other.drive("pause", duration=1 * s),
+            self.other.change_lane("swerve", side="left", duration=5 * s),
         )
 
 

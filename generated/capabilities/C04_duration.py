@@ -26,8 +26,6 @@ require_api(1)
 
 
 class Durations(Scenario):
-    """Scenario `durations` (capabilities/C04_duration.osc:7)."""
-
     name = "durations"
     source = "capabilities/C04_duration.osc"
 
@@ -40,32 +38,30 @@ class Durations(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C04_duration.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "durations",
             # Open-ended: ends after 3 s
-            self.ego.drive(speed(10 * mps), duration=3 * s, label="cruise"),
+            self.ego.drive("cruise", speed(10 * mps), duration=3 * s),
             # With a goal: reaches it after exactly 4 s
-            self.ego.change_speed(
-                target=20 * mps, rate_profile="smooth", duration=4 * s, label="faster"
-            ),
+            self.ego.change_speed("faster", target=20 * mps, rate_profile="smooth", duration=4 * s),
             self.ego_one_of(),
         )
 
     # A whole block has 2 s; its content is longer, so it fails and the other member goes on
-    def ego_one_of(self) -> Behaviour:  # capabilities/C04_duration.osc:21
+    def ego_one_of(self) -> Behaviour:
         return OneOf(
             "ego: one_of",
             self.hurried(),
             Wait(elapsed(6 * s)),
         )
 
-    def hurried(self) -> Behaviour:  # capabilities/C04_duration.osc:22
+    def hurried(self) -> Behaviour:
         return Serial(
             "hurried",
             Wait(elapsed(1 * s)),
             self.ego.change_speed(
-                target=10 * mps, rate_profile="constant", rate_peak=2 * mpss, label="slower"
+                "slower", target=10 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
             duration=2 * s,
         )

@@ -25,8 +25,6 @@ require_api(1)
 
 
 class MoveDriveWalk(Scenario):
-    """Scenario `move_drive_walk` (capabilities/C05_move_drive_walk.osc:6)."""
-
     name = "move_drive_walk"
     source = "capabilities/C05_move_drive_walk.osc"
 
@@ -55,7 +53,7 @@ class MoveDriveWalk(Scenario):
             speed(1.4 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C05_move_drive_walk.osc:22
+    def behavior(self) -> Behaviour:
         return Parallel(
             "move_drive_walk",
             self.car.drive(speed(20 * mps)),

@@ -14,8 +14,6 @@ require_api(1)
 
 
 class Towing(Scenario):
-    """Scenario `towing` (capabilities/C05_towing.osc:6)."""
-
     name = "towing"
     source = "capabilities/C05_towing.osc"
 
@@ -31,7 +29,7 @@ class Towing(Scenario):
             self.car, tow_trailer(trailer=self.caravan), lane(1), position(60 * m), speed(15 * mps)
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C05_towing.osc:13
+    def behavior(self) -> Behaviour:
         return Serial(
             "towing",
             self.car.drive(speed(15 * mps), duration=16 * s),

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class DrivingWithATrailer(Scenario):
-    """Scenario `driving_with_a_trailer` (capabilities/C05_trailer.osc:6)."""
-
     name = "driving_with_a_trailer"
     source = "capabilities/C05_trailer.osc"
 
@@ -42,7 +40,7 @@ class DrivingWithATrailer(Scenario):
         self.place(self.load, lane(2), position(50 * m), speed(0 * mps))
         self.place(self.truck, lane(2), position(7 * m, ahead_of=self.load), speed(0 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C05_trailer.osc:13
+    def behavior(self) -> Behaviour:
         return Parallel(
             "driving_with_a_trailer",
             Until(
@@ -52,14 +50,14 @@ class DrivingWithATrailer(Scenario):
             self.truck_serial(),
         )
 
-    def truck_serial(self) -> Behaviour:  # capabilities/C05_trailer.osc:19
+    def truck_serial(self) -> Behaviour:
         return Serial(
             "truck: serial",
             self.truck.drive(speed(0 * mps), duration=1 * s),
-            self.truck.connect_trailer(trailer=self.load, label="couple"),
-            self.truck.change_speed(target=10 * mps, rate_profile="smooth", label="pull"),
+            self.truck.connect_trailer("couple", trailer=self.load),
+            self.truck.change_speed("pull", target=10 * mps, rate_profile="smooth"),
             self.truck.drive(duration=3 * s),
-            self.truck.disconnect_trailer(label="uncouple"),
+            self.truck.disconnect_trailer("uncouple"),
             self.truck.drive(duration=3 * s),
         )
 

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class SpeedControl(Scenario):
-    """Scenario `speed_control` (capabilities/C06_speed_control.osc:7)."""
-
     name = "speed_control"
     source = "capabilities/C06_speed_control.osc"
 
@@ -35,7 +33,7 @@ class SpeedControl(Scenario):
         self.place(self.gentle, lane(2), position(50 * m), speed(self.v_start))
         self.place(self.hasty, lane(3), position(50 * m), speed(self.v_start))
 
-    def behavior(self) -> Behaviour:  # capabilities/C06_speed_control.osc:15
+    def behavior(self) -> Behaviour:
         return Parallel(
             "speed_control",
             self.even.change_speed(

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class AccelerationControl(Scenario):
-    """Scenario `acceleration_control` (capabilities/C07_acceleration_control.osc:7)."""
-
     name = "acceleration_control"
     source = "capabilities/C07_acceleration_control.osc"
 
@@ -29,15 +27,15 @@ class AccelerationControl(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C07_acceleration_control.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "acceleration_control",
             self.ego.change_acceleration(
-                target=1.5 * mpss, rate_profile="constant", rate_peak=1 * mpspsps, label="build_up"
+                "build_up", target=1.5 * mpss, rate_profile="constant", rate_peak=1 * mpspsps
             ),
-            self.ego.keep_acceleration(duration=2 * s, label="hold"),
+            self.ego.keep_acceleration("hold", duration=2 * s),
             self.ego.assign_acceleration(acceleration=-2 * mpss),
-            self.ego.keep_acceleration(duration=3 * s, label="brake"),
+            self.ego.keep_acceleration("brake", duration=3 * s),
         )
 
 

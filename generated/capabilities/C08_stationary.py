@@ -14,8 +14,6 @@ require_api(1)
 
 
 class Stationary(Scenario):
-    """Scenario `stationary` (capabilities/C08_stationary.osc:6)."""
-
     name = "stationary"
     source = "capabilities/C08_stationary.osc"
 
@@ -30,18 +28,18 @@ class Stationary(Scenario):
         self.place(self.parked, lane(1), position(100 * m), speed(0 * mps))
         self.place(self.arriving, lane(2), position(50 * m), speed(16 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C08_stationary.osc:11
+    def behavior(self) -> Behaviour:
         return Parallel(
             "stationary",
             self.parked.remain_stationary(),
             self.arriving_serial(),
         )
 
-    def arriving_serial(self) -> Behaviour:  # capabilities/C08_stationary.osc:16
+    def arriving_serial(self) -> Behaviour:
         return Serial(
             "arriving: serial",
             self.arriving.drive(speed(16 * mps), duration=2 * s),
-            self.arriving.remain_stationary(duration=6 * s, label="hold"),
+            self.arriving.remain_stationary("hold", duration=6 * s),
         )
 
 

@@ -25,8 +25,6 @@ require_api(1)
 
 
 class AssignPosition(Scenario):
-    """Scenario `assign_position` (capabilities/C09_assign_position.osc:7)."""
-
     name = "assign_position"
     source = "capabilities/C09_assign_position.osc"
 
@@ -42,35 +40,35 @@ class AssignPosition(Scenario):
         self.place(self.other, lane(1), position(100 * m), speed(10 * mps))
         self.place(self.ego, lane(4), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C09_assign_position.osc:17
+    def behavior(self) -> Behaviour:
         return Parallel(
             "assign_position",
             self.other.drive(speed(10 * mps)),
             self.ego_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C09_assign_position.osc:22
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.drive(speed(10 * mps), duration=1 * s),
-            self.ego.assign_position(position=self.target, label="to_point"),
+            self.ego.assign_position("to_point", position=self.target),
             self.ego.drive(duration=1 * s),
             self.ego.assign_position(
+                "to_road",
                 odr_point=self.road.create_odr_point(road_id="1", lane_id="-3", s=700 * m, t=0 * m),
-                label="to_road",
             ),
             self.ego.drive(duration=1 * s),
             self.ego.assign_position(
+                "to_route",
                 route_point=lambda: self.road.odr_to_route_point(
                     road_id="1", lane_id="-4", s=800 * m, t=0 * m
                 ),
-                label="to_route",
             ),
             self.ego.drive(duration=1 * s),
             self.ego.assign_position(
+                "beside",
                 lane(side_of=self.other, side="left"),
                 position(20 * m, ahead_of=self.other),
-                label="beside",
             ),
             self.ego.drive(duration=1 * s),
         )

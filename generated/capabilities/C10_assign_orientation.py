@@ -24,8 +24,6 @@ require_api(1)
 
 
 class AssignOrientation(Scenario):
-    """Scenario `assign_orientation` (capabilities/C10_assign_orientation.osc:6)."""
-
     name = "assign_orientation"
     source = "capabilities/C10_assign_orientation.osc"
 
@@ -45,12 +43,12 @@ class AssignOrientation(Scenario):
             speed(1 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C10_assign_orientation.osc:20
+    def behavior(self) -> Behaviour:
         return Serial(
             "assign_orientation",
-            self.walker.walk(speed(1 * mps), duration=5 * s, label="east"),
-            self.walker.assign_orientation(orientation=self.north_east, label="turn"),
-            self.walker.walk(speed(1 * mps), duration=5 * s, label="onward"),
+            self.walker.walk("east", speed(1 * mps), duration=5 * s),
+            self.walker.assign_orientation("turn", orientation=self.north_east),
+            self.walker.walk("onward", speed(1 * mps), duration=5 * s),
         )
 
 

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class ChangePosition(Scenario):
-    """Scenario `change_position` (capabilities/C11_change_position.osc:7)."""
-
     name = "change_position"
     source = "capabilities/C11_change_position.osc"
 
@@ -49,14 +47,14 @@ class ChangePosition(Scenario):
             speed(1 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C11_change_position.osc:22
+    def behavior(self) -> Behaviour:
         return Parallel(
             "change_position",
             self.car_serial(),
             self.walker_serial(),
         )
 
-    def car_serial(self) -> Behaviour:  # capabilities/C11_change_position.osc:23
+    def car_serial(self) -> Behaviour:
         return Serial(
             "car: serial",
             self.car.drive(speed(15 * mps), duration=1 * s),
@@ -65,7 +63,7 @@ class ChangePosition(Scenario):
             ),
         )
 
-    def walker_serial(self) -> Behaviour:  # capabilities/C11_change_position.osc:31
+    def walker_serial(self) -> Behaviour:
         return Serial(
             "walker: serial",
             self.walker.walk(speed(1 * mps), duration=1 * s),

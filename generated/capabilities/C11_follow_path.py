@@ -15,8 +15,6 @@ require_api(1)
 
 
 class PathFollowing(Scenario):
-    """Scenario `path_following` (capabilities/C11_follow_path.osc:7)."""
-
     name = "path_following"
     source = "capabilities/C11_follow_path.osc"
 
@@ -33,21 +31,21 @@ class PathFollowing(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C11_follow_path.osc:29
+    def behavior(self) -> Behaviour:
         return Serial(
             "path_following",
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.follow_path(
+                "curve",
                 absolute=self.road.create_path(
                     points=[self.begin, self.middle, self.end_point], interpolation="smooth"
                 ),
-                label="curve",
             ),
             self.ego.replay_path(
+                "line",
                 absolute=self.road.create_path(
                     points=[self.end_point, self.far], interpolation="straight_line"
                 ),
-                label="line",
             ),
         )
 

@@ -25,8 +25,6 @@ require_api(1)
 
 
 class RelativePath(Scenario):
-    """Scenario `relative_path` (capabilities/C11_relative_path.osc:6)."""
-
     name = "relative_path"
     source = "capabilities/C11_relative_path.osc"
 
@@ -47,21 +45,21 @@ class RelativePath(Scenario):
         self.place(self.one, lane(2), position(50 * m), speed(10 * mps))
         self.place(self.other, lane(4), position(80 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C11_relative_path.osc:24
+    def behavior(self) -> Behaviour:
         return Serial(
             "relative_path",
             self.begin(),
             self.both(),
         )
 
-    def begin(self) -> Behaviour:  # capabilities/C11_relative_path.osc:25
+    def begin(self) -> Behaviour:
         return Parallel(
             "begin",
             self.one.drive(speed(10 * mps), duration=1 * s),
             self.other.drive(speed(10 * mps), duration=1 * s),
         )
 
-    def both(self) -> Behaviour:  # capabilities/C11_relative_path.osc:34
+    def both(self) -> Behaviour:
         return Parallel(
             "both",
             self.one.replay_path(

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class RoadPathScenario(Scenario):
-    """Scenario `road_path` (capabilities/C11_road_path.osc:7)."""
-
     name = "road_path"
     source = "capabilities/C11_road_path.osc"
 
@@ -29,11 +27,12 @@ class RoadPathScenario(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(60 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C11_road_path.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "road_path",
             self.ego.drive(speed(12 * mps), duration=1 * s),
             self.ego.follow_path(
+                "bend",
                 absolute=self.road.create_path_odr_points(
                     points=[
                         self.road.create_odr_point(road_id="1", lane_id="-1", s=80 * m, t=0 * m),
@@ -42,7 +41,6 @@ class RoadPathScenario(Scenario):
                     interpolation="smooth",
                     on_road_network=True,
                 ),
-                label="bend",
             ),
             self.ego.drive(duration=1 * s),
         )

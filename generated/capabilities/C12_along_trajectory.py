@@ -24,8 +24,6 @@ require_api(1)
 
 
 class AlongTrajectory(Scenario):
-    """Scenario `along_trajectory` (capabilities/C12_along_trajectory.osc:6)."""
-
     name = "along_trajectory"
     source = "capabilities/C12_along_trajectory.osc"
 
@@ -46,11 +44,11 @@ class AlongTrajectory(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C12_along_trajectory.osc:28
+    def behavior(self) -> Behaviour:
         return Serial(
             "along_trajectory",
             self.ego.drive(speed(10 * mps), duration=1 * s),
-            self.ego.drive(along_trajectory(self.plan), label="timed"),
+            self.ego.drive("timed", along_trajectory(self.plan)),
         )
 
 

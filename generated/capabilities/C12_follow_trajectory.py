@@ -15,8 +15,6 @@ require_api(1)
 
 
 class TrajectoryFollowing(Scenario):
-    """Scenario `trajectory_following` (capabilities/C12_follow_trajectory.osc:7)."""
-
     name = "trajectory_following"
     source = "capabilities/C12_follow_trajectory.osc"
 
@@ -33,25 +31,25 @@ class TrajectoryFollowing(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C12_follow_trajectory.osc:29
+    def behavior(self) -> Behaviour:
         return Serial(
             "trajectory_following",
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.follow_trajectory(
+                "timed",
                 absolute=self.road.create_trajectory(
                     points=[self.p0, self.p1, self.p2],
                     time_stamps=[0 * s, 3 * s, 7 * s],
                     interpolation="straight_line",
                 ),
-                label="timed",
             ),
             self.ego.replay_trajectory(
+                "exact",
                 absolute=self.road.create_trajectory(
                     points=[self.p2, self.p3],
                     time_stamps=[0 * s, 4 * s],
                     interpolation="straight_line",
                 ),
-                label="exact",
             ),
         )
 

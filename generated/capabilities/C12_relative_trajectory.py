@@ -24,8 +24,6 @@ require_api(1)
 
 
 class RelativeTrajectory(Scenario):
-    """Scenario `relative_trajectory` (capabilities/C12_relative_trajectory.osc:6)."""
-
     name = "relative_trajectory"
     source = "capabilities/C12_relative_trajectory.osc"
 
@@ -46,15 +44,12 @@ class RelativeTrajectory(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C12_relative_trajectory.osc:25
+    def behavior(self) -> Behaviour:
         return Serial(
             "relative_trajectory",
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.replay_trajectory(
-                relative=self.shape,
-                reference=self.ego,
-                transform="object_relative",
-                label="pass_by",
+                "pass_by", relative=self.shape, reference=self.ego, transform="object_relative"
             ),
         )
 

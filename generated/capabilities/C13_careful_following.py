@@ -15,8 +15,6 @@ require_api(1)
 
 
 class CarefulFollowing(Scenario):
-    """Scenario `careful_following` (capabilities/C13_careful_following.osc:7)."""
-
     name = "careful_following"
     source = "capabilities/C13_careful_following.osc"
 
@@ -31,7 +29,7 @@ class CarefulFollowing(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(25 * mps))
         self.place(self.slower, lane(2), position(150 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C13_careful_following.osc:13
+    def behavior(self) -> Behaviour:
         return Parallel(
             "careful_following",
             self.ego.drive(speed(25 * mps), avoid_collisions(True)),
@@ -39,7 +37,7 @@ class CarefulFollowing(Scenario):
             duration=60 * s,
         )
 
-    def slower_serial(self) -> Behaviour:  # capabilities/C13_careful_following.osc:19
+    def slower_serial(self) -> Behaviour:
         return Serial(
             "slower: serial",
             self.slower.drive(speed(12 * mps), duration=30 * s),

@@ -27,8 +27,6 @@ require_api(1)
 
 
 class TimeGap(Scenario):
-    """Scenario `time_gap` (capabilities/C13_time_gap.osc:7)."""
-
     name = "time_gap"
     source = "capabilities/C13_time_gap.osc"
 
@@ -49,14 +47,14 @@ class TimeGap(Scenario):
             speed(20 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C13_time_gap.osc:14
+    def behavior(self) -> Behaviour:
         return Parallel(
             "time_gap",
             self.leader_serial(),
             self.follower_serial(),
         )
 
-    def leader_serial(self) -> Behaviour:  # capabilities/C13_time_gap.osc:15
+    def leader_serial(self) -> Behaviour:
         return Serial(
             "leader: serial",
             Until(
@@ -65,21 +63,19 @@ class TimeGap(Scenario):
             ),
             self.leader.drive(duration=2 * s),
             self.leader.change_speed(
-                target=15 * mps, rate_profile="smooth", duration=6 * s, label="slow_down"
+                "slow_down", target=15 * mps, rate_profile="smooth", duration=6 * s
             ),
             self.leader.drive(duration=15 * s),
         )
 
-    def follower_serial(self) -> Behaviour:  # capabilities/C13_time_gap.osc:24
+    def follower_serial(self) -> Behaviour:
         return Serial(
             "follower: serial",
             self.follower.change_time_gap(
-                target=1.5 * s, direction="behind", reference=self.leader, label="close_up"
+                "close_up", target=1.5 * s, direction="behind", reference=self.leader
             ),
             Emit(self.closed_up),
-            self.follower.keep_time_gap(
-                reference=self.leader, direction="longitudinal", label="stay"
-            ),
+            self.follower.keep_time_gap("stay", reference=self.leader, direction="longitudinal"),
         )
 
 

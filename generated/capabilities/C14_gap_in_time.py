@@ -15,8 +15,6 @@ require_api(1)
 
 
 class GapInTime(Scenario):
-    """Scenario `gap_in_time` (capabilities/C14_gap_in_time.osc:7)."""
-
     name = "gap_in_time"
     source = "capabilities/C14_gap_in_time.osc"
 
@@ -36,7 +34,7 @@ class GapInTime(Scenario):
             speed(10 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C14_gap_in_time.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "gap_in_time",
             self.lead.drive(duration=30 * s),
@@ -44,7 +42,7 @@ class GapInTime(Scenario):
             overlap="any",
         )
 
-    def follower_serial(self) -> Behaviour:  # capabilities/C14_gap_in_time.osc:17
+    def follower_serial(self) -> Behaviour:
         return Serial(
             "follower: serial",
             self.follower.change_space_gap(

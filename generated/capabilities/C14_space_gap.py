@@ -15,8 +15,6 @@ require_api(1)
 
 
 class SpaceGap(Scenario):
-    """Scenario `space_gap` (capabilities/C14_space_gap.osc:7)."""
-
     name = "space_gap"
     source = "capabilities/C14_space_gap.osc"
 
@@ -43,7 +41,7 @@ class SpaceGap(Scenario):
             speed(20 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C14_space_gap.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "space_gap",
             self.leader.drive(speed(20 * mps)),
@@ -51,23 +49,23 @@ class SpaceGap(Scenario):
             self.side_car_serial(),
         )
 
-    def follower_serial(self) -> Behaviour:  # capabilities/C14_space_gap.osc:17
+    def follower_serial(self) -> Behaviour:
         return Serial(
             "follower: serial",
             self.follower.change_space_gap(
-                target=12 * m, direction="behind", reference=self.leader, label="close_up"
+                "close_up", target=12 * m, direction="behind", reference=self.leader
             ),
             self.follower.keep_space_gap(
-                reference=self.leader, direction="longitudinal", duration=5 * s, label="stay"
+                "stay", reference=self.leader, direction="longitudinal", duration=5 * s
             ),
         )
 
-    def side_car_serial(self) -> Behaviour:  # capabilities/C14_space_gap.osc:27
+    def side_car_serial(self) -> Behaviour:
         return Serial(
             "side_car: serial",
             self.side_car.drive(speed(20 * mps), duration=1 * s),
             self.side_car.change_space_gap(
-                target=1.2 * m, direction="left", reference=self.leader, label="nearer"
+                "nearer", target=1.2 * m, direction="left", reference=self.leader
             ),
         )
 

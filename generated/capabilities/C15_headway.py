@@ -15,8 +15,6 @@ require_api(1)
 
 
 class Headway(Scenario):
-    """Scenario `headway` (capabilities/C15_headway.osc:7)."""
-
     name = "headway"
     source = "capabilities/C15_headway.osc"
 
@@ -43,7 +41,7 @@ class Headway(Scenario):
             speed(18 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C15_headway.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "headway",
             self.leader.drive(speed(18 * mps)),
@@ -51,22 +49,22 @@ class Headway(Scenario):
             self.far_serial(),
         )
 
-    def near_serial(self) -> Behaviour:  # capabilities/C15_headway.osc:17
+    def near_serial(self) -> Behaviour:
         return Serial(
             "near: serial",
             self.near.change_space_headway(
-                target=25 * m, direction="behind", reference=self.leader, label="near_closes"
+                "near_closes", target=25 * m, direction="behind", reference=self.leader
             ),
-            self.near.keep_space_headway(reference=self.leader, duration=4 * s, label="near_stays"),
+            self.near.keep_space_headway("near_stays", reference=self.leader, duration=4 * s),
         )
 
-    def far_serial(self) -> Behaviour:  # capabilities/C15_headway.osc:27
+    def far_serial(self) -> Behaviour:
         return Serial(
             "far: serial",
             self.far.change_time_headway(
-                target=3 * s, direction="behind", reference=self.leader, label="far_closes"
+                "far_closes", target=3 * s, direction="behind", reference=self.leader
             ),
-            self.far.keep_time_headway(reference=self.leader, duration=4 * s, label="far_stays"),
+            self.far.keep_time_headway("far_stays", reference=self.leader, duration=4 * s),
         )
 
 

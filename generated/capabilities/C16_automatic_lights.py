@@ -28,8 +28,6 @@ require_api(1)
 
 
 class AutomaticLights(Scenario):
-    """Scenario `automatic_lights` (capabilities/C16_automatic_lights.osc:12)."""
-
     name = "automatic_lights"
     source = "capabilities/C16_automatic_lights.osc"
 
@@ -45,7 +43,7 @@ class AutomaticLights(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
         self.place(self.dark, lane(1), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C16_automatic_lights.osc:19
+    def behavior(self) -> Behaviour:
         return Parallel(
             "automatic_lights",
             self.ego.drive(speed(20 * mps)),
@@ -54,7 +52,7 @@ class AutomaticLights(Scenario):
             duration=9 * s,
         )
 
-    def serial(self) -> Behaviour:  # capabilities/C16_automatic_lights.osc:28
+    def serial(self) -> Behaviour:
         return Serial(
             "serial",
             self.env.assign_celestial_position(light_source=self.env.sun, elevation=40 * deg),
@@ -64,22 +62,22 @@ class AutomaticLights(Scenario):
             self.env.assign_celestial_position(light_source=self.env.sun, elevation=15.1 * deg),
             Wait(elapsed(1 * s)),
             self.env.assign_celestial_position(
-                light_source=self.env.sun, elevation=14.9 * deg, label="dusk"
+                "dusk", light_source=self.env.sun, elevation=14.9 * deg
             ),
             Wait(elapsed(1 * s)),
             self.env.assign_celestial_position(
-                light_source=self.env.sun, elevation=-20 * deg, label="night"
+                "night", light_source=self.env.sun, elevation=-20 * deg
             ),
             Wait(elapsed(1 * s)),
             self.env.assign_celestial_position(
-                light_source=self.env.sun, elevation=20 * deg, label="morning"
+                "morning", light_source=self.env.sun, elevation=20 * deg
             ),
             Wait(elapsed(1 * s)),
-            self.env.fog(visual_range=100 * m, label="haze"),
+            self.env.fog("haze", visual_range=100 * m),
             Wait(elapsed(1 * s)),
-            self.env.fog(visual_range=99 * m, label="fog"),
+            self.env.fog("fog", visual_range=99 * m),
             Wait(elapsed(1 * s)),
-            self.env.fog(visual_range=2 * km, label="clear"),
+            self.env.fog("clear", visual_range=2 * km),
         )
 
 

@@ -27,8 +27,6 @@ require_api(1)
 
 
 class FogScenario(Scenario):
-    """Scenario `fog` (capabilities/C16_fog.osc:7)."""
-
     name = "fog"
     source = "capabilities/C16_fog.osc"
 
@@ -48,7 +46,7 @@ class FogScenario(Scenario):
         self.place(self.early, lane(1), position(100 * m), speed(15 * mps))
         self.place(self.late, lane(2), position(280 * m), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C16_fog.osc:16
+    def behavior(self) -> Behaviour:
         return Parallel(
             "fog",
             self.standing.remain_stationary(),
@@ -59,7 +57,7 @@ class FogScenario(Scenario):
             duration=30 * s,
         )
 
-    def env_serial(self) -> Behaviour:  # capabilities/C16_fog.osc:33
+    def env_serial(self) -> Behaviour:
         return Serial(
             "env: serial",
             Wait(elapsed(12 * s)),

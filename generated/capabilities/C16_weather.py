@@ -27,8 +27,6 @@ require_api(1)
 
 
 class WeatherControl(Scenario):
-    """Scenario `weather_control` (capabilities/C16_weather.osc:7)."""
-
     name = "weather_control"
     source = "capabilities/C16_weather.osc"
 
@@ -42,14 +40,14 @@ class WeatherControl(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C16_weather.osc:13
+    def behavior(self) -> Behaviour:
         return Parallel(
             "weather_control",
             self.ego.drive(speed(20 * mps), duration=6 * s),
             self.env_serial(),
         )
 
-    def env_serial(self) -> Behaviour:  # capabilities/C16_weather.osc:18
+    def env_serial(self) -> Behaviour:
         return Serial(
             "env: serial",
             self.env.air(temperature=celsius(12), pressure=1010 * hPa, relative_humidity=0.9),

@@ -32,8 +32,6 @@ require_api(1)
 
 
 class WeatherReadings(Scenario):
-    """Scenario `weather_readings` (capabilities/C16_weather_readings.osc:7)."""
-
     name = "weather_readings"
     source = "capabilities/C16_weather_readings.osc"
 
@@ -64,14 +62,14 @@ class WeatherReadings(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C16_weather_readings.osc:31
+    def behavior(self) -> Behaviour:
         return Parallel(
             "weather_readings",
             self.ego_serial(),
             self.env_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C16_weather_readings.osc:32
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
@@ -91,7 +89,7 @@ class WeatherReadings(Scenario):
             self.ego.change_speed(target=5 * mps, rate_profile="constant", rate_peak=2.5 * mpsps),
         )
 
-    def env_serial(self) -> Behaviour:  # capabilities/C16_weather_readings.osc:45
+    def env_serial(self) -> Behaviour:
         return Serial(
             "env: serial",
             Wait(elapsed(1 * s)),

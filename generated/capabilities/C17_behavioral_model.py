@@ -30,8 +30,6 @@ require_api(1)
 
 
 class BehavioralModels(Scenario):
-    """Scenario `behavioral_models` (capabilities/C17_behavioral_model.osc:7)."""
-
     name = "behavioral_models"
     source = "capabilities/C17_behavioral_model.osc"
 
@@ -48,7 +46,7 @@ class BehavioralModels(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_behavioral_model.osc:20
+    def behavior(self) -> Behaviour:
         return Serial(
             "behavioral_models",
             self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),

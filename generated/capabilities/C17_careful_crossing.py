@@ -28,8 +28,6 @@ require_api(1)
 
 
 class CarefulCrossing(Scenario):
-    """Scenario `careful_crossing` (capabilities/C17_careful_crossing.osc:7)."""
-
     name = "careful_crossing"
     source = "capabilities/C17_careful_crossing.osc"
 
@@ -48,7 +46,7 @@ class CarefulCrossing(Scenario):
         self.place(self.ego, lane(1), position(120 * m), speed(self.v_ego))
         self.place(self.walker, position(at_point=self.curb, project_on_route=False), yaw(90 * deg))
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_careful_crossing.osc:20
+    def behavior(self) -> Behaviour:
         return Parallel(
             "careful_crossing",
             self.ego.drive(speed(self.v_ego), avoid_collisions(True)),
@@ -56,7 +54,7 @@ class CarefulCrossing(Scenario):
             duration=40 * s,
         )
 
-    def walker_serial(self) -> Behaviour:  # capabilities/C17_careful_crossing.osc:26
+    def walker_serial(self) -> Behaviour:
         return Serial(
             "walker: serial",
             Until(
@@ -67,8 +65,8 @@ class CarefulCrossing(Scenario):
                 ),
             ),
             self.walker.walk(speed(1.4 * mps), duration=2.5 * s),
-            self.walker.remain_stationary(duration=10 * s, label="hesitates"),
-            self.walker.walk(speed(1.4 * mps), duration=4 * s, label="onward"),
+            self.walker.remain_stationary("hesitates", duration=10 * s),
+            self.walker.walk("onward", speed(1.4 * mps), duration=4 * s),
             self.walker.remain_stationary(),
         )
 

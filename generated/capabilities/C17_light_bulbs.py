@@ -33,8 +33,6 @@ require_api(1)
 
 
 class LightBulbs(Scenario):
-    """Scenario `light_bulbs` (capabilities/C17_light_bulbs.osc:7)."""
-
     name = "light_bulbs"
     source = "capabilities/C17_light_bulbs.osc"
 
@@ -82,14 +80,14 @@ class LightBulbs(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(1), position(20 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_light_bulbs.osc:47
+    def behavior(self) -> Behaviour:
         return Parallel(
             "light_bulbs",
             self.lights.play_cycles(cycles=self.road.traffic_light_control),
             self.ego_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C17_light_bulbs.osc:49
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

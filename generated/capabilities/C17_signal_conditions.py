@@ -29,8 +29,6 @@ require_api(1)
 
 
 class SignalConditions(Scenario):
-    """Scenario `signal_conditions` (capabilities/C17_signal_conditions.osc:7)."""
-
     name = "signal_conditions"
     source = "capabilities/C17_signal_conditions.osc"
 
@@ -49,14 +47,14 @@ class SignalConditions(Scenario):
             )
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_signal_conditions.osc:19
+    def behavior(self) -> Behaviour:
         return Parallel(
             "signal_conditions",
             self.lights_serial(),
             self.serial(),
         )
 
-    def lights_serial(self) -> Behaviour:  # capabilities/C17_signal_conditions.osc:20
+    def lights_serial(self) -> Behaviour:
         return Serial(
             "lights: serial",
             self.lights.set_semantic_state(traffic_light=self.east, state="stop"),
@@ -71,7 +69,7 @@ class SignalConditions(Scenario):
             ),
         )
 
-    def serial(self) -> Behaviour:  # capabilities/C17_signal_conditions.osc:37
+    def serial(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.green),

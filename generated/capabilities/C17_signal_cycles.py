@@ -25,8 +25,6 @@ require_api(1)
 
 
 class SignalCycles(Scenario):
-    """Scenario `signal_cycles` (capabilities/C17_signal_cycles.osc:6)."""
-
     name = "signal_cycles"
     source = "capabilities/C17_signal_cycles.osc"
 
@@ -48,10 +46,10 @@ class SignalCycles(Scenario):
         )
         self.cycle = TrafficLightCycle(phases=[self.free, self.closed])
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_signal_cycles.osc:26
+    def behavior(self) -> Behaviour:
         return Serial(
             "signal_cycles",
-            self.lights.play_cycles(cycles=[self.cycle], duration=12 * s, label="run_by_itself"),
+            self.lights.play_cycles("run_by_itself", cycles=[self.cycle], duration=12 * s),
         )
 
 

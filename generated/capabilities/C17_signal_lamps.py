@@ -25,8 +25,6 @@ require_api(1)
 
 
 class SignalLamps(Scenario):
-    """Scenario `signal_lamps` (capabilities/C17_signal_lamps.osc:6)."""
-
     name = "signal_lamps"
     source = "capabilities/C17_signal_lamps.osc"
 
@@ -37,7 +35,7 @@ class SignalLamps(Scenario):
         self.east = TrafficLight(map_id="101")
         self.main_road = TrafficLightGroup(map_id="1")
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_signal_lamps.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "signal_lamps",
             self.lights.set_state(traffic_light=self.east, state=["is_on", "is_off", "is_off"]),

@@ -29,8 +29,6 @@ require_api(1)
 
 
 class TrafficSignals(Scenario):
-    """Scenario `traffic_signals` (capabilities/C17_traffic_signals.osc:7)."""
-
     name = "traffic_signals"
     source = "capabilities/C17_traffic_signals.osc"
 
@@ -46,14 +44,14 @@ class TrafficSignals(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C17_traffic_signals.osc:17
+    def behavior(self) -> Behaviour:
         return Parallel(
             "traffic_signals",
             self.lights_serial(),
             self.ego.drive(speed(12 * mps), avoid_collisions(True), duration=20 * s),
         )
 
-    def lights_serial(self) -> Behaviour:  # capabilities/C17_traffic_signals.osc:18
+    def lights_serial(self) -> Behaviour:
         return Serial(
             "lights: serial",
             self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class BrakingDistances(Scenario):
-    """Scenario `braking_distances` (capabilities/C18_braking_distances.osc:7)."""
-
     name = "braking_distances"
     source = "capabilities/C18_braking_distances.osc"
 
@@ -31,26 +29,26 @@ class BrakingDistances(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(self.v_full))
 
-    def behavior(self) -> Behaviour:  # capabilities/C18_braking_distances.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "braking_distances",
             self.ego.drive(speed(self.v_full), duration=1 * s),
-            self.ego.change_speed(target=0 * mps, rate_profile="asap", label="dry"),
+            self.ego.change_speed("dry", target=0 * mps, rate_profile="asap"),
             self.ego.assign_speed(speed=self.v_full),
             self.env.rain(intensity=5 * mmph),
             self.ego.drive(duration=1 * s),
-            self.ego.change_speed(target=0 * mps, rate_profile="asap", label="wet"),
+            self.ego.change_speed("wet", target=0 * mps, rate_profile="asap"),
             self.ego.assign_speed(speed=self.v_full),
             self.env.rain(intensity=0 * mmph),
             self.env.snow(intensity=2 * mmph),
             self.ego.drive(duration=1 * s),
-            self.ego.change_speed(target=0 * mps, rate_profile="asap", label="snowy"),
+            self.ego.change_speed("snowy", target=0 * mps, rate_profile="asap"),
             self.ego.assign_speed(speed=self.v_full),
             self.env.snow(intensity=0 * mmph),
             self.env.air(temperature=celsius(-3)),
             self.env.rain(intensity=1 * mmph),
             self.ego.drive(duration=1 * s),
-            self.ego.change_speed(target=0 * mps, rate_profile="asap", label="icy"),
+            self.ego.change_speed("icy", target=0 * mps, rate_profile="asap"),
         )
 
 

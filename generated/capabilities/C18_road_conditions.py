@@ -15,8 +15,6 @@ require_api(1)
 
 
 class RoadConditions(Scenario):
-    """Scenario `road_conditions` (capabilities/C18_road_conditions.osc:7)."""
-
     name = "road_conditions"
     source = "capabilities/C18_road_conditions.osc"
 
@@ -31,16 +29,16 @@ class RoadConditions(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(self.v_full))
 
-    def behavior(self) -> Behaviour:  # capabilities/C18_road_conditions.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "road_conditions",
             self.ego.drive(speed(self.v_full), duration=1 * s),
-            self.ego.change_speed(target=0 * mps, rate_profile="asap", label="dry"),
+            self.ego.change_speed("dry", target=0 * mps, rate_profile="asap"),
             self.ego.change_speed(
-                target=self.v_full, rate_profile="constant", rate_peak=3 * mpss, label="gain"
+                "gain", target=self.v_full, rate_profile="constant", rate_peak=3 * mpss
             ),
             self.env.snow(intensity=2 * mmph),
-            self.ego.change_speed(target=0 * mps, rate_profile="asap", label="slippery"),
+            self.ego.change_speed("slippery", target=0 * mps, rate_profile="asap"),
         )
 
 

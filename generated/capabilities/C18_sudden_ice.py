@@ -30,8 +30,6 @@ require_api(1)
 
 
 class SuddenIce(Scenario):
-    """Scenario `sudden_ice` (capabilities/C18_sudden_ice.osc:8)."""
-
     name = "sudden_ice"
     source = "capabilities/C18_sudden_ice.osc"
 
@@ -52,7 +50,7 @@ class SuddenIce(Scenario):
             self.walker, position(at_point=self.verge, project_on_route=False), speed(1.4 * mps)
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C18_sudden_ice.osc:20
+    def behavior(self) -> Behaviour:
         return Parallel(
             "sudden_ice",
             self.fast_serial(),
@@ -62,21 +60,21 @@ class SuddenIce(Scenario):
             duration=25 * s,
         )
 
-    def fast_serial(self) -> Behaviour:  # capabilities/C18_sudden_ice.osc:21
+    def fast_serial(self) -> Behaviour:
         return Serial(
             "fast: serial",
             self.fast.drive(speed(20 * mps), duration=1 * s),
             self.fast.drive(acceleration(-6 * mpss)),
         )
 
-    def slow_serial(self) -> Behaviour:  # capabilities/C18_sudden_ice.osc:28
+    def slow_serial(self) -> Behaviour:
         return Serial(
             "slow: serial",
             self.slow.drive(speed(12 * mps), duration=1 * s),
             self.slow.drive(acceleration(-6 * mpss)),
         )
 
-    def env_serial(self) -> Behaviour:  # capabilities/C18_sudden_ice.osc:38
+    def env_serial(self) -> Behaviour:
         return Serial(
             "env: serial",
             self.env.air(temperature=celsius(-5)),

@@ -14,8 +14,6 @@ require_api(1)
 
 
 class RelativeSpeed(Scenario):
-    """Scenario `relative_speed` (capabilities/C19_change_speed.osc:6)."""
-
     name = "relative_speed"
     source = "capabilities/C19_change_speed.osc"
 
@@ -28,12 +26,12 @@ class RelativeSpeed(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C19_change_speed.osc:11
+    def behavior(self) -> Behaviour:
         return Serial(
             "relative_speed",
             self.ego.drive(speed(12 * mps), duration=1 * s),
-            self.ego.drive(change_speed(4 * mps), duration=5 * s, label="gain"),
-            self.ego.drive(keep_speed(), duration=2 * s, label="hold"),
+            self.ego.drive("gain", change_speed(4 * mps), duration=5 * s),
+            self.ego.drive("hold", keep_speed(), duration=2 * s),
         )
 
 

@@ -33,7 +33,7 @@ require_api(1)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Swell(AnySpeedShape):
-    """Struct `swell` (capabilities/C19_own_shape.osc:8).
+    """Struct `swell`.
 
     Up by `height` and down again, on a parabola over `length`.
     """
@@ -45,7 +45,7 @@ class Swell(AnySpeedShape):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Fading(AnyAccelerationShape):
-    """Struct `fading` (capabilities/C19_own_shape.osc:17).
+    """Struct `fading`.
 
     Falls evenly to zero.
     """
@@ -55,8 +55,6 @@ class Fading(AnyAccelerationShape):
 
 
 class OwnShapeScenario(Scenario):
-    """Scenario `own_shape` (capabilities/C19_own_shape.osc:23)."""
-
     name = "own_shape"
     source = "capabilities/C19_own_shape.osc"
 
@@ -82,24 +80,22 @@ class OwnShapeScenario(Scenario):
         )
         self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
 
-    def swell_duration(self, swell: Swell) -> float:  # capabilities/C19_own_shape.osc:12
+    def swell_duration(self, swell: Swell) -> float:
         return swell.length
 
-    def swell_bow(self, swell: Swell, share: float) -> float:  # capabilities/C19_own_shape.osc:13
+    def swell_bow(self, swell: Swell, share: float) -> float:
         return 4.0 * share * (1.0 - share)
 
     def swell_compute(self, swell: Swell, time: float) -> float:
-        # capabilities/C19_own_shape.osc:14
         return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
 
-    def fading_duration(self, fading: Fading) -> float:  # capabilities/C19_own_shape.osc:20
+    def fading_duration(self, fading: Fading) -> float:
         return fading.length
 
     def fading_compute(self, fading: Fading, time: float) -> float:
-        # capabilities/C19_own_shape.osc:21
         return fading.first * (1.0 - time / fading.length)
 
-    def behavior(self) -> Behaviour:  # capabilities/C19_own_shape.osc:42
+    def behavior(self) -> Behaviour:
         return Parallel(
             "own_shape",
             self.swelling.drive(

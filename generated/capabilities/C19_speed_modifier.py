@@ -14,8 +14,6 @@ require_api(1)
 
 
 class SpeedModifier(Scenario):
-    """Scenario `speed_modifier` (capabilities/C19_speed_modifier.osc:6)."""
-
     name = "speed_modifier"
     source = "capabilities/C19_speed_modifier.osc"
 
@@ -35,7 +33,7 @@ class SpeedModifier(Scenario):
         self.place(self.slower, lane(3), position(100 * m), speed(10 * mps))
         self.place(self.scaled, lane(4), position(100 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C19_speed_modifier.osc:13
+    def behavior(self) -> Behaviour:
         return Parallel(
             "speed_modifier",
             self.pace.drive(speed(self.v_pace)),

@@ -23,8 +23,6 @@ require_api(1)
 
 
 class VelocityProfile(Scenario):
-    """Scenario `velocity_profile` (capabilities/C19_speed_shape.osc:6)."""
-
     name = "velocity_profile"
     source = "capabilities/C19_speed_shape.osc"
 
@@ -41,7 +39,7 @@ class VelocityProfile(Scenario):
         self.place(self.even, lane(1), position(50 * m), speed(10 * mps))
         self.place(self.gentle, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C19_speed_shape.osc:18
+    def behavior(self) -> Behaviour:
         return Parallel(
             "velocity_profile",
             self.even.drive(speed(18 * mps, shape=self.even_shape)),

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class AccelerationModifier(Scenario):
-    """Scenario `acceleration_modifier` (capabilities/C20_acceleration_modifier.osc:7)."""
-
     name = "acceleration_modifier"
     source = "capabilities/C20_acceleration_modifier.osc"
 
@@ -29,12 +27,12 @@ class AccelerationModifier(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(8 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C20_acceleration_modifier.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "acceleration_modifier",
             self.ego.drive(speed(8 * mps), duration=1 * s),
-            self.ego.drive(acceleration(1.25 * mpss), duration=4 * s, label="gain"),
-            self.ego.drive(acceleration(-2 * mpss), duration=8 * s, label="lose"),
+            self.ego.drive("gain", acceleration(1.25 * mpss), duration=4 * s),
+            self.ego.drive("lose", acceleration(-2 * mpss), duration=8 * s),
         )
 
 

@@ -23,8 +23,6 @@ require_api(1)
 
 
 class AccelerationProfile(Scenario):
-    """Scenario `acceleration_profile` (capabilities/C20_acceleration_shape.osc:6)."""
-
     name = "acceleration_profile"
     source = "capabilities/C20_acceleration_shape.osc"
 
@@ -38,13 +36,11 @@ class AccelerationProfile(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C20_acceleration_shape.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "acceleration_profile",
             self.ego.drive(speed(10 * mps), duration=1 * s),
-            self.ego.drive(
-                acceleration(1.5 * mpss, shape=self.build_up), duration=6 * s, label="gain"
-            ),
+            self.ego.drive("gain", acceleration(1.5 * mpss, shape=self.build_up), duration=6 * s),
         )
 
 

@@ -14,8 +14,6 @@ require_api(1)
 
 
 class AlongAPath(Scenario):
-    """Scenario `along_a_path` (capabilities/C21_along.osc:6)."""
-
     name = "along_a_path"
     source = "capabilities/C21_along.osc"
 
@@ -31,11 +29,11 @@ class AlongAPath(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C21_along.osc:23
+    def behavior(self) -> Behaviour:
         return Serial(
             "along_a_path",
             self.ego.drive(speed(20 * mps), duration=1 * s),
-            self.ego.drive(along(self.way, end_offset=10 * m), label="ride"),
+            self.ego.drive("ride", along(self.way, end_offset=10 * m)),
             self.ego.drive(duration=1 * s),
         )
 

@@ -25,8 +25,6 @@ require_api(1)
 
 
 class Ways(Scenario):
-    """Scenario `ways` (capabilities/C21_distance.osc:6)."""
-
     name = "ways"
     source = "capabilities/C21_distance.osc"
 
@@ -44,18 +42,18 @@ class Ways(Scenario):
             self.walker, position(at_point=self.corner, project_on_route=False), yaw(90 * deg)
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C21_distance.osc:17
+    def behavior(self) -> Behaviour:
         return Parallel(
             "ways",
             self.ego_serial(),
             self.walker.walk(keep_position()),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C21_distance.osc:18
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
-            self.ego.drive(speed(15 * mps), distance(60 * m), label="first_leg"),
-            self.ego.drive(distance(36 * m), label="second_leg"),
+            self.ego.drive("first_leg", speed(15 * mps), distance(60 * m)),
+            self.ego.drive("second_leg", distance(36 * m)),
         )
 
 

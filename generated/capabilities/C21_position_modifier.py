@@ -15,8 +15,6 @@ require_api(1)
 
 
 class PositionModifier(Scenario):
-    """Scenario `position_modifier` (capabilities/C21_position_modifier.osc:7)."""
-
     name = "position_modifier"
     source = "capabilities/C21_position_modifier.osc"
 
@@ -47,7 +45,7 @@ class PositionModifier(Scenario):
             speed(15 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C21_position_modifier.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "position_modifier",
             self.ego.drive(speed(15 * mps)),

@@ -29,7 +29,7 @@ require_api(1)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Gaining(AnyPositionShape):
-    """Struct `gaining` (capabilities/C21_position_shape.osc:8).
+    """Struct `gaining`.
 
     Goes on at `pace`, and faster and faster: `more` further after `period`.
     """
@@ -40,8 +40,6 @@ class Gaining(AnyPositionShape):
 
 
 class PositionShape(Scenario):
-    """Scenario `position_shape` (capabilities/C21_position_shape.osc:15)."""
-
     name = "position_shape"
     source = "capabilities/C21_position_shape.osc"
 
@@ -65,16 +63,14 @@ class PositionShape(Scenario):
         )
 
     def gaining_square(self, gaining: Gaining, share: float) -> float:
-        # capabilities/C21_position_shape.osc:12
         return share * share
 
     def gaining_compute(self, gaining: Gaining, time: float) -> float:
-        # capabilities/C21_position_shape.osc:13
         return gaining.pace * time + gaining.more * self.gaining_square(
             gaining, time / gaining.period
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C21_position_shape.osc:27
+    def behavior(self) -> Behaviour:
         return Parallel(
             "position_shape",
             self.stopping.drive(distance(60 * m, shape=self.smoothly)),

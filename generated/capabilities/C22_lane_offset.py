@@ -15,8 +15,6 @@ require_api(1)
 
 
 class LaneOffset(Scenario):
-    """Scenario `lane_offset` (capabilities/C22_lane_offset.osc:7)."""
-
     name = "lane_offset"
     source = "capabilities/C22_lane_offset.osc"
 
@@ -29,16 +27,12 @@ class LaneOffset(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C22_lane_offset.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "lane_offset",
-            self.ego.follow_lane(offset=0.4 * m, duration=5 * s, label="aside"),
+            self.ego.follow_lane("aside", offset=0.4 * m, duration=5 * s),
             self.ego.change_lane(
-                num_of_lanes=1,
-                side="right",
-                rate_profile="constant",
-                rate_peak=1 * mps,
-                label="across",
+                "across", num_of_lanes=1, side="right", rate_profile="constant", rate_peak=1 * mps
             ),
         )
 

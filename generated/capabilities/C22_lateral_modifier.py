@@ -15,8 +15,6 @@ require_api(1)
 
 
 class LateralModifiers(Scenario):
-    """Scenario `lateral_modifiers` (capabilities/C22_lateral_modifier.osc:7)."""
-
     name = "lateral_modifiers"
     source = "capabilities/C22_lateral_modifier.osc"
 
@@ -41,7 +39,7 @@ class LateralModifiers(Scenario):
         self.place(self.changing, lane(4), position(200 * m, ahead_of=self.ego), speed(15 * mps))
         self.place(self.joining, lane(3), position(60 * m, ahead_of=self.ego), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C22_lateral_modifier.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "lateral_modifiers",
             self.ego.drive(speed(15 * mps), keep_lane()),

@@ -29,7 +29,7 @@ require_api(1)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Bulge(AnyLateralShape):
-    """Struct `bulge` (capabilities/C22_lateral_speeds.osc:8).
+    """Struct `bulge`.
 
     Out by `reach` and back, on a parabola.
     """
@@ -39,8 +39,6 @@ class Bulge(AnyLateralShape):
 
 
 class LateralSpeeds(Scenario):
-    """Scenario `lateral_speeds` (capabilities/C22_lateral_speeds.osc:15)."""
-
     name = "lateral_speeds"
     source = "capabilities/C22_lateral_speeds.osc"
 
@@ -70,18 +68,16 @@ class LateralSpeeds(Scenario):
             speed(0.5 * mps, direction="lateral"),
         )
 
-    def bulge_duration(self, bulge: Bulge) -> float:  # capabilities/C22_lateral_speeds.osc:11
+    def bulge_duration(self, bulge: Bulge) -> float:
         return bulge.length
 
     def bulge_bow(self, bulge: Bulge, share: float) -> float:
-        # capabilities/C22_lateral_speeds.osc:12
         return 4.0 * share * (1.0 - share)
 
     def bulge_compute(self, bulge: Bulge, time: float) -> float:
-        # capabilities/C22_lateral_speeds.osc:13
         return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
 
-    def behavior(self) -> Behaviour:  # capabilities/C22_lateral_speeds.osc:24
+    def behavior(self) -> Behaviour:
         return Parallel(
             "lateral_speeds",
             self.drifting_serial(),
@@ -92,7 +88,7 @@ class LateralSpeeds(Scenario):
             self.leaning.drive(duration=4 * s),
         )
 
-    def drifting_serial(self) -> Behaviour:  # capabilities/C22_lateral_speeds.osc:25
+    def drifting_serial(self) -> Behaviour:
         return Serial(
             "drifting: serial",
             self.drifting.drive(speed(0.6 * mps, direction="lateral", at="end"), duration=2 * s),

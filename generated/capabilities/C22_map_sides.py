@@ -14,8 +14,6 @@ require_api(1)
 
 
 class MapSides(Scenario):
-    """Scenario `map_sides` (capabilities/C22_map_sides.osc:6)."""
-
     name = "map_sides"
     source = "capabilities/C22_map_sides.osc"
 
@@ -28,12 +26,12 @@ class MapSides(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(1, from_="right"), position(10 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C22_map_sides.osc:11
+    def behavior(self) -> Behaviour:
         return Serial(
             "map_sides",
             self.ego.drive(speed(10 * mps), duration=1 * s),
-            self.ego.change_lane(num_of_lanes=1, side="outside", duration=3 * s, label="outwards"),
-            self.ego.change_lane(num_of_lanes=1, side="inside", duration=3 * s, label="inwards"),
+            self.ego.change_lane("outwards", num_of_lanes=1, side="outside", duration=3 * s),
+            self.ego.change_lane("inwards", num_of_lanes=1, side="inside", duration=3 * s),
         )
 
 

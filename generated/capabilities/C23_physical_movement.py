@@ -15,8 +15,6 @@ require_api(1)
 
 
 class PhysicalMovements(Scenario):
-    """Scenario `physical_movements` (capabilities/C23_physical_movement.osc:7)."""
-
     name = "physical_movements"
     source = "capabilities/C23_physical_movement.osc"
 
@@ -31,7 +29,7 @@ class PhysicalMovements(Scenario):
         self.place(self.bound, lane(2), position(50 * m), speed(10 * mps))
         self.place(self.free, lane(3), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C23_physical_movement.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "physical_movements",
             self.bound.drive(speed(20 * mps), physical_movement("must_be_physical")),

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class TemporalModifiers(Scenario):
-    """Scenario `temporal_modifiers` (capabilities/C24_temporal_modifiers.osc:7)."""
-
     name = "temporal_modifiers"
     source = "capabilities/C24_temporal_modifiers.osc"
 
@@ -41,17 +39,16 @@ class TemporalModifiers(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C24_temporal_modifiers.osc:14
+    def behavior(self) -> Behaviour:
         return Serial(
             "temporal_modifiers",
             self.ego.drive(speed(10 * mps), duration=1 * s),
-            Wait(elapsed(self.delay), label="pause"),
+            Wait("pause", elapsed(self.delay)),
             Until(
-                self.ego.drive(speed(12 * mps)),
+                self.ego.drive("limited", speed(12 * mps)),
                 elapsed(2 * s),
-                label="limited",
             ),
-            self.ego.drive(speed(18 * mps, at="end"), duration=4 * s, label="planned"),
+            self.ego.drive("planned", speed(18 * mps, at="end"), duration=4 * s),
         )
 
 

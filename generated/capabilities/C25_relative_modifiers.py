@@ -15,8 +15,6 @@ require_api(1)
 
 
 class RelativeModifiers(Scenario):
-    """Scenario `relative_modifiers` (capabilities/C25_relative_modifiers.osc:7)."""
-
     name = "relative_modifiers"
     source = "capabilities/C25_relative_modifiers.osc"
 
@@ -36,19 +34,19 @@ class RelativeModifiers(Scenario):
             speed(same_as=self.lead),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C25_relative_modifiers.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "relative_modifiers",
             self.lead_serial(),
             self.wing.drive(speed(same_as=self.lead)),
         )
 
-    def lead_serial(self) -> Behaviour:  # capabilities/C25_relative_modifiers.osc:13
+    def lead_serial(self) -> Behaviour:
         return Serial(
             "lead: serial",
             self.lead.drive(speed(15 * mps), duration=2 * s),
             self.lead.change_speed(
-                target=21 * mps, rate_profile="smooth", duration=6 * s, label="lead_changes"
+                "lead_changes", target=21 * mps, rate_profile="smooth", duration=6 * s
             ),
             self.lead.drive(duration=3 * s),
         )

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class OrientationModifiers(Scenario):
-    """Scenario `orientation_modifiers` (capabilities/C26_orientation_modifiers.osc:7)."""
-
     name = "orientation_modifiers"
     source = "capabilities/C26_orientation_modifiers.osc"
 
@@ -51,7 +49,7 @@ class OrientationModifiers(Scenario):
             speed(1 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C26_orientation_modifiers.osc:25
+    def behavior(self) -> Behaviour:
         return Parallel(
             "orientation_modifiers",
             self.along.walk(speed(1 * mps)),

@@ -32,8 +32,6 @@ require_api(1)
 
 
 class PitchAndRoll(Scenario):
-    """Scenario `pitch_and_roll` (capabilities/C26_pitch_and_roll.osc:7)."""
-
     name = "pitch_and_roll"
     source = "capabilities/C26_pitch_and_roll.osc"
 
@@ -60,7 +58,7 @@ class PitchAndRoll(Scenario):
             yaw(0 * deg, measure_by="relative_to_road"),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C26_pitch_and_roll.osc:34
+    def behavior(self) -> Behaviour:
         return Parallel(
             "pitch_and_roll",
             self.car_serial(),
@@ -68,7 +66,7 @@ class PitchAndRoll(Scenario):
             duration=12 * s,
         )
 
-    def car_serial(self) -> Behaviour:  # capabilities/C26_pitch_and_roll.osc:35
+    def car_serial(self) -> Behaviour:
         return Serial(
             "car: serial",
             Until(
@@ -78,7 +76,7 @@ class PitchAndRoll(Scenario):
             self.car.drive(orientation(pitch=0 * deg, roll=0 * deg, measure_by="relative_to_road")),
         )
 
-    def box_serial(self) -> Behaviour:  # capabilities/C26_pitch_and_roll.osc:43
+    def box_serial(self) -> Behaviour:
         return Serial(
             "box: serial",
             self.box.move(duration=1 * s),

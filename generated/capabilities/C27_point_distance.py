@@ -26,8 +26,6 @@ require_api(1)
 
 
 class PointDistance(Scenario):
-    """Scenario `point_distance` (capabilities/C27_point_distance.osc:7)."""
-
     name = "point_distance"
     source = "capabilities/C27_point_distance.osc"
 
@@ -49,13 +47,12 @@ class PointDistance(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C27_point_distance.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "point_distance",
             Until(
-                self.ego.drive(speed(20 * mps)),
+                self.ego.drive("approach", speed(20 * mps)),
                 self.near,
-                label="approach",
             ),
             self.ego.change_speed(target=0 * mps, rate_profile="asap"),
         )

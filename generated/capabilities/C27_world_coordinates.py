@@ -28,8 +28,6 @@ require_api(1)
 
 
 class WorldCoordinates(Scenario):
-    """Scenario `world_coordinates` (capabilities/C27_world_coordinates.osc:7)."""
-
     name = "world_coordinates"
     source = "capabilities/C27_world_coordinates.osc"
 
@@ -51,18 +49,17 @@ class WorldCoordinates(Scenario):
             speed(1.4 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C27_world_coordinates.osc:24
+    def behavior(self) -> Behaviour:
         return Serial(
             "world_coordinates",
             Until(
-                self.walker.walk(speed(1.4 * mps)),
+                self.walker.walk("approach", speed(1.4 * mps)),
                 rise(
                     lambda: self.walker.object_distance(
                         reference=self.barrier, direction="euclidean"
                     )
                     < 5 * m
                 ),
-                label="approach",
             ),
             self.walker.remain_stationary(duration=2 * s),
         )

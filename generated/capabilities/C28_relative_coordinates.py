@@ -29,8 +29,6 @@ require_api(1)
 
 
 class RelativeCoordinates(Scenario):
-    """Scenario `relative_coordinates` (capabilities/C28_relative_coordinates.osc:7)."""
-
     name = "relative_coordinates"
     source = "capabilities/C28_relative_coordinates.osc"
 
@@ -61,20 +59,19 @@ class RelativeCoordinates(Scenario):
         self.place(self.walker, position(at_point=self.spot, project_on_route=False), yaw(90 * deg))
         self.place(self.car, lane(1), position(51.5 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C28_relative_coordinates.osc:29
+    def behavior(self) -> Behaviour:
         return Parallel(
             "relative_coordinates",
             self.walker.remain_stationary(),
             self.car_serial(),
         )
 
-    def car_serial(self) -> Behaviour:  # capabilities/C28_relative_coordinates.osc:33
+    def car_serial(self) -> Behaviour:
         return Serial(
             "car: serial",
             Until(
-                self.car.drive(speed(20 * mps)),
+                self.car.drive("approach", speed(20 * mps)),
                 self.abreast,
-                label="approach",
             ),
             self.car.drive(duration=1 * s),
         )

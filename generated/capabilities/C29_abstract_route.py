@@ -15,8 +15,6 @@ require_api(1)
 
 
 class AbstractRoute(Scenario):
-    """Scenario `abstract_route` (capabilities/C29_abstract_route.osc:7)."""
-
     name = "abstract_route"
     source = "capabilities/C29_abstract_route.osc"
 
@@ -33,7 +31,7 @@ class AbstractRoute(Scenario):
         )
         self.place(self.ego, along(self.way, start_offset=200 * m), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_abstract_route.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "abstract_route",
             self.ego.drive(speed(15 * mps), duration=3 * s),

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class Conversions(Scenario):
-    """Scenario `conversions` (capabilities/C29_conversions.osc:7)."""
-
     name = "conversions"
     source = "capabilities/C29_conversions.osc"
 
@@ -64,7 +62,7 @@ class Conversions(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_conversions.osc:40
+    def behavior(self) -> Behaviour:
         return Serial(
             "conversions",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -29,8 +29,6 @@ require_api(1)
 
 
 class CrossingTheStreet(Scenario):
-    """Scenario `crossing_the_street` (capabilities/C29_crossing.osc:7)."""
-
     name = "crossing_the_street"
     source = "capabilities/C29_crossing.osc"
 
@@ -85,7 +83,7 @@ class CrossingTheStreet(Scenario):
         self.place(self.walker, along(self.way), speed(1.5 * mps))
         self.place(self.other, along(self.shortcut), speed(1 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_crossing.osc:46
+    def behavior(self) -> Behaviour:
         return Parallel(
             "crossing_the_street",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

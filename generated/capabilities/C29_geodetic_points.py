@@ -23,8 +23,6 @@ require_api(1)
 
 
 class GeodeticPoints(Scenario):
-    """Scenario `geodetic_points` (capabilities/C29_geodetic_points.osc:6)."""
-
     name = "geodetic_points"
     source = "capabilities/C29_geodetic_points.osc"
 
@@ -40,7 +38,7 @@ class GeodeticPoints(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, along(self.way), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_geodetic_points.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "geodetic_points",
             self.ego.drive(along(self.way), speed(20 * mps)),

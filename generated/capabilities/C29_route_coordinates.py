@@ -26,8 +26,6 @@ require_api(1)
 
 
 class RouteCoordinates(Scenario):
-    """Scenario `route_coordinates` (capabilities/C29_route_coordinates.osc:7)."""
-
     name = "route_coordinates"
     source = "capabilities/C29_route_coordinates.osc"
 
@@ -42,7 +40,7 @@ class RouteCoordinates(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_route_coordinates.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "route_coordinates",
             self.ego.assign_position(
@@ -50,9 +48,8 @@ class RouteCoordinates(Scenario):
             ),
             self.ego.assign_speed(speed=15 * mps),
             Until(
-                self.ego.drive(speed(15 * mps)),
+                self.ego.drive("bend", speed(15 * mps)),
                 self.passed,
-                label="bend",
             ),
             self.ego.drive(duration=2 * s),
         )

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class RoutePoints(Scenario):
-    """Scenario `route_points` (capabilities/C29_route_points.osc:7)."""
-
     name = "route_points"
     source = "capabilities/C29_route_points.osc"
 
@@ -59,7 +57,7 @@ class RoutePoints(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(16 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_route_points.osc:29
+    def behavior(self) -> Behaviour:
         return Serial(
             "route_points",
             Until(

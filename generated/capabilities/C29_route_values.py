@@ -26,8 +26,6 @@ require_api(1)
 
 
 class RouteValues(Scenario):
-    """Scenario `route_values` (capabilities/C29_route_values.osc:6)."""
-
     name = "route_values"
     source = "capabilities/C29_route_values.osc"
 
@@ -78,7 +76,7 @@ class RouteValues(Scenario):
             self.ego, along(self.way, start_offset=20 * m, end_offset=20 * m), speed(10 * mps)
         )
 
-    def behavior(self) -> Behaviour:  # capabilities/C29_route_values.osc:35
+    def behavior(self) -> Behaviour:
         return Serial(
             "route_values",
             self.ego.drive(

@@ -24,8 +24,6 @@ require_api(1)
 
 
 class SerialExecution(Scenario):
-    """Scenario `serial_execution` (capabilities/C30_serial.osc:6)."""
-
     name = "serial_execution"
     source = "capabilities/C30_serial.osc"
 
@@ -38,16 +36,16 @@ class SerialExecution(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(1), position(50 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C30_serial.osc:11
+    def behavior(self) -> Behaviour:
         return Serial(
             "serial_execution",
-            self.ego.drive(speed(12 * mps), duration=2 * s, label="drive_on"),
-            self.ego.change_lane(side="left", duration=4 * s, label="swerve"),
+            self.ego.drive("drive_on", speed(12 * mps), duration=2 * s),
+            self.ego.change_lane("swerve", side="left", duration=4 * s),
             self.ego.change_speed(
-                target=18 * mps, rate_profile="constant", rate_peak=2 * mpss, label="faster"
+                "faster", target=18 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
-            Wait(elapsed(0.5 * s), label="pause"),
-            self.ego.change_lane(side="right", duration=4 * s, label="back"),
+            Wait("pause", elapsed(0.5 * s)),
+            self.ego.change_lane("back", side="right", duration=4 * s),
         )
 
 

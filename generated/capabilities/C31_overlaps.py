@@ -15,8 +15,6 @@ require_api(1)
 
 
 class Overlaps(Scenario):
-    """Scenario `overlaps` (capabilities/C31_overlaps.osc:7)."""
-
     name = "overlaps"
     source = "capabilities/C31_overlaps.osc"
 
@@ -31,7 +29,7 @@ class Overlaps(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
         self.place(self.other, lane(3), position(150 * m), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C31_overlaps.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "overlaps",
             self.begin(),
@@ -45,74 +43,74 @@ class Overlaps(Scenario):
             self.ends(),
         )
 
-    def begin(self) -> Behaviour:  # capabilities/C31_overlaps.osc:13
+    def begin(self) -> Behaviour:
         return Parallel(
             "begin",
             self.ego.drive(speed(15 * mps), duration=1 * s),
             self.other.drive(speed(15 * mps), duration=1 * s),
         )
 
-    def equal(self) -> Behaviour:  # capabilities/C31_overlaps.osc:22
+    def equal(self) -> Behaviour:
         return Parallel(
             "equal",
-            self.ego.change_lane(side="left", duration=4 * s, label="e1"),
-            self.other.change_lane(side="right", duration=4 * s, label="e2"),
+            self.ego.change_lane("e1", side="left", duration=4 * s),
+            self.other.change_lane("e2", side="right", duration=4 * s),
             overlap="equal",
         )
 
-    def inside(self) -> Behaviour:  # capabilities/C31_overlaps.osc:25
+    def inside(self) -> Behaviour:
         return Parallel(
             "inside",
-            self.ego.change_lane(side="right", duration=4 * s, label="i1"),
-            self.other.drive(duration=2 * s, label="i2"),
+            self.ego.change_lane("i1", side="right", duration=4 * s),
+            self.other.drive("i2", duration=2 * s),
             overlap="inside",
         )
 
-    def initial(self) -> Behaviour:  # capabilities/C31_overlaps.osc:28
+    def initial(self) -> Behaviour:
         return Parallel(
             "initial",
-            self.ego.change_lane(side="left", duration=4 * s, label="n1"),
-            self.other.drive(duration=2 * s, label="n2"),
+            self.ego.change_lane("n1", side="left", duration=4 * s),
+            self.other.drive("n2", duration=2 * s),
             overlap="initial",
         )
 
-    def final(self) -> Behaviour:  # capabilities/C31_overlaps.osc:31
+    def final(self) -> Behaviour:
         return Parallel(
             "final",
-            self.ego.change_lane(side="right", duration=4 * s, label="f1"),
-            self.other.drive(duration=6 * s, label="f2"),
+            self.ego.change_lane("f1", side="right", duration=4 * s),
+            self.other.drive("f2", duration=6 * s),
             overlap="final",
         )
 
-    def full(self) -> Behaviour:  # capabilities/C31_overlaps.osc:34
+    def full(self) -> Behaviour:
         return Parallel(
             "full",
-            self.ego.change_lane(side="left", duration=4 * s, label="u1"),
-            self.other.drive(duration=6 * s, label="u2"),
+            self.ego.change_lane("u1", side="left", duration=4 * s),
+            self.other.drive("u2", duration=6 * s),
             overlap="full",
         )
 
-    def any_way(self) -> Behaviour:  # capabilities/C31_overlaps.osc:37
+    def any_way(self) -> Behaviour:
         return Parallel(
             "any_way",
-            self.ego.change_lane(side="right", duration=4 * s, label="a1"),
-            self.other.drive(duration=2 * s, label="a2"),
+            self.ego.change_lane("a1", side="right", duration=4 * s),
+            self.other.drive("a2", duration=2 * s),
             overlap="any",
         )
 
-    def offsets(self) -> Behaviour:  # capabilities/C31_overlaps.osc:40
+    def offsets(self) -> Behaviour:
         return Parallel(
             "offsets",
-            self.ego.change_lane(side="left", duration=4 * s, label="o1"),
-            self.other.drive(duration=5 * s, label="o2"),
+            self.ego.change_lane("o1", side="left", duration=4 * s),
+            self.other.drive("o2", duration=5 * s),
             start_to_start=1 * s,
         )
 
-    def ends(self) -> Behaviour:  # capabilities/C31_overlaps.osc:43
+    def ends(self) -> Behaviour:
         return Parallel(
             "ends",
-            self.ego.change_lane(side="right", duration=4 * s, label="d1"),
-            self.other.drive(duration=3 * s, label="d2"),
+            self.ego.change_lane("d1", side="right", duration=4 * s),
+            self.other.drive("d2", duration=3 * s),
             overlap="any",
             end_to_end=2 * s,
         )

@@ -15,8 +15,6 @@ require_api(1)
 
 
 class ParallelExecution(Scenario):
-    """Scenario `parallel_execution` (capabilities/C31_parallel.osc:7)."""
-
     name = "parallel_execution"
     source = "capabilities/C31_parallel.osc"
 
@@ -31,29 +29,27 @@ class ParallelExecution(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
         self.place(self.other, lane(1), position(50 * m), speed(12 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C31_parallel.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "parallel_execution",
             self.together(),
             self.same_end(),
         )
 
-    def together(self) -> Behaviour:  # capabilities/C31_parallel.osc:13
+    def together(self) -> Behaviour:
         return Parallel(
             "together",
-            self.ego.change_speed(
-                target=16 * mps, rate_profile="smooth", duration=4 * s, label="faster"
-            ),
-            self.ego.change_lane(side="left", duration=5 * s, label="swerve"),
+            self.ego.change_speed("faster", target=16 * mps, rate_profile="smooth", duration=4 * s),
+            self.ego.change_lane("swerve", side="left", duration=5 * s),
             self.other.drive(speed(12 * mps), duration=3 * s),
         )
 
-    def same_end(self) -> Behaviour:  # capabilities/C31_parallel.osc:23
+    def same_end(self) -> Behaviour:
         return Parallel(
             "same_end",
-            self.ego.change_lane(side="right", duration=5 * s, label="long"),
+            self.ego.change_lane("long", side="right", duration=5 * s),
             self.other.change_speed(
-                target=16 * mps, rate_profile="constant", duration=2 * s, label="short"
+                "short", target=16 * mps, rate_profile="constant", duration=2 * s
             ),
             overlap="end",
         )

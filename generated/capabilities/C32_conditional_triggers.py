@@ -30,8 +30,6 @@ require_api(1)
 
 
 class ConditionalTriggers(Scenario):
-    """Scenario `conditional_triggers` (capabilities/C32_conditional_triggers.osc:7)."""
-
     name = "conditional_triggers"
     source = "capabilities/C32_conditional_triggers.osc"
 
@@ -53,17 +51,17 @@ class ConditionalTriggers(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
         self.place(self.other, lane(2), position(150 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:19
+    def behavior(self) -> Behaviour:
         return Parallel(
             "conditional_triggers",
             self.do_parallel(),
             On(
                 self.ready,
-                Emit(self.noticed),
+                do=[Emit(self.noticed)],
             ),
         )
 
-    def do_parallel(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:19
+    def do_parallel(self) -> Behaviour:
         return Parallel(
             "do parallel",
             self.ego_part(),
@@ -71,19 +69,18 @@ class ConditionalTriggers(Scenario):
             self.answer(),
         )
 
-    def ego_part(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:20
+    def ego_part(self) -> Behaviour:
         return Serial(
             "ego_part",
             Until(
-                self.ego.drive(speed(20 * mps)),
+                self.ego.drive("approach", speed(20 * mps)),
                 self.near,
-                label="approach",
             ),
-            self.ego.change_lane(side="left", duration=3 * s, label="swerve"),
+            self.ego.change_lane("swerve", side="left", duration=3 * s),
             Emit(self.ready),
         )
 
-    def other_part(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:28
+    def other_part(self) -> Behaviour:
         return Serial(
             "other_part",
             Until(
@@ -91,11 +88,11 @@ class ConditionalTriggers(Scenario):
                 self.ready,
             ),
             self.other.change_speed(
-                target=15 * mps, rate_profile="constant", rate_peak=2.5 * mpss, label="go"
+                "go", target=15 * mps, rate_profile="constant", rate_peak=2.5 * mpss
             ),
         )
 
-    def answer(self) -> Behaviour:  # capabilities/C32_conditional_triggers.osc:35
+    def answer(self) -> Behaviour:
         return Serial(
             "answer",
             Wait(self.noticed),

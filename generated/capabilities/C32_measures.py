@@ -27,8 +27,6 @@ require_api(1)
 
 
 class TriggerMeasures(Scenario):
-    """Scenario `trigger_measures` (capabilities/C32_measures.osc:7)."""
-
     name = "trigger_measures"
     source = "capabilities/C32_measures.osc"
 
@@ -65,22 +63,21 @@ class TriggerMeasures(Scenario):
         self.place(self.slow, lane(2), position(150 * m), speed(10 * mps))
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C32_measures.osc:21
+    def behavior(self) -> Behaviour:
         return Parallel(
             "trigger_measures",
             self.slow.drive(speed(10 * mps)),
             self.ego_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C32_measures.osc:26
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
-                self.ego.drive(speed(20 * mps)),
+                self.ego.drive("approach", speed(20 * mps)),
                 self.near,
-                label="approach",
             ),
-            self.ego.change_lane(side="left", duration=1.5 * s, label="evade"),
+            self.ego.change_lane("evade", side="left", duration=1.5 * s),
         )
 
 

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class MotionReadings(Scenario):
-    """Scenario `motion_readings` (capabilities/C32_motion_readings.osc:6)."""
-
     name = "motion_readings"
     source = "capabilities/C32_motion_readings.osc"
 
@@ -55,7 +53,7 @@ class MotionReadings(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C32_motion_readings.osc:21
+    def behavior(self) -> Behaviour:
         return Serial(
             "motion_readings",
             Until(

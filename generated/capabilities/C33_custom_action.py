@@ -36,10 +36,11 @@ class Creep(Protocol):
     def __call__(
         self,
         actor: Vehicle,
+        label: str | None = None,
+        /,
         *,
         v: Late[float],
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour: ...
 
 
@@ -55,9 +56,10 @@ class RollOut(Protocol):
     def __call__(
         self,
         actor: Vehicle,
+        label: str | None = None,
+        /,
         *,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour: ...
 
 
@@ -65,8 +67,6 @@ roll_out: RollOut = user_action("roll_out")
 
 
 class CustomAction(Scenario):
-    """Scenario `custom_action` (capabilities/C33_custom_action.osc:14)."""
-
     name = "custom_action"
     source = "capabilities/C33_custom_action.osc"
 
@@ -79,7 +79,7 @@ class CustomAction(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(3 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C33_custom_action.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "custom_action",
             self.ego.drive(speed(3 * mps), duration=1 * s),

@@ -25,7 +25,7 @@ Mood: TypeAlias = Literal["calm", "hasty"]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
-    """Struct `plan` (capabilities/C33_own_types.osc:12)."""
+    """Struct `plan`."""
 
     mood: Mood
     cruise: float
@@ -33,8 +33,6 @@ class Plan:
 
 
 class OwnTypes(Scenario):
-    """Scenario `own_types` (capabilities/C33_own_types.osc:20)."""
-
     name = "own_types"
     source = "capabilities/C33_own_types.osc"
 
@@ -48,15 +46,12 @@ class OwnTypes(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(5 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C33_own_types.osc:27
+    def behavior(self) -> Behaviour:
         return Serial(
             "own_types",
             self.ego.drive(speed(5 * mps), duration=1 * s),
             self.ego.change_speed(
-                target=self.quiet.cruise,
-                rate_profile="constant",
-                rate_peak=self.quiet.peak,
-                label="gain",
+                "gain", target=self.quiet.cruise, rate_profile="constant", rate_peak=self.quiet.peak
             ),
         )
 

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class ConflictReported(Scenario):
-    """Scenario `conflict_reported` (capabilities/C34_conflict_reported.osc:7)."""
-
     name = "conflict_reported"
     source = "capabilities/C34_conflict_reported.osc"
 
@@ -40,14 +38,14 @@ class ConflictReported(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C34_conflict_reported.osc:12
+    def behavior(self) -> Behaviour:
         return Parallel(
             "conflict_reported",
             self.ego.drive(speed(20 * mps)),
             self.ego_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C34_conflict_reported.osc:17
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Wait(elapsed(2 * s)),

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class ConflictResolution(Scenario):
-    """Scenario `conflict_resolution` (capabilities/C34_conflict_resolution.osc:7)."""
-
     name = "conflict_resolution"
     source = "capabilities/C34_conflict_resolution.osc"
 
@@ -40,28 +38,27 @@ class ConflictResolution(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C34_conflict_resolution.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "conflict_resolution",
             # Controls the speed, until `evade` wants it
             Until(
-                self.ego.drive(speed(20 * mps)),
+                self.ego.drive("cruise", speed(20 * mps)),
                 elapsed(2 * s),
-                label="cruise",
             ),
             self.share(),
             self.ego.change_speed(
-                target=16 * mps, rate_profile="constant", rate_peak=2 * mpss, label="recover"
+                "recover", target=16 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
         )
 
-    def share(self) -> Behaviour:  # capabilities/C34_conflict_resolution.osc:19
+    def share(self) -> Behaviour:
         return Parallel(
             "share",
             self.ego.change_speed(
-                target=10 * mps, rate_profile="constant", rate_peak=4 * mpss, label="evade"
+                "evade", target=10 * mps, rate_profile="constant", rate_peak=4 * mpss
             ),
-            self.ego.change_lane(side="left", duration=3 * s, label="swerve"),
+            self.ego.change_lane("swerve", side="left", duration=3 * s),
         )
 
 

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class Overriding(Scenario):
-    """Scenario `overriding` (capabilities/C34_override.osc:7)."""
-
     name = "overriding"
     source = "capabilities/C34_override.osc"
 
@@ -40,30 +38,30 @@ class Overriding(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C34_override.osc:14
+    def behavior(self) -> Behaviour:
         self.override("cruise", "brake")
         self.override("hurry", "brake", mode="when_active")
         return Parallel(
             "overriding",
-            self.ego.drive(speed(20 * mps), label="cruise"),
+            self.ego.drive("cruise", speed(20 * mps)),
             self.warning(),
             self.comfort(),
         )
 
-    def warning(self) -> Behaviour:  # capabilities/C34_override.osc:19
+    def warning(self) -> Behaviour:
         return Serial(
             "warning",
             Wait(elapsed(2 * s)),
             self.ego.change_speed(
-                target=10 * mps, rate_profile="constant", rate_peak=4 * mpss, label="brake"
+                "brake", target=10 * mps, rate_profile="constant", rate_peak=4 * mpss
             ),
         )
 
-    def comfort(self) -> Behaviour:  # capabilities/C34_override.osc:22
+    def comfort(self) -> Behaviour:
         return Serial(
             "comfort",
             Wait(elapsed(3 * s)),
-            self.ego.change_speed(target=25 * mps, label="hurry"),
+            self.ego.change_speed("hurry", target=25 * mps),
             Wait(elapsed(2 * s)),
         )
 

@@ -28,8 +28,6 @@ require_api(1)
 
 
 class SemanticValidation(Scenario):
-    """Scenario `semantic_validation` (capabilities/C35_semantic_validation.osc:7)."""
-
     name = "semantic_validation"
     source = "capabilities/C35_semantic_validation.osc"
 
@@ -53,22 +51,21 @@ class SemanticValidation(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(self.v_ego))
         self.place(self.other, lane(2), position(60 * m, ahead_of=self.ego), speed(self.v_other))
 
-    def behavior(self) -> Behaviour:  # capabilities/C35_semantic_validation.osc:19
+    def behavior(self) -> Behaviour:
         return Parallel(
             "semantic_validation",
             self.ego_serial(),
             self.other.drive(speed(self.v_other)),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C35_semantic_validation.osc:20
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
-                self.ego.drive(speed(self.v_other + 5 * mps)),
+                self.ego.drive("approach", speed(self.v_other + 5 * mps)),
                 self.near,
-                label="approach",
             ),
-            self.ego.change_lane(num_of_lanes=1, side="left", label="evade"),
+            self.ego.change_lane("evade", num_of_lanes=1, side="left"),
         )
 
 

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class OneOfRace(Scenario):
-    """Scenario `one_of_race` (capabilities/C36_one_of.osc:7)."""
-
     name = "one_of_race"
     source = "capabilities/C36_one_of.osc"
 
@@ -40,21 +38,21 @@ class OneOfRace(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C36_one_of.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "one_of_race",
             self.race(),
             self.ego.drive(duration=1 * s),
         )
 
-    def race(self) -> Behaviour:  # capabilities/C36_one_of.osc:13
+    def race(self) -> Behaviour:
         return OneOf(
             "race",
             self.ego.change_speed(
-                target=15 * mps, rate_profile="constant", rate_peak=2 * mpss, label="reached"
+                "reached", target=15 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
             Wait(elapsed(4 * s)),
-            self.ego.change_lane(side="left", duration=8 * s, label="stand"),
+            self.ego.change_lane("stand", side="left", duration=8 * s),
         )
 
 

@@ -28,8 +28,6 @@ require_api(1)
 
 
 class RisingEdge(Scenario):
-    """Scenario `rising_edge` (capabilities/C37_rise.osc:7)."""
-
     name = "rising_edge"
     source = "capabilities/C37_rise.osc"
 
@@ -44,14 +42,14 @@ class RisingEdge(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C37_rise.osc:15
+    def behavior(self) -> Behaviour:
         return Parallel(
             "rising_edge",
             self.ego_serial(),
             self.serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C37_rise.osc:16
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.change_speed(target=14 * mps, rate_profile="constant", rate_peak=2 * mpss),
@@ -59,7 +57,7 @@ class RisingEdge(Scenario):
             self.ego.change_speed(target=14 * mps, rate_profile="constant", rate_peak=2 * mpss),
         )
 
-    def serial(self) -> Behaviour:  # capabilities/C37_rise.osc:23
+    def serial(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.fast),

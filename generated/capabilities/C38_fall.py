@@ -26,8 +26,6 @@ require_api(1)
 
 
 class FallingEdge(Scenario):
-    """Scenario `falling_edge` (capabilities/C38_fall.osc:6)."""
-
     name = "falling_edge"
     source = "capabilities/C38_fall.osc"
 
@@ -45,21 +43,21 @@ class FallingEdge(Scenario):
         self.place(self.slow, lane(1), position(100 * m), speed(10 * mps))
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
-    def behavior(self) -> Behaviour:  # capabilities/C38_fall.osc:13
+    def behavior(self) -> Behaviour:
         return Parallel(
             "falling_edge",
             self.slow.drive(speed(10 * mps)),
             self.ego_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # capabilities/C38_fall.osc:18
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
                 self.ego.drive(speed(15 * mps)),
                 self.caught_up,
             ),
-            self.ego.change_lane(side="left", duration=3 * s, label="evade"),
+            self.ego.change_lane("evade", side="left", duration=3 * s),
         )
 
 

@@ -1,7 +1,7 @@
 """Readable names for the nodes of a behavior tree.
 
 A leaf is called what its statement says; a composition by whose it is and what it does. Names
-need not be unique: a trace tells nodes apart by their source line.
+need not be unique: the back ends see to that.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from osc2tx import ir
 from osc2tx.ir.source_text import condensed, shorten
 
-MAX_WORDS = 3
+MAX_VERBS = 3
 
 
 def invocation_name(actor: str, action: str, details: Iterable[str]) -> str:
@@ -21,18 +21,18 @@ def invocation_name(actor: str, action: str, details: Iterable[str]) -> str:
 
 
 def composition_name(word: str, members: tuple[ir.Behavior, ...], *, is_phase: bool) -> str:
-    """Return a name such as `hero: drive or wait`, else `hero: serial`, else `serial`.
+    """Return a name such as `hero: drive or wait crash_avoided`; of a phase `hero: one_of`.
 
-    A phase keeps to the shorter form: its name is also that of a method, which should not
-    change with each of its members.
+    The name of a phase is also that of a method, which should not change with its members.
     """
     actors = {actor for member in members for actor in _actors(member)}
     owner = f"{next(iter(actors))}: " if len(actors) == 1 else ""
-    verbs = tuple(dict.fromkeys(_verb(member) for member in members))
-    if is_phase or len(members) > MAX_WORDS or any(verb is None for verb in verbs):
+    if is_phase:
         return f"{owner}{word}"
+    verbs = list(dict.fromkeys(_verb(member) for member in members))
     joint = {"one_of": " or ", "parallel": " with "}.get(word, ", ")
-    return f"{owner}{joint.join(verb for verb in verbs if verb)}"
+    more = "…" if len(verbs) > MAX_VERBS else ""
+    return f"{owner}{joint.join(verbs[:MAX_VERBS])}{more}"
 
 
 def _actors(node: ir.Behavior) -> Iterable[str]:
@@ -48,17 +48,44 @@ def _actors(node: ir.Behavior) -> Iterable[str]:
             return
 
 
-def _verb(node: ir.Behavior) -> str | None:
+def _verb(node: ir.Behavior) -> str:
     match node:
         case ir.Invoke(action=action):
             return action
         case ir.InvokeScenario(scenario=scenario):
             return scenario.rpartition(".")[2]
-        case ir.Wait():
-            return "wait"
-        case ir.Emit() | ir.Finish():
-            return "emit"
+        case ir.Wait(trigger=trigger):
+            return f"wait {_occasion(trigger)}".rstrip()
+        case ir.On(trigger=trigger):
+            return f"on {_occasion(trigger)}".rstrip()
+        case ir.Emit(event=event):
+            return f"emit {event.name}"
+        case ir.Finish(succeeds=succeeds):
+            return f"emit {'end' if succeeds else 'fail'}"
         case ir.Call():
             return "call"
-        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.On():
-            return None
+        case ir.Serial() | ir.Parallel() | ir.OneOf():
+            return node.label or _verb(node.members[0])
+
+
+def _occasion(trigger: ir.Trigger) -> str:
+    """Return what is waited for, in a word: an event, or what a condition is about."""
+    match trigger.event:
+        case ir.EventRef(name=name):
+            return name
+        case ir.LabelEvent(label=label) | ir.InnerEvent(label=label):
+            return label
+        case None:
+            if not isinstance(trigger.condition, ir.Level | ir.Edge):
+                return ""
+            return _subject(trigger.condition.expression)
+
+
+def _subject(condition: ir.Expression) -> str:
+    """Return `hero speed`: the first member that a condition reads, and of what it is one."""
+    for part in ir.walk(condition):
+        match part:
+            case ir.Attribute(base=base, name=name) | ir.MethodCall(base=base, method=name):
+                fields = [each.name for each in ir.walk(base) if isinstance(each, ir.FieldRef)]
+                return " ".join((*fields[:1], name))
+    return ""

@@ -245,8 +245,8 @@ FAILURES = [
         "serial(duration: 2s):\n    ego.change_speed(target: 30mps, rate_profile: smooth)",
         3.0,
         1,
-        "not finished within 2 s; still running: ego.change_speed: target: 30mps, rate_profile:"
-        " smooth",
+        "not finished within 2 s; still running: ego.change_speed(target=30 * mps,"
+        ' rate_profile="smooth")',
     ),
     Case(
         "a road that ends",

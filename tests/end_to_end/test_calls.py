@@ -175,6 +175,6 @@ def test_constraints_of_own_types_hold(load: Load, tmp_path: Path) -> None:
     text = text.replace("    ego: coach\n", "    top: speed = 10kph\n    ego: coach\n")
     scenario = load(emit(asam(text, tmp_path)))
     assert run(scenario).state("ego", 0.5)["v"] == pytest.approx(30 / 3.6)
-    with pytest.raises(ScenarioError, match="`low < high` does not hold") as error:
+    with pytest.raises(ScenarioError, match=r"`l\.low < l\.high` does not hold") as error:
         run(scenario, RunSettings(set={"top": 20.0}))
     assert error.value.source == "case.osc:8"

@@ -26,9 +26,9 @@ def test_the_verdict_says_what_failed(case: Case, load: Load, tmp_path: Path) ->
     line = source_of(case)[1] + case.line
     place, _, reason = result.reason.partition(f" (case.osc:{line}) failed at {case.at:.3f} s: ")
     assert reason.startswith(case.reason), result.reason
-    # The action is named in the words of the source.
+    # The action is named as it is written.
     first = case.body.splitlines()[case.line - 1].strip()
-    assert place.removeprefix("ego: ").split(":")[0] == first.split("(")[0]
+    assert place.removeprefix("ego: ").split("(")[0] == first.split("(")[0]
 
 
 TIMEOUTS = [
@@ -37,7 +37,7 @@ TIMEOUTS = [
         "wait ego.speed > 60mps",
         20.0,
         1,
-        "wait ego.speed > 60mps (case.osc:{line})",
+        "wait ego.speed > 60 * mps (case.osc:{line})",
     ),
     Case(
         "an event that nobody emits",
@@ -52,7 +52,7 @@ TIMEOUTS = [
         "ego.assign_speed(0mps)\nego.change_lane(num_of_lanes: 1, side: left)",
         20.0,
         2,
-        "ego.change_lane: num_of_lanes: 1, side: left (case.osc:{line}), while ego stands",
+        'ego.change_lane(num_of_lanes=1, side="left") (case.osc:{line}), while ego stands',
     ),
     Case(
         "a headway to a car that stands",
@@ -60,7 +60,7 @@ TIMEOUTS = [
         "ego.change_time_headway(target: 2s, direction: ahead, reference: npc)",
         20.0,
         2,
-        "ego.change_time_headway: target: 2s, direction: ahead, reference: npc (case.osc:{line}),"
+        'ego.change_time_headway(target=2 * s, direction="ahead", reference=npc) (case.osc:{line}),'
         " while the time headway is",
     ),
     Case(
@@ -68,7 +68,7 @@ TIMEOUTS = [
         "wait rise(ego.speed > 1mps)",
         20.0,
         1,
-        "wait rise(ego.speed > 1mps) (case.osc:{line}); wait rise(ego.speed > 1mps)"
+        "wait rise(ego.speed > 1 * mps) (case.osc:{line}); wait rise(ego.speed > 1 * mps)"
         " (case.osc:{line}) never happened: its condition held from the start, and only a change"
         " counts",
     ),
@@ -77,8 +77,8 @@ TIMEOUTS = [
         "ego.keep_speed() with:\n    until fall(ego.speed > 60mps)",
         20.0,
         1,
-        "ego.keep_speed (case.osc:{line}); until fall(ego.speed > 60mps) (case.osc:{until}) never"
-        " happened: its condition held from the start, and only a change counts",
+        "ego.keep_speed() (case.osc:{line}); until fall(ego.speed > 60 * mps) (case.osc:{until})"
+        " never happened: its condition held from the start, and only a change counts",
     ),
 ]
 """What just never comes about: the time of the run is over."""
@@ -102,7 +102,7 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
             "parallel:\n    ego.change_speed(target: 20mps)\n    ego.change_speed(target: 5mps)",
             1.0,
             3,
-            "ego.change_speed: target: 20mps (case.osc:19) and ego.change_speed: target: 5mps"
+            "ego.change_speed(target=20 * mps) (case.osc:19) and ego.change_speed(target=5 * mps)"
             " (case.osc:20) control the longitudinal slot of ego at the same time; let them run one"
             " after the other (at 1.000 s)",
         ),
@@ -114,7 +114,7 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
             "one_of:\n    ego.change_speed(target: 20mps)\n    ego.change_speed(target: 5mps)",
             1.0,
             3,
-            "ego.change_speed: target: 20mps (case.osc:19) and ego.change_speed: target: 5mps"
+            "ego.change_speed(target=20 * mps) (case.osc:19) and ego.change_speed(target=5 * mps)"
             " (case.osc:20) control the longitudinal slot of ego at the same time; all members of"
             " a race run: let `--one-of first` or `seeded` choose one of them (at 1.000 s)",
         ),
@@ -136,8 +136,8 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
             "parallel(overlap: equal):\n    ego.drive(duration: 3s)\n    npc.drive(duration: 4s)",
             0.0,
             1,
-            "parallel(overlap: equal) cannot be scheduled: npc.drive: duration: 4s does not fit the"
-            " length of ego.drive: duration: 3s",
+            "parallel(overlap: equal) cannot be scheduled: npc.drive(duration=4 * s) does not fit"
+            " the length of ego.drive(duration=3 * s)",
         ),
         ScenarioError,
     ),

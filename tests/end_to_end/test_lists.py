@@ -100,7 +100,7 @@ scenario lists:{MEMBERS}
 """
     scenario = load(emit(asam(text, tmp_path)))
     assert v_of(run(scenario)) == pytest.approx(20 / 3.6)
-    with pytest.raises(ScenarioError, match=r"`speeds\[n\] > 15kph .*` does not hold"):
+    with pytest.raises(ScenarioError, match=r"`speeds\[n\] > 15 \* kph .*` does not hold"):
         run(scenario, RunSettings(set={"n": 0}))
 
 

@@ -15,7 +15,6 @@ STATEMENTS = {
     "emit crash_avoided": "Emit(self.crash_avoided),",
     "npc.drive(duration: 2s)": "self.npc.drive(duration=2 * s),",
 }
-LOCATION = re.compile(r"# case\.osc:\d+$|\(case\.osc:\d+\)\.$")
 
 
 def insertion_points() -> list[int]:
@@ -43,7 +42,13 @@ def test_an_inserted_statement_is_one_new_line(index: int, statement: str, tmp_p
         for line in difflib.unified_diff(before, after, n=0, lineterm="")
         if line[:1] in "+-" and line[:3] not in ("+++", "---")
     ]
-    assert [line for line in changed if not LOCATION.search(line)] == [STATEMENTS[statement]]
+    assert changed == [STATEMENTS[statement]]
+
+
+def test_a_comment_on_top_is_one_new_line(tmp_path: Path) -> None:
+    before, after = module(SOURCE, tmp_path), module(["# Seen twice", *SOURCE], tmp_path)
+    assert [line for line in after if line not in before] == ["Seen twice"]
+    assert len(after) == len(before) + 1
 
 
 def test_there_are_enough_edits() -> None:

@@ -131,7 +131,8 @@ def test_two_actions_on_one_slot_are_reported(
     done = run(project, packages)
     assert done.returncode == 5
     assert done.stderr == (
-        "slow.osc:18: error: ego.creep (slow.osc:17) and ego.change_speed: 5mps (slow.osc:18)"
+        "slow.osc:17: error: ego.change_speed(target=5 * mps) (slow.osc:18) and"
+        " ego.creep(v=1.5 * mps) (slow.osc:17)"
         " control the longitudinal slot of ego at the same time; let them run one after the"
         " other (at 0.000 s)\n"
     )

@@ -6,7 +6,6 @@ stand inline, nested as they are in the source.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import replace
 from typing import assert_never
 
@@ -21,16 +20,21 @@ from osc2tx.backends.py_trees.code import (
     self_attribute,
 )
 from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.node_names import (
+    InvocationName,
+    composition_names,
+    invocation_names,
+    method_name,
+)
 from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.user_actions import action_key, is_function
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
     CallView,
-    HeadView,
     MethodView,
     StatementView,
+    signature,
 )
-from osc2tx.ir.source_text import condensed, shorten
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
@@ -60,13 +64,13 @@ class BehaviorTreeBuilder:
         self._source_map = source_map
         self._written: list[MethodView] = []
         self._wanted: set[str] = set()
-        self._invoked: dict[int, str] = {}
-        self._draws: dict[int, str] = {}
+        self._compositions: dict[ir.Behavior, str] = {}
+        self._invocations: dict[ir.Behavior, InvocationName] = {}
 
     def write(self, scenario: ir.Scenario) -> tuple[MethodView, ...]:
         """Return `behavior` and the methods it calls, in source order."""
-        self._invoked = invocation_names(scenario.body)
-        self._draws = draw_keys(scenario.body)
+        self._compositions = composition_names(scenario.body)
+        self._invocations = invocation_names(scenario.body)
         self._method(PyName("behavior"), scenario.body)
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
         return (first, *self._written[1:])
@@ -76,7 +80,7 @@ class BehaviorTreeBuilder:
         index = len(self._written)
         value = self._node(node, depth=0)
         method = MethodView(
-            head=HeadView.of(name, (), BEHAVIOUR, node.span),
+            signature=signature(name, (), BEHAVIOUR),
             value=replace(value, comments=()),
             comments=value.comments,
         )
@@ -88,7 +92,7 @@ class BehaviorTreeBuilder:
             return self._node(node, depth=depth)
         if not node.is_phase and depth <= MAX_INLINE_DEPTH:
             return self._node(node, depth=depth)
-        wanted = method_name(node)
+        wanted = method_name(self._compositions[node])
         suffix = "" if wanted in self._wanted else "_"  # else it is a field that has the name
         self._wanted.add(wanted)
         name = self._names.add(f"method at {node.span.start}", wanted, suffix)
@@ -100,13 +104,13 @@ class BehaviorTreeBuilder:
             () if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On) else node.until
         )
         if until:
-            self._source_map.nodes.append((until[0].span.line, until_name(until)))
-        self._source_map.nodes.append((node.span.line, node.name))
+            self._source_map.nodes.append(until[0].span.line)
+        self._source_map.nodes.append(node.span.line)
         call = self._call(node, depth=depth)
         if until:
             triggers = self._calls.triggers(until)
-            arguments = (ArgumentView(call=call), *triggers, *self._label(node.label))
-            call = replace(self._calls.runtime_call("Until", *arguments), exploded=True)
+            call = self._calls.runtime_call("Until", ArgumentView(call=call), *triggers)
+            call = replace(call, exploded=True)
         return ArgumentView(call=call, comments=comments(node.comments))
 
     def _call(self, node: ir.Behavior, *, depth: int) -> CallView:
@@ -118,7 +122,7 @@ class BehaviorTreeBuilder:
             case ir.InvokeScenario():
                 return self._scenario_invocation(node)
             case ir.Wait(trigger=trigger):
-                arguments = (*self._calls.trigger(trigger), *self._label(node.label))
+                arguments = (*self._label(node.label), *self._calls.trigger(trigger))
                 return self._calls.runtime_call("Wait", *arguments)
             case ir.Emit(event=event):
                 target = code(self._calls.expressions.field(event.name))
@@ -130,18 +134,17 @@ class BehaviorTreeBuilder:
             case ir.Call(call=expression):
                 writer = self._calls.expressions
                 function = code(writer.late(writer.write(expression)))
-                return self._calls.runtime_call("Call", function, *self._label(node.label))
+                return self._calls.runtime_call("Call", *self._label(node.label), function)
             case ir.On(trigger=trigger, reactions=reactions):
                 written = tuple(self._node(reaction, depth=depth + 1) for reaction in reactions)
-                what, *condition = self._calls.trigger(trigger)
-                only_if = (replace(part, keyword=PyName("condition")) for part in condition)
-                call = self._calls.runtime_call("On", what, *written, *only_if)
+                do = ArgumentView(call=CallView(None, written), keyword=PyName("do"))
+                call = self._calls.runtime_call("On", *self._calls.trigger(trigger), do)
                 return replace(call, exploded=True)
             case _:
                 assert_never(node)
 
     def _composition(self, node: ir.Composition, *, depth: int) -> CallView:
-        name = code(literal(node.label or node.name))
+        name = code(literal(self._compositions[node]))
         members = tuple(self._member(member, depth=depth + 1) for member in node.members)
         arguments = (name, *members, *self._composition_arguments(node))
         function = name_expression(self._calls.use_name(CLASSES[type(node)]))
@@ -168,26 +171,26 @@ class BehaviorTreeBuilder:
             action = PyExpr(f"{actor.within(Level.ATOM)}.{identifier(node.action)}", Level.ATOM)
         arguments = (
             *first,
+            *self._label(node.label),
             *(self._calls.modifier(modifier) for modifier in node.modifiers),
             *self._calls.keywords(node.arguments),
             *self._calls.duration(node.duration),
-            *(() if node.until else self._label(node.label)),
         )
         return CallView(action, arguments)
 
     def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
-        self._source_map.invocations.append(self._invoked[node.span.start])
-        self._source_map.draws.append(self._draws[node.span.start])
-        arguments = [code(name_expression(self._classes[node.key]))]
+        name = self._invocations[node]
+        arguments = [*self._label(name.label), code(name_expression(self._classes[node.key]))]
         if node.actor is not None:
             arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
         arguments += self._calls.keywords(node.arguments)
         arguments += self._calls.duration(node.duration)
-        arguments += () if node.until else self._label(node.label)
+        if name.known_as is not None:
+            arguments.append(code(literal(name.known_as), "known_as"))
         return CallView(self_attribute(PyName("invoke")), tuple(arguments))
 
     def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
-        return () if label is None else (code(literal(label), "label"),)
+        return () if label is None else (code(literal(label)),)
 
 
 def _override(override: ir.Override) -> StatementView:
@@ -195,44 +198,3 @@ def _override(override: ir.Override) -> StatementView:
     mode = () if override.mode == "on_start" else (code(literal(override.mode), "mode"),)
     call = CallView(self_attribute(PyName("override")), (*labels, *mode))
     return StatementView(None, ArgumentView(call=call))
-
-
-def until_name(triggers: tuple[ir.Trigger, ...]) -> str:
-    """Return `until rise(npc.speed > limit)`: what ends a member, not what it is."""
-    return shorten(f"until {' or '.join(condensed(t.span.text) for t in triggers)}")
-
-
-def draw_keys(body: ir.Behavior) -> dict[int, str]:
-    """Return what the random values of invoked scenarios depend on, by place.
-
-    That is the label, else the invocation as it is written; those that are written alike are
-    numbered down the text. So it depends neither on the order of parallel members nor on others.
-    """
-    nodes = [node for node in ir.walk_behaviors(body) if isinstance(node, ir.InvokeScenario)]
-    keys: dict[int, str] = {}
-    for node in sorted(nodes, key=lambda node: node.span.start):
-        actor = "" if node.actor is None else f"{ir.show(node.actor)} "
-        arguments = ir.show_arguments(node.arguments)
-        key = node.label or f"{actor}{node.scenario}({arguments})"
-        taken = set(keys.values())
-        numbered = (key if n == 1 else f"{key} {n}" for n in itertools.count(1))
-        keys[node.span.start] = next(each for each in numbered if each not in taken)
-    return keys
-
-
-def invocation_names(body: ir.Behavior) -> dict[int, str]:
-    """Name the invocations of scenarios, by place: label, else scenario, numbered down the text."""
-    nodes = [node for node in ir.walk_behaviors(body) if isinstance(node, ir.InvokeScenario)]
-    names = {node.span.start: node.label for node in nodes if node.label is not None}
-    for node in sorted(nodes, key=lambda node: node.span.start):
-        if node.label is None:
-            short = node.scenario.rpartition(".")[2]
-            taken = set(names.values())
-            numbered = (short if n == 1 else f"{short}_{n}" for n in itertools.count(1))
-            names[node.span.start] = next(name for name in numbered if name not in taken)
-    return names
-
-
-def method_name(node: ir.Composition) -> str:
-    """Return the method name for a phase: its label, else what it is called."""
-    return identifier(node.label or node.name.replace(": ", "_").replace(" ", "_"))

@@ -122,7 +122,9 @@ class CallWriter:
             case None:
                 pass
         if trigger.condition is not None:
-            arguments.append(self.condition(trigger.condition))
+            condition = self.condition(trigger.condition)
+            keyword = PyName("condition") if arguments else None
+            arguments.append(replace(condition, keyword=keyword))
         first = replace(arguments[0], comments=comments(trigger.comments))
         return (first, *arguments[1:])
 

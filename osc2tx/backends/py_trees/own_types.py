@@ -38,7 +38,7 @@ def _write(
     elif own.fields:
         uses.standard("typing", "Any")
     word = "Actor" if own.is_actor else "Struct"
-    about = [f"{word} `{own.name}` ({own.span}).", *(["", *own.comments] if own.comments else [])]
+    about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
     return TypeView(
         class_name=table.class_of((own.name,)),
         base=table.base_of(own),

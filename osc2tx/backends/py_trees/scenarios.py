@@ -20,16 +20,16 @@ from osc2tx.backends.py_trees.coverage import CoverageWriter
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.objects import ObjectWriter
-from osc2tx.backends.py_trees.source_map import ScenarioMap, scenario_map
+from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
     CallView,
     FunctionView,
-    HeadView,
     ScenarioView,
     StatementView,
+    signature,
 )
 
 
@@ -70,7 +70,7 @@ class ScenarioWriter:
         )
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
         self._objects = ObjectWriter(expressions, types)
-        self.source_map: ScenarioMap = scenario_map(scenario)
+        self.source_map = ScenarioMap()
 
     def write(self) -> ScenarioView:
         """Return the view model; afterwards `source_map` is complete."""
@@ -89,7 +89,7 @@ class ScenarioWriter:
         ).write(self._scenario)
         return ScenarioView(
             class_name=self._classes[self._scenario.key],
-            docstring=self._docstring(),
+            docstring=tuple(PyDocLine.of(line) for line in self._scenario.comments),
             attributes=self._attributes(),
             declarations=(
                 *self._externals(),
@@ -102,14 +102,6 @@ class ScenarioWriter:
             methods=methods,
             end_comments=comments(self._scenario.end_comments),
         )
-
-    def _docstring(self) -> tuple[PyDocLine, ...]:
-        scenario = self._scenario
-        word = "Action" if scenario.is_action else "Scenario"
-        lines = [f"{word} `{scenario.name}` ({scenario.span})."]
-        if scenario.comments:
-            lines += ["", *scenario.comments]
-        return tuple(PyDocLine.of(line) for line in lines)
 
     def _attributes(self) -> tuple[StatementView, ...]:
         values = {"name": self._scenario.name, "source": self._scenario.span.source.name}
@@ -146,8 +138,7 @@ class ScenarioWriter:
         write = self._calls.expressions.write
         statements = []
         for index, constraint in enumerate(self._scenario.constraints):
-            text = " ".join(constraint.span.text.split())
-            self.source_map.constraints.append((constraint.span.line, text))
+            self.source_map.constraints.append(constraint.span.line)
             statements.append(
                 StatementView(
                     target=None,
@@ -214,8 +205,7 @@ class ScenarioWriter:
             return self._fixed(variable.type, initial[0])  # the verifier saw that there is one
         what = code(writer.late(writer.write(variable.sample.expression)))
         when, *condition = self._calls.trigger(variable.sample.trigger)
-        only_if = (replace(part, keyword=PyName("condition")) for part in condition)
-        return ArgumentView(call=CallView(_self("sample"), (what, when, *initial, *only_if)))
+        return ArgumentView(call=CallView(_self("sample"), (what, when, *initial, *condition)))
 
     def _event_parameters(
         self, parameters: tuple[ir.MethodParameter, ...]
@@ -286,11 +276,10 @@ class ScenarioWriter:
 
     def _function(self, method: ir.Method, body: ir.Expression) -> FunctionView:
         return FunctionView(
-            head=HeadView.of(
+            signature=signature(
                 self._names[method.name],
                 map(self._function_parameter, method.parameters),
                 self._types.annotation(method.result),
-                method.span,
             ),
             value=self._calls.expressions.write(body),
             comments=comments(method.comments),

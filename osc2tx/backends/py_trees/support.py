@@ -20,7 +20,7 @@ from osc2tx.diagnostics import DiagnosticSink, Span
 MAX_PARTS = 1000
 
 # Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
-INVOKE_KEYWORDS = frozenset({"caller", "label", "self", "settings"})
+INVOKE_KEYWORDS = frozenset({"caller", "known_as", "self", "settings"})
 
 
 def check_support(module: ir.Module, sink: DiagnosticSink) -> None:

@@ -66,13 +66,18 @@ def _write(action: ir.UserAction, names: NameTable, types: TypeTable, uses: Uses
 
 
 def _parameters(action: ir.UserAction, types: TypeTable, uses: Uses) -> Iterable[PyExpr]:
-    modifiers = f"*modifiers: {uses.name('Modifier')}" if action.takes_modifiers else "*"
-    written = [f"actor: {types.class_or_object(action.owner)}", modifiers]
+    owner = types.class_or_object(action.owner)
+    if action.takes_modifiers:
+        modifier = uses.name("Modifier")
+        label = (f"label: str | {modifier} | None = None", "/", f"*modifiers: {modifier}")
+    else:
+        label = ("label: str | None = None", "/", "*")
+    written = [f"actor: {owner}", *label]
     for parameter in action.parameters:
         annotation = str(types.annotation_or_object(parameter.type))
         if parameter.type.kind is not ir.Kind.ACTOR:
             annotation = f"{uses.name('Late')}[{annotation}]"
         default = "" if parameter.has_default else " = ..."
         written.append(f"{identifier(parameter.name)}: {annotation}{default}")
-    written += [f"duration: {uses.name('Duration')} | None = None", "label: str | None = None"]
+    written.append(f"duration: {uses.name('Duration')} | None = None")
     return (PyExpr(text, Level.ATOM) for text in written)

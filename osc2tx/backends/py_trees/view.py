@@ -6,8 +6,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName
-from osc2tx.backends.py_trees.formatting import LINE_LENGTH
-from osc2tx.diagnostics import Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,9 +20,9 @@ class ArgumentView:
 
 @dataclass(frozen=True, slots=True)
 class CallView:
-    """A call; `exploded` ones get a line for each argument."""
+    """A call, without `callee` a list; `exploded` ones get a line for each argument."""
 
-    callee: PyExpr
+    callee: PyExpr | None
     arguments: tuple[ArgumentView, ...] = ()
     exploded: bool = False
     end_comments: tuple[PyComment, ...] = ()
@@ -41,30 +39,16 @@ class StatementView:
     annotation: PyExpr | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class HeadView:
-    """First line of a method: its signature, and where it comes from."""
-
-    signature: PyExpr
-    location: PyComment
-
-    @classmethod
-    def of(cls, name: PyName, parameters: Iterable[str], result: PyExpr, span: Span) -> HeadView:
-        """Make the head of a method with written parameters."""
-        signature = f"{name}({', '.join(('self', *parameters))}) -> {result}"
-        return cls(PyExpr(signature, Level.ATOM), PyComment.of(str(span)))
-
-    @property
-    def is_long(self) -> bool:
-        """Whether the location would make the line too long, so that it goes below."""
-        return len(f"    def {self.signature}:  {self.location}") > LINE_LENGTH
+def signature(name: PyName, parameters: Iterable[str], result: PyExpr) -> PyExpr:
+    """Return the signature of a method with written parameters."""
+    return PyExpr(f"{name}({', '.join(('self', *parameters))}) -> {result}", Level.ATOM)
 
 
 @dataclass(frozen=True, slots=True)
 class FunctionView:
     """A method of the scenario that computes a value."""
 
-    head: HeadView
+    signature: PyExpr
     value: PyExpr
     comments: tuple[PyComment, ...] = ()
 
@@ -73,7 +57,7 @@ class FunctionView:
 class MethodView:
     """A method that returns one piece of the behavior tree."""
 
-    head: HeadView
+    signature: PyExpr
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
     statements: tuple[StatementView, ...] = ()

@@ -50,7 +50,7 @@ class Action(Leaf):
         modifiers: As given.
         duration: As given: seconds, or (least, most) seconds.
         slots: What it claims while it runs; `__init__` of a subclass may narrow it.
-        action_name: `hero change_lane`: the name in the trace, whatever the sidecar map says.
+        action_name: `hero change_lane`: the name in the trace, whatever the node is called.
     """
 
     method: ClassVar[Method]
@@ -84,15 +84,12 @@ class Action(Leaf):
         if self.slots is self.registered.slots:  # not narrowed by a subclass
             self.slots = method.slots
         self.registered = method
-        self.name = self.action_name = f"{self.actor.id} {method.name}"
+        self.action_name = f"{self.actor.id} {method.name}"
+        self.name = self.label or self.action_name
         self.open_ended = method.ends == "open" and self._limits is None
         self.instant = method.ends == "instant" and self._limits is None
 
     # --- what subclasses write ---
-
-    def describe(self) -> str:
-        """Return what the action does in a few words, where no sidecar map says it."""
-        return self.action_name
 
     def on_start(self) -> None:
         """Start: sample what the action needs, hand in commands. The slots are claimed."""

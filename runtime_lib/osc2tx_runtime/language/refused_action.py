@@ -30,7 +30,8 @@ class RefusedAction(Action):
         self, actor: Actor, name: str, error: ScenarioError, label: str | None = None
     ) -> None:
         super().__init__(actor, label=label)
-        self.name = self.action_name = f"{actor.id} {name}"
+        self.action_name = f"{actor.id} {name}"
+        self.name = label or self.action_name
         self.error = error
 
     def setup(self, **kwargs: Any) -> None:

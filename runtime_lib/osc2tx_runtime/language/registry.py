@@ -17,6 +17,8 @@ from osc2tx_runtime.errors import (
     is_own,
 )
 from osc2tx_runtime.language.argument_rules import check_arguments
+from osc2tx_runtime.language.tree.base import split_label
+from osc2tx_runtime.language.tree.module_text import call_arguments
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Actor
@@ -42,7 +44,7 @@ ENTRY_POINTS = "osc2tx.methods"
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
 
-_OPTIONS = ("duration", "label")  # what every action takes
+_OPTIONS = ("duration",)  # what every action takes
 
 Ends = Literal["goal", "open", "instant", "step"]
 Need = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
@@ -198,14 +200,17 @@ class MethodRegistry:
         def create(*args: Any, **kwargs: Any) -> Action:
             from osc2tx_runtime.language.refused_action import RefusedAction  # it needs this module
 
+            label, modifiers = split_label(args)
             try:
                 if found is None:
                     raise self._missing(kinds, name)
-                _check_arguments(found, actor, args, kwargs)
-                node = make(found, actor, args, kwargs)
+                _check_arguments(found, actor, modifiers, kwargs)
+                labelled = kwargs if label is None else {**kwargs, "label": label}
+                node = make(found, actor, modifiers, labelled)
             except ScenarioError as error:
-                return RefusedAction(actor, name, error, kwargs.get("label"))
+                return RefusedAction(actor, name, error, label)
             node.become(found)
+            node.name = label or f"{actor.id}.{name}{call_arguments()}"
             return node
 
         return create
@@ -287,7 +292,13 @@ def user_action(name: str) -> Any:
 
     A generated module gives it the type that the scenario declares.
     """
-    return _caller(name)
+
+    def call(actor: Actor, *args: Any, **kwargs: Any) -> Action:
+        node = methods.bind(actor, name)(*args, **kwargs)
+        node.name = node.label or f"{name}{call_arguments()}"  # which begin with the actor
+        return node
+
+    return call
 
 
 def _caller(name: str) -> Callable[..., Action]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
 from osc2tx_runtime.domain.actors import Actor, Map
 from osc2tx_runtime.domain.modifiers import SetMapFile
@@ -12,14 +12,15 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.placement import Placement
 from osc2tx_runtime.language.scenario_members import check_arguments, check_settings, name_members
 from osc2tx_runtime.language.scenario_values import ScenarioValues
-from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements
-from osc2tx_runtime.language.tree.base import Behaviour
+from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements, number_nodes
+from osc2tx_runtime.language.tree.base import Behaviour, split_label
 from osc2tx_runtime.language.tree.duration_limits import Duration
-from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, argument_key
+from osc2tx_runtime.language.tree.events import Event, Guard, Trigger
 from osc2tx_runtime.language.tree.invocation import (
     Caller,
     Invocation,
     check_recursion,
+    draw_key,
     unique_name,
 )
 from osc2tx_runtime.language.tree.override import Mode
@@ -128,9 +129,7 @@ class Scenario(ScenarioValues):
             throughout: The first action sees to all of it anyway: where the scenario is invoked
                 in the middle of a run, nobody is placed.
         """
-        lines = self._source_map.placements
-        index = len(self.placements)
-        source = self._source_map.place(lines[index] if index < len(lines) else None)
+        source = self._source_map.of_placement(len(self.placements))
         self.placements.append(Placement(actor, modifiers, source, throughout))
 
     def require(self, road_map: Map, *modifiers: MapModifier) -> None:
@@ -159,44 +158,67 @@ class Scenario(ScenarioValues):
         variable: Any = Sampled(expression, trigger, default, condition)
         return variable  # type: ignore[no-any-return]
 
+    @overload
     def invoke(
         self,
         scenario: type[Scenario],
         /,
         *,
         actor: Actor | None = None,
-        label: str | None = None,
         duration: Duration | None = None,
+        known_as: str | None = None,
+        **arguments: Any,
+    ) -> Behaviour: ...
+    @overload
+    def invoke(
+        self,
+        label: str,
+        scenario: type[Scenario],
+        /,
+        *,
+        actor: Actor | None = None,
+        duration: Duration | None = None,
+        known_as: str | None = None,
+        **arguments: Any,
+    ) -> Behaviour: ...
+    def invoke(
+        self,
+        /,
+        *label_and_scenario: Any,
+        actor: Actor | None = None,
+        duration: Duration | None = None,
+        known_as: str | None = None,
         **arguments: Any,
     ) -> Behaviour:
-        """Invoke another scenario: `self.invoke(Approach, actor=self.ego, lead=self.car1)`.
+        """Invoke another scenario: `self.invoke("p1", Approach, actor=self.ego, lead=self.car1)`.
+
+        Its random values depend on the seed and on the label; without one on its name and those
+        of the actors, not on the order of invocations.
 
         Args:
-            scenario: Its class.
+            *label_and_scenario: Its class. The label before it may be left out; it is the name for
+                `@label.end`, for settings (`--set label.gap=12`) and in the trace.
             actor: Its `actor`, for a scenario of an actor.
-            label: Name for `@label.end`, for settings (`--set label.gap=12`) and in the trace.
             duration: Seconds, or (least, most) seconds, that it takes.
+            known_as: Its name in settings and in the trace if it has no label; else that of the
+                scenario, numbered in the order of the calls.
             **arguments: Its parameters (a range is drawn from) and actors.
 
         Raises:
             ScenarioError: If it invokes itself, or does not take the arguments.
         """
+        label, (scenario,) = split_label(label_and_scenario)
         check_recursion(self, scenario)
         given = arguments if actor is None else {"actor": actor, **arguments}
         short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
-        names, index = self._source_map.invocations, len(self._invoked)
-        # By place in the source; without a map by the order of the calls.
-        name = names[index] if index < len(names) else unique_name(label or short, self._invoked)
+        name = unique_name(label or known_as or short, self._invoked)
         path = f"{self._path}.{name}" if self._path else name
-        # Not by the order of the members: as written, without a map by the arguments.
-        keys = self._source_map.draws
-        written = keys[index] if index < len(keys) else None
-        key = written or label or f"{scenario.name}{argument_key(given)}"
+        key = label or draw_key(self, scenario, actor, arguments)
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
         self._keys[key] = None
         invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
         self._invoked[name] = invoked
-        who = f"{actor.id} {short}" if actor is not None else short
+        who = f"{actor.id} {name}" if actor is not None else name
         return Invocation(label or who, invoked, invoked.create_tree(), duration)
 
     def invoked(self, label: str) -> Any:
@@ -246,6 +268,7 @@ class Scenario(ScenarioValues):
                 sorted(self.actors.items(), key=lambda item: item[0].rpartition(".")[0])
             )
             self.placements[self._own_placements :] = invoked_placements(self, tree)
+            number_nodes(self, tree)
             check_settings(self)
         return tree
 

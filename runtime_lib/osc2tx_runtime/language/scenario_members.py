@@ -18,17 +18,17 @@ __all__ = ["check_arguments", "check_settings", "name_members"]
 
 def name_members(scenario: Scenario) -> None:
     """Give actors, map objects and events the names of their attributes, and note them."""
-    lines = scenario._source_map.fields
+    place_of = scenario._source_map.of_field
     handed_in = {id(actor) for actor in scenario._arguments.values()}
     handed_in.update(id(actor) for actor in scenario._root.actors.values())
     for attribute, value in vars(scenario).items():
         path = f"{scenario._path}.{attribute}" if scenario._path else attribute
         if isinstance(value, Actor) and id(value) not in handed_in:
             value.id = path
-            value.source = scenario._source_map.place(lines.get(attribute))
+            value.source = place_of(attribute)
             scenario.actors[attribute] = scenario._root.actors[path] = value
         elif isinstance(value, MapObject):
-            value.source = scenario._source_map.place(lines.get(attribute))
+            value.source = place_of(attribute)
             scenario._root.map_objects.append(value)
         elif isinstance(value, Event):
             value.name = path

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, Unpack, overload
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
+from osc2tx_runtime.language.tree.module_text import call_arguments
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.running.sidecar import SourceMap
@@ -24,9 +25,9 @@ ATTEMPTS = 1000  # draws of all values before constraints between them count as 
 class _NotKeptError(Exception):
     """A relation that `keep` demands does not hold."""
 
-    def __init__(self, line: int | None, text: str) -> None:
+    def __init__(self, text: str, place: str) -> None:
         super().__init__(text)
-        self.line, self.text = line, text
+        self.text, self.place = text, place
 
 
 class ScenarioValues:
@@ -159,11 +160,10 @@ class ScenarioValues:
         If it does not hold, all values that are drawn are drawn anew; after a thousand draws, or
         if none is drawn, the scenario cannot run.
         """
-        known = self._source_map.constraints
-        index = self._kept
+        place = self._source_map.of_constraint(self._kept)
         self._kept += 1
         if not holds:
-            raise _NotKeptError(*(known[index] if index < len(known) else (None, "")))
+            raise _NotKeptError(call_arguments()[1:-1], place)
 
     @overload
     def external(self, path: str) -> Callable[..., object]: ...
@@ -175,7 +175,7 @@ class ScenarioValues:
         Raises:
             SettingsError: If `--allow-external` does not name it.
         """
-        place = self._source_map.place(self._source_map.fields.get(path))
+        place = self._source_map.of_field(path)
         return external_function(path, kind, self.settings.allow_external, place)
 
     def cover(
@@ -222,7 +222,6 @@ class ScenarioValues:
             self._shared.update(shared)
 
     def _error(self, broken: _NotKeptError) -> ScenarioError:
-        what = f"`{broken.text}`" if broken.text else "a constraint"
         words = set(re.findall(r"\w+", broken.text))
         about = {name: v for name, v in self.parameters.items() if name in words}
         values = ", ".join(
@@ -231,9 +230,8 @@ class ScenarioValues:
         )
         tried = f" in {ATTEMPTS} draws" if self._draws else ""
         help_ = f" (the last values: {values})" if tried else f" ({values})" if values else ""
-        return ScenarioError(
-            f"{what} does not hold{tried}{help_}", self._source_map.place(broken.line)
-        )
+        what = f"`{broken.text}`" if broken.text else "a constraint"
+        return ScenarioError(f"{what} does not hold{tried}{help_}", broken.place)
 
     def _own(self, name: str, default: Any, domain: Domain | None) -> Any:
         path = f"{self._path}.{name}" if self._path else name
@@ -265,8 +263,7 @@ class ScenarioValues:
         try:
             return choose(path, default, domain, generator, given=given, settings=chosen)
         except ScenarioError as error:
-            place = self._source_map.place(self._source_map.fields.get(name))
-            error.source = error.source or place
+            error.source = error.source or self._source_map.of_field(name)
             raise
 
     def _draws_for(self, what: str) -> random.Random:

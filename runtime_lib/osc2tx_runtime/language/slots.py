@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, SlotConflict
+from osc2tx_runtime.language.tree.base import place_key
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.action import Action
@@ -114,7 +115,7 @@ class Effects:
             # By place, so that the report is the same whatever the order of the visit.
             effects = sorted(
                 self._wanted[key].values(),
-                key=lambda effect: place_key(effect.owner.source, effect.owner.name),
+                key=lambda effect: place_key(effect.owner),
             )
             for index, one in enumerate(effects):
                 for other in effects[index + 1 :]:
@@ -134,7 +135,7 @@ class Effects:
 
 def conflict(what: str, owners: list[Action]) -> SlotConflict:
     """Return the error that names two owners and their places, in the order of the source."""
-    first, second = sorted(owners, key=lambda owner: place_key(owner.source, owner.name))[:2]
+    first, second = sorted(owners, key=place_key)[:2]
     return SlotConflict(
         f"{first.name} ({first.source}) and {second.name} ({second.source}) control {what}"
         f" at the same time; {remedy(first, second)}",
@@ -149,12 +150,6 @@ def remedy(one: Behaviour, other: Behaviour) -> str:
     if isinstance(nearest_above(one, other), OneOf):
         return "all members of a race run: let `--one-of first` or `seeded` choose one of them"
     return "let them run one after the other"
-
-
-def place_key(source: str, name: str) -> tuple[str, int, str]:
-    """Return a sort key that puts `a.osc:9` before `a.osc:10`."""
-    file, _, line = source.rpartition(":")
-    return (file, int(line), name) if file and line.isdecimal() else (source, 0, name)
 
 
 def in_sequence(one: Behaviour, other: Behaviour) -> bool:

@@ -1,4 +1,7 @@
-"""The sidecar map beside a generated module: which line of the scenario each node came from."""
+"""The source map beside a generated module: which line of the scenario each part came from.
+
+It holds numbers only and decides nothing: without it, messages and traces name the file alone.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx_runtime.language.tree.base import Behaviour, Node
-from osc2tx_runtime.language.tree.compositions import Composition
 from osc2tx_runtime.language.tree.invocation import Invocation
 
-__all__ = ["SourceMap", "apply_nodes", "own_nodes", "read_source_map"]
+__all__ = ["SourceMap", "apply_lines", "own_nodes", "read_source_map"]
 
-VERSION = 1
+VERSION = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,85 +26,81 @@ class SourceMap:
 
     Attributes:
         file: Scenario file as shown to people.
-        line: Line of the scenario; None where unknown.
         fields: Lines of the fields, by name.
-        constraints: Line and text of the `keep` calls, in their order.
+        constraints: Lines of the `keep` calls, in their order.
         placements: Lines of the `place` calls, in their order.
-        nodes: Line and name of the nodes, in pre-order.
-        invocations: Names of the invoked scenarios, in the same order.
-        draws: What their random values depend on besides the seed, in the same order.
+        nodes: Lines of the nodes, in pre-order.
     """
 
     file: str
-    line: int | None = None
     fields: Mapping[str, int] = field(default_factory=dict)
-    constraints: tuple[tuple[int, str], ...] = ()
+    constraints: tuple[int, ...] = ()
     placements: tuple[int, ...] = ()
-    nodes: tuple[tuple[int | None, str], ...] = ()
-    invocations: tuple[str, ...] = ()
-    draws: tuple[str, ...] = ()
+    nodes: tuple[int, ...] = ()
 
     def place(self, line: int | None) -> str:
         """Return `file:line`, or the file alone."""
         return self.file if line is None else f"{self.file}:{line}"
 
+    def of_field(self, name: str) -> str:
+        """Return the place of a field."""
+        return self.place(self.fields.get(name))
+
+    def of_placement(self, index: int) -> str:
+        """Return the place of a `place` call."""
+        return self.place(_at(self.placements, index))
+
+    def of_constraint(self, index: int) -> str:
+        """Return the place of a `keep` call."""
+        return self.place(_at(self.constraints, index))
+
 
 def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
     """Read the map beside the module of a scenario class.
 
-    A missing or unreadable map is no error: the scenario runs, its messages name the file only.
+    A missing or unreadable map is no error, nor is one of another module.
 
     Args:
         scenario: The class.
         name: Name of the scenario in the map.
-        file: Scenario file to fall back to.
+        file: Scenario file.
     """
-    module = sys.modules.get(scenario.__module__)
-    path = getattr(module, "__file__", None)
+    path = getattr(sys.modules.get(scenario.__module__), "__file__", None)
     if path is None:
         return SourceMap(file)
     try:
-        text = Path(path).with_suffix(".map.json").read_text(encoding="utf-8")
-        content = json.loads(text)
-        if content["version"] != VERSION:
-            return SourceMap(file)
-        return parse_source_map(content["scenarios"][name], file)
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):
+        content = json.loads(Path(path).with_suffix(".map.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
         return SourceMap(file)
+    if not isinstance(content, dict) or content.get("version") != VERSION:
+        return SourceMap(file)
+    return parse_source_map(_table(_table(content.get("scenarios")).get(name)), file)
 
 
 def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
-    """Build the map of one scenario from its JSON object."""
+    """Return the map of one scenario from its JSON object; what is no line is left out."""
+    fields = _table(entry.get("fields"))
     return SourceMap(
-        file=str(entry.get("file", file)),
-        line=entry.get("line"),
-        fields={str(name): int(line) for name, line in entry.get("fields", {}).items()},
-        constraints=tuple((int(line), str(text)) for line, text in entry.get("constraints", ())),
-        placements=tuple(int(line) for line in entry.get("placements", ())),
-        nodes=tuple((line, str(text)) for line, text in entry.get("nodes", ())),
-        invocations=tuple(str(name) for name in entry.get("invocations", ())),
-        draws=tuple(str(key) for key in entry.get("draws", ())),
+        file=file,
+        fields={name: line for name, line in fields.items() if isinstance(line, int)},
+        constraints=_lines(entry.get("constraints")),
+        placements=_lines(entry.get("placements")),
+        nodes=_lines(entry.get("nodes")),
     )
 
 
-def apply_nodes(root: Behaviour, source_map: SourceMap) -> bool:
-    """Give the nodes of a scenario's tree their places, and the leaves their names.
+def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
+    """Give the nodes of a scenario's tree their places.
 
-    The trees of invoked scenarios have their own maps and are left alone.
-
-    Returns:
-        Whether the map fits the tree. If not, the nodes get the file without a line.
+    The trees of invoked scenarios have their own maps and are left alone. If the map does not fit
+    the tree, the nodes get the file without a line.
     """
     nodes = [node for node in own_nodes(root) if not node.synthetic]
     fits = len(nodes) == len(source_map.nodes)
     for node in own_nodes(root):
         node.source = source_map.file
-    if fits:
-        for node, (line, text) in zip(nodes, source_map.nodes, strict=True):
-            node.source = source_map.place(line)
-            if text and not isinstance(node, Composition):
-                node.name = text
-    return fits
+    for node, line in zip(nodes, source_map.nodes if fits else (), strict=False):
+        node.source = source_map.place(line)
 
 
 def own_nodes(root: Behaviour) -> Iterator[Node]:
@@ -112,3 +110,17 @@ def own_nodes(root: Behaviour) -> Iterator[Node]:
     if not isinstance(root, Invocation):
         for child in root.children:
             yield from own_nodes(child)
+
+
+def _table(value: Any) -> Mapping[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _lines(value: Any) -> tuple[int, ...]:
+    if not isinstance(value, list) or not all(isinstance(line, int) for line in value):
+        return ()
+    return tuple(value)
+
+
+def _at(lines: tuple[int, ...], index: int) -> int | None:
+    return lines[index] if index < len(lines) else None

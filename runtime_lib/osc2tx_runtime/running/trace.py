@@ -8,8 +8,6 @@ from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.language.slots import place_key
-
 if TYPE_CHECKING:
     from osc2tx_runtime.language.action import Action
     from osc2tx_runtime.world.state import ActorState
@@ -68,7 +66,7 @@ class TraceWriter:
         self.enabled = enabled
         self.lines: list[str] = []
         self._events: set[tuple[str, str]] = set()
-        self._actions: list[tuple[tuple[str, int, str], int, str]] = []
+        self._actions: list[tuple[tuple[int, str], int, str]] = []
         self._others: dict[tuple[int, str, str], str] = {}
         self._environment: dict[str, Any] = {}
         self._values: dict[str, Any] = {}  # of sampled variables
@@ -92,7 +90,7 @@ class TraceWriter:
         )
         if reason is not None:
             text += f',"reason":{json.dumps(reason)}'
-        key = place_key(action.source, action.action_name)
+        key = action.position, action.action_name
         self._actions.append((key, ACTION_ORDER[status], text))
 
     def lights(self, actor_id: str, mode: str) -> None:
@@ -117,13 +115,12 @@ class TraceWriter:
     def choice(self, name: str, policy: str, chosen: str, source: str) -> None:
         """Note which member of a `one_of` was chosen, or won the race."""
         if self.enabled:
-            values = {"name": name, "policy": policy, "chosen": chosen, "source": source}
-            self._listed(4, "choice", values)
+            self._listed(4, "choice", {"name": name, "policy": policy, "chosen": chosen}, source)
 
     def override(self, name: str, what: str, by: str, source: str) -> None:
         """Note that a behavior was ended or skipped because of another."""
         if self.enabled:
-            self._listed(5, "override", {"name": name, "what": what, "by": by, "source": source})
+            self._listed(5, "override", {"name": name, "what": what, "by": by}, source)
 
     def variable(self, name: str, value: Any) -> None:
         """Note the first value of a sampled variable, and every new one from then on.
@@ -139,10 +136,13 @@ class TraceWriter:
         if self.enabled:
             self._listed(7, kind, values)
 
-    def _listed(self, rank: int, kind: str, values: Mapping[str, Any]) -> None:
+    def _listed(
+        self, rank: int, kind: str, values: Mapping[str, Any], source: str | None = None
+    ) -> None:
         """Keep a line of which there may be several, whatever they are about."""
         text = to_json(values)[1:-1]
-        self._others[rank, kind, text] = f'"kind":{json.dumps(kind)},{text}'
+        place = "" if source is None else f',"source":{json.dumps(source)}'
+        self._others[rank, kind, text] = f'"kind":{json.dumps(kind)},{text}{place}'
 
     def other(self, rank: int, kind: str, **values: Any) -> None:
         """Note a line of another kind, about its first value; the last one about it counts.

@@ -104,9 +104,9 @@ def test_failure_fails_the_parallel_and_cuts_the_others_short() -> None:
     assert any('"fail","name":"npc task"' in line and '"gave up"' in line for line in done.lines)
 
 
-def test_two_failures_of_one_instant_are_named_in_order_of_the_source() -> None:
+def test_two_failures_of_one_instant_are_named_in_order_of_the_tree() -> None:
     one, two = Task(HERO, 3, fails=True), Task(NPC, 3, fails=True)
-    one.source, two.source = "x.osc:10", "x.osc:9"
+    one.position, two.position = 10, 9
     reason = run(Parallel("p", one, two)).outcome.reason
     assert reason.index("npc") < reason.index("hero")
 

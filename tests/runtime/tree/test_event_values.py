@@ -73,7 +73,7 @@ def test_conditions_read_the_values_of_the_occurrence() -> None:
     e, far = near(), event("far")
     tree = Parallel(
         "p",
-        Serial("s", Wait(e, lambda: e["gap"] > e["limit"]), Emit(far)),
+        Serial("s", Wait(e, condition=lambda: e["gap"] > e["limit"]), Emit(far)),
         Serial("e", Emit(e, gap=2.0), Wait(elapsed(0.1)), Emit(e, gap=4.0), Wait(elapsed(0.1))),
     )
     assert events(Run(tree).go())[1:] == [
@@ -88,10 +88,10 @@ def test_on_reacts_to_each_event_of_an_instant_with_its_values(order: Any) -> No
     told.name = "told"
     heard: list[float] = []
     members = [
-        On(e, Call(lambda: heard.append(e["gap"])), Emit(told, gap=lambda: e["gap"])),
+        On(e, do=[Call(lambda: heard.append(e["gap"])), Emit(told, gap=lambda: e["gap"])]),
         Parallel("emits", Emit(e, gap=2.0), Emit(e, gap=1.0), Emit(e, gap=2.0)),
-        On(e, Emit(event("big")), condition=lambda: e["gap"] > 1.5),
-        Wait(e, lambda: e["gap"] > 5.0),  # looks at the same occurrences meanwhile
+        On(e, condition=lambda: e["gap"] > 1.5, do=[Emit(event("big"))]),
+        Wait(e, condition=lambda: e["gap"] > 5.0),  # looks at the same occurrences meanwhile
     ]
     run = Run(Parallel("p", *(members[i] for i in order)), max_time=0.2).go()
     assert heard == [1.0, 2.0]

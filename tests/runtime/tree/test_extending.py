@@ -96,8 +96,8 @@ def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
     done = run(tmp_path, body)
     assert done.returncode == 5
     assert done.stderr == (
-        "slow.osc: error: ego change_speed (slow.osc) and ego creep (slow.osc) control the"
-        " longitudinal slot of ego at the same time; let them run one after the other"
+        "slow.osc: error: ego.change_speed(target=5.0) (slow.osc) and ego.creep() (slow.osc)"
+        " control the longitudinal slot of ego at the same time; let them run one after the other"
         " (at 0.000 s)\n"
     )
 

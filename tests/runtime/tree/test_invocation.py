@@ -44,12 +44,11 @@ class Approach(Scenario):
         return Serial(
             "close_in",
             Until(
-                self.actor.drive(speed(self.v)),
+                self.actor.drive("drive", speed(self.v)),
                 rise(lambda: self.distance() < self.gap),
-                label="drive",
             ),
             Emit(self.near),
-            Wait(elapsed(0.5), label="hold"),
+            Wait("hold", elapsed(0.5)),
         )
 
     def distance(self) -> float:
@@ -74,7 +73,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         members = [
-            self.invoke(Approach, actor=self.ego, lead=self.car1, gap=30.0, label="p1"),
+            self.invoke("p1", Approach, actor=self.ego, lead=self.car1, gap=30.0),
             Serial("waits", Wait(self.event("p1.near")), Emit(self.seen)),
             Serial("ends", Wait(self.ended("p1")), Wait(elapsed(0.1))),
             Serial("inner", Wait(self.event("p1.hold.start")), Wait(elapsed(0.1))),
@@ -115,7 +114,7 @@ def test_the_order_of_the_members_changes_nothing() -> None:
 def test_settings_reach_invoked_scenarios_by_path() -> None:
     class Free(Top):
         def behavior(self) -> Behaviour:
-            return Serial("free", self.invoke(Approach, actor=self.ego, lead=self.car1, label="p1"))
+            return Serial("free", self.invoke("p1", Approach, actor=self.ego, lead=self.car1))
 
     result = run_scenario(Free, RunSettings(set={"p1.gap": 30.0}))
     assert result.steps == 51
@@ -190,7 +189,7 @@ def test_own_actors_and_placements_of_an_invoked_scenario() -> None:
             return Serial(
                 "uses",
                 Emit(self.seen),
-                Parallel("both", OneOf("one", self.invoke(Own, label="x")), self.ego.drive()),
+                Parallel("both", OneOf("one", self.invoke("x", Own)), self.ego.drive()),
             )
 
     result = run_scenario(Uses, RunSettings(set={"limit": 1.5}))
@@ -206,7 +205,7 @@ def test_own_actors_and_placements_of_an_invoked_scenario() -> None:
 def test_a_placement_after_the_start_is_refused(late: bool) -> None:
     class Late(Top):
         def behavior(self) -> Behaviour:
-            own = self.invoke(Own, label="x")
+            own = self.invoke("x", Own)
             if late:
                 return Serial("late", Wait(elapsed(0.1)), own)
             return Parallel("late", Wait(elapsed(0.1)), own, start_to_start=0.05)
@@ -224,7 +223,7 @@ def test_wrong_invocations() -> None:
         class Wrong(Top):
             def behavior(self) -> Behaviour:
                 given = {k: getattr(self, v) if v == "env" else v for k, v in arguments.items()}
-                return Serial("wrong", self.invoke(Approach, label="p1", **given))
+                return Serial("wrong", self.invoke("p1", Approach, **given))
 
         return Wrong
 
@@ -260,7 +259,7 @@ def test_duration_override_and_reading_values() -> None:
     class Limited(Top):
         def behavior(self) -> Behaviour:
             self.override("p1", "stop")
-            p1 = self.invoke(Approach, actor=self.ego, lead=self.car1, label="p1", duration=(0, 9))
+            p1 = self.invoke("p1", Approach, actor=self.ego, lead=self.car1, duration=(0, 9))
             return Parallel(
                 "limited",
                 p1,
@@ -268,9 +267,9 @@ def test_duration_override_and_reading_values() -> None:
                     "s",
                     Wait(lambda: self.invoked("p1").gap > 1.0),
                     Wait(elapsed(0.3)),
-                    Wait(elapsed(0.1), label="stop"),
+                    Wait("stop", elapsed(0.1)),
                 ),
-                On(self.event("p1.near"), Emit(self.seen)),
+                On(self.event("p1.near"), do=[Emit(self.seen)]),
             )
 
     result = run_scenario(Limited)
@@ -287,5 +286,5 @@ def test_duration_override_and_reading_values() -> None:
     result = run_scenario(too_long)
     assert result.reason == (
         "ego approach (top.osc) failed at 0.500 s: not finished within 0.5 s;"
-        " still running: ego drive"
+        " still running: drive"
     )

@@ -21,7 +21,7 @@ class Inner(Scenario):
     source = "inner.osc"
 
     def behavior(self) -> Behaviour:
-        return Serial("inner", Wait(elapsed(0.1), label="pause"))
+        return Serial("inner", Wait("pause", elapsed(0.1)))
 
 
 class Outer(Scenario):
@@ -29,18 +29,11 @@ class Outer(Scenario):
     source = "outer.osc"
 
     def behavior(self) -> Behaviour:
-        return Serial("outer", self.invoke(Inner, label="first"), Wait(elapsed(0.2)))
+        return Serial("outer", self.invoke("first", Inner), Wait(elapsed(0.2)))
 """
 MAP = {
-    "version": 1,
-    "scenarios": {
-        "inner": {"file": "inner.osc", "line": 1, "nodes": [[2, "inner"], [3, "pause a bit"]]},
-        "outer": {
-            "file": "outer.osc",
-            "line": 1,
-            "nodes": [[5, "outer"], [6, "first"], [7, "wait more"]],
-        },
-    },
+    "version": 2,
+    "scenarios": {"inner": {"nodes": [2, 3]}, "outer": {"nodes": [5, 6, 7]}},
 }
 
 
@@ -62,8 +55,8 @@ def test_nodes_of_an_invoked_scenario_have_their_own_lines(outer: Any) -> None:
     tree = outer().create_tree()
     assert [(node.name, node.source) for node in reversed(list(tree.iterate()))] == [
         ("outer", "outer.osc:5"),
-        ("wait more", "outer.osc:7"),
+        ("wait elapsed 0.2 s", "outer.osc:7"),
         ("first", "outer.osc:6"),
         ("inner", "inner.osc:2"),
-        ("pause a bit", "inner.osc:3"),
+        ("pause", "inner.osc:3"),
     ]

@@ -118,7 +118,7 @@ def test_labels_wait_for_the_overridden_behavior() -> None:
 
 def test_unknown_labels() -> None:
     def make() -> Behaviour:
-        return Serial("top", Wait(elapsed(0.1), label="cruise"))
+        return Serial("top", Wait("cruise", elapsed(0.1)))
 
     with pytest.raises(ScenarioError, match=r"override: no node has the label cruse; .* cruise\?"):
         scenario(make, ("top", "cruse", "on_start"))

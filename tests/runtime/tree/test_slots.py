@@ -14,7 +14,7 @@ HERO: Any = FakeActor("hero")
 
 
 def at_line(node: Any, line: int) -> Any:
-    node.source = f"x.osc:{line}"
+    node.source, node.position = f"x.osc:{line}", line
     return node
 
 

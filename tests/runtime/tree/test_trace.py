@@ -42,6 +42,7 @@ def test_order_within_an_instant() -> None:
     world.contacts[1] = [("hero", "npc")]
     early, late = Task(HERO, 1), Task(HERO, 1)
     early.source, late.source = "x.osc:9", "x.osc:10"
+    early.position, late.position = 9, 10
     tree = Parallel("p", Emit(event("b")), late, Switch(HERO, "on"), early, Emit(event("a")))
     lines = [json.loads(line) for line in Run(tree, world=world).go().lines]
     first = [line for line in lines if line.get("t") == 0.0]

@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.tree.base import Behaviour, Leaf, Node
+from osc2tx_runtime.language.tree.compositions import Composition, OneOf
 from osc2tx_runtime.language.tree.coverage import Recording
+from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import End, Ending
 from osc2tx_runtime.language.tree.events import Event
-from osc2tx_runtime.language.tree.invocation import invocations
+from osc2tx_runtime.language.tree.invocation import invocations, unique_name
 from osc2tx_runtime.language.tree.override import Mode, guard
 from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.language.tree.variables import Sampling
 from osc2tx_runtime.running.settings import near
-from osc2tx_runtime.running.sidecar import apply_nodes, own_nodes
+from osc2tx_runtime.running.sidecar import apply_lines, own_nodes
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.placement import Placement
     from osc2tx_runtime.language.scenario import Scenario
 
-__all__ = ["assemble", "invoked_placements"]
+__all__ = ["assemble", "invoked_placements", "number_nodes"]
 
 
 def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
@@ -28,7 +33,8 @@ def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
 
     The trees of the scenarios it invokes are assembled already.
     """
-    apply_nodes(tree, scenario._source_map)
+    apply_lines(tree, scenario._source_map)
+    name_nodes(scenario, tree)
     for node in own_nodes(tree):
         node.scope, node.listeners = scenario._path, scenario.label_events
     for path, event in scenario._inner_events.items():
@@ -45,6 +51,32 @@ def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
     if scenario._items:
         services.append(Recording(list(scenario._items.values())))
     return with_services(scenario, tree, services) if services else tree
+
+
+def name_nodes(scenario: Scenario, tree: Behaviour) -> None:
+    """Give the nodes of a scenario names that differ, and what their random values depend on.
+
+    That are names of the module: of the composition around, and of the node or what it does.
+    """
+    own = set(own_nodes(tree))
+    names: dict[str, None] = {}
+    draws: dict[str, None] = {}
+    for node in in_order(tree, scenario._root.actors.values()):
+        if not isinstance(node, Node) or node not in own:
+            continue
+        if not isinstance(node, Composition) and node.name != node.label:
+            node.name = unique_name(node.name, names)
+        what = node.action_name if isinstance(node, Action) and not node.label else node.name
+        node.draws = unique_name(f"{composition_around(node)}/{what}", draws)
+        names[node.name] = draws[node.draws] = None
+
+
+def composition_around(node: Behaviour) -> str:
+    """Return the name of the composition that a node is in; nothing for the whole tree."""
+    above = node.parent
+    while above is not None and not isinstance(above, Composition):
+        above = above.parent
+    return "" if above is None else above.name
 
 
 def check_labels(scenario: Scenario, tree: Behaviour) -> None:
@@ -85,7 +117,10 @@ def find_node(scenario: Scenario, tree: Behaviour, path: str) -> Node:
         hint = near(label, by_label)
         raise ScenarioError(f"override: no node has the label {label}{hint}", scenario.source)
     node = by_label[label]
-    return find_node(scenario, node.children[0], rest) if rest else node
+    if not rest:
+        return node
+    invocation = node.decorated if isinstance(node, Until) else node
+    return find_node(scenario, invocation.children[0], rest)
 
 
 def with_override(
@@ -131,4 +166,35 @@ def invoked_placements(scenario: Scenario, tree: Behaviour) -> list[Placement]:
                 placements[0].source,
             )
         found += placements
+    return found
+
+
+def number_nodes(scenario: Scenario, tree: Behaviour) -> None:
+    """Note where each node stands in the whole tree, those of invoked scenarios included."""
+    for position, node in enumerate(in_order(tree, scenario.actors.values())):
+        if isinstance(node, Node):
+            node.position = position
+
+
+def in_order(tree: Behaviour, actors: Iterable[Actor]) -> list[Behaviour]:
+    """Return the nodes of a tree, parents first, in an order that its meaning decides.
+
+    Members that run together are ordered by their actors as these are declared, then by name:
+    the order of the members in the module must not show.
+    """
+    declared = {id(actor): index for index, actor in enumerate(actors)}
+
+    def key(member: Behaviour) -> tuple[int, str]:
+        acting = [id(node.actor) for node in member.iterate() if isinstance(node, Action)]
+        return (
+            min((declared.get(actor, len(declared)) for actor in acting), default=-1),
+            member.name,
+        )
+
+    found, waiting = [], [tree]
+    while waiting:
+        node = waiting.pop()
+        found.append(node)
+        together = isinstance(node, Parallel | OneOf)
+        waiting += reversed(sorted(node.children, key=key) if together else node.children)
     return found

@@ -23,7 +23,16 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.tree.events import Event
 
-__all__ = ["Activity", "Behaviour", "Leaf", "Node", "Status", "pulse_of"]
+__all__ = [
+    "Activity",
+    "Behaviour",
+    "Leaf",
+    "Node",
+    "Status",
+    "place_key",
+    "pulse_of",
+    "split_label",
+]
 
 RUNNING = Status.RUNNING
 SUCCESS = Status.SUCCESS
@@ -67,12 +76,15 @@ class Node(Behaviour):
     """What leaves and compositions share.
 
     Attributes:
-        source: Place in the scenario, `hello_world.osc:57`; filled from the sidecar map.
+        source: Place in the scenario, `hello_world.osc:57`; the line comes from the source map.
+        position: Place in the whole tree, as the modules have it; what happens at one instant is
+            told in this order.
+        draws: What random values of the node depend on besides the seed: names in the module.
         label: Name that `@label.end` and its like refer to; None without one.
         open_ended: Never ends by itself; what surrounds it ends it.
         instant: Takes no time (emit, call, assignments), so it bounds no composition.
         service: Accompanies the others (on, sampled variables); no interval rule counts it.
-        synthetic: Not written in the module, so the sidecar map does not count it.
+        synthetic: Not written in the module, so the source map does not count it.
         scope: Path of the nested scenario the node belongs to; empty in the scenario that runs.
         listeners: (label, `start` | `end` | `fail`) of that scenario to the event waited for.
         activity: When the node was last active; only kept where an `override` asks.
@@ -81,6 +93,8 @@ class Node(Behaviour):
     """
 
     source: str = ""
+    position: int = 0
+    draws: str = ""
     label: str | None = None
     open_ended: bool = False
     instant: bool = False
@@ -126,7 +140,7 @@ class Node(Behaviour):
     def generator(self, what: str) -> random.Random:
         """Return a generator of this node's own: the same draws in whatever order nodes start."""
         scope = f"{self.scope}/" if self.scope else ""
-        return self.context.random_for(f"{scope}{what}/{self.source}")
+        return self.context.random_for(f"{scope}{what}/{self.draws}")
 
     def fail(self, reason: str) -> Status:
         """Return FAILURE and keep the reason for the verdict."""
@@ -228,3 +242,15 @@ def pulse_of(child: Behaviour) -> Callable[[], Status]:
         return FAILURE if child.status is INVALID else child.status
 
     return tick_foreign
+
+
+def place_key(node: Behaviour) -> tuple[int, str]:
+    """Return the sort key of a node: its place in the tree; where nobody set it, its name."""
+    return getattr(node, "position", 0), node.name
+
+
+def split_label(arguments: tuple[Any, ...]) -> tuple[str | None, tuple[Any, ...]]:
+    """Return the label that may stand before the positional arguments of a node, and these."""
+    if arguments and isinstance(arguments[0], str | None):
+        return arguments[0], arguments[1:]
+    return None, arguments

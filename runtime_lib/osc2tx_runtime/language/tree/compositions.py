@@ -10,7 +10,6 @@ from py_trees.composites import Parallel as ParallelComposite
 from py_trees.composites import Sequence as SequenceComposite
 
 from osc2tx_runtime.errors import UnsupportedError
-from osc2tx_runtime.language.slots import place_key
 from osc2tx_runtime.language.tree.base import (
     FAILURE,
     INVALID,
@@ -19,6 +18,7 @@ from osc2tx_runtime.language.tree.base import (
     Behaviour,
     Node,
     Status,
+    place_key,
     pulse_of,
 )
 from osc2tx_runtime.language.tree.duration_limits import Duration, Limits
@@ -157,9 +157,7 @@ class OneOf(Composition, ParallelComposite):
             return
         index = 0
         if self.context.one_of == "seeded":
-            scope = f"{self.scope}/" if self.scope else ""
-            generator = self.context.random_for(f"{scope}one_of/{self.source}/{self.name}")
-            index = generator.randrange(len(self._members))
+            index = self.generator("one_of").randrange(len(self._members))
         self._members = (self._members[index],)
         self._content_open = is_open(self._members[0][0])
         self.open_ended = self._content_open and self._limits is None
@@ -193,8 +191,7 @@ class OneOf(Composition, ParallelComposite):
             elif status is SUCCESS:
                 winners.append(member[0])
         if winners:
-            # The order of the source; where there are no lines, that of the names.
-            winner = min(winners, key=lambda c: place_key(getattr(c, "source", ""), c.name))
+            winner = min(winners, key=place_key)
             for child, _ in running:
                 child.stop(INVALID)
             self._active = []

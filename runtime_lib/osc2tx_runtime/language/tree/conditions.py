@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.tree.module_text import function_text
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -59,12 +60,14 @@ class Condition:
 
 def rise(function: Callable[[], bool]) -> Condition:
     """True at the instant `function` turns from false to true."""
-    return Condition("rise", lambda context: Edge(function, True, context))
+    text = f"rise({function_text(function)})"
+    return Condition(text, lambda context: Edge(function, True, context))
 
 
 def fall(function: Callable[[], bool]) -> Condition:
     """True at the instant `function` turns from true to false."""
-    return Condition("fall", lambda context: Edge(function, False, context))
+    text = f"fall({function_text(function)})"
+    return Condition(text, lambda context: Edge(function, False, context))
 
 
 def elapsed(duration: float | Callable[[], float]) -> Condition:
@@ -79,7 +82,7 @@ def elapsed(duration: float | Callable[[], float]) -> Condition:
         return lambda: context.step >= due
 
     if callable(duration):
-        return Condition("elapsed", watch)
+        return Condition(f"elapsed({function_text(duration)})", watch)
     return Condition(f"elapsed {duration:g} s", watch, duration)
 
 

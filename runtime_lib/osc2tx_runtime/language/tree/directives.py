@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, overload
 
 from py_trees.decorators import Decorator
 
@@ -16,33 +16,34 @@ from osc2tx_runtime.language.tree.base import (
     Node,
     Status,
     pulse_of,
+    split_label,
 )
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Condition, Edge, Watch
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, watch
+from osc2tx_runtime.language.tree.module_text import function_text
 
 __all__ = ["Call", "Emit", "Until", "Wait"]
 
 
 class Wait(Leaf):
-    """Waits for an event or a condition, from its start on.
+    """Waits for an event or a condition, from its start on: `Wait("parked", elapsed(5 * s))`.
 
     Args:
+        label: Name for `@label.end` and its like; may be left out.
         trigger: An event, a condition (`rise`, `fall`, `elapsed`, `every`) or a boolean function.
         condition: With an event: only an occurrence at which this is true counts.
-        label: Name for `@label.end` and its like.
     """
 
+    @overload
+    def __init__(self, trigger: Trigger, /, *, condition: Guard | None = None) -> None: ...
+    @overload
     def __init__(
-        self,
-        trigger: Trigger,
-        condition: Guard | None = None,
-        *,
-        label: str | None = None,
-    ) -> None:
-        super().__init__(f"wait {describe(trigger)}")
-        self.trigger = trigger
+        self, label: str, trigger: Trigger, /, *, condition: Guard | None = None
+    ) -> None: ...
+    def __init__(self, *arguments: Any, condition: Guard | None = None) -> None:
+        self.label, (self.trigger,) = split_label(arguments)
+        super().__init__(self.label or f"wait {describe(self.trigger, condition)}")
         self.condition = condition
-        self.label = label
         self._happened: Watch = lambda: False
 
     def initialise(self) -> None:
@@ -111,18 +112,19 @@ class Call(Leaf):
     """Calls a function once, in no time; it must not change what other nodes read.
 
     Args:
+        label: Name for `@label.end` and its like; may be left out.
         function: What to call; with arguments: `Call(lambda: note(self.ego.speed))`.
-        label: Name for `@label.end` and its like.
     """
 
     instant = True
 
-    def __init__(self, function: Callable[[], object], *, label: str | None = None) -> None:
-        super().__init__(
-            f"call {getattr(function, '__name__', 'function')}".replace(" <lambda>", "")
-        )
-        self.function = function
-        self.label = label
+    @overload
+    def __init__(self, function: Callable[[], object], /) -> None: ...
+    @overload
+    def __init__(self, label: str, function: Callable[[], object], /) -> None: ...
+    def __init__(self, *arguments: Any) -> None:
+        self.label, (self.function,) = split_label(arguments)
+        super().__init__(self.label or f"call {function_text(self.function)}")
 
     def initialise(self) -> None:
         """Call it.
@@ -146,21 +148,21 @@ class Until(Node, Decorator):
     The conditions are asked before the behavior in every pass, from the start of the behavior on.
     A behavior that ends earlier ends this node with its own result.
 
+    The label of the behavior is that of the whole: its end is the end of both.
+
     Args:
         behavior: What runs.
-        *conditions: What ends it; for `@e if c` write `Event(self.e, lambda: c)`.
-        label: Name for `@label.end` and its like.
+        *conditions: What ends it; for `@e if c` write `Event(self.e, condition=lambda: c)`.
     """
 
-    def __init__(self, behavior: Behaviour, *conditions: Trigger, label: str | None = None) -> None:
+    def __init__(self, behavior: Behaviour, *conditions: Trigger) -> None:
         if not conditions:
             raise ValueError("Until needs something that ends the behavior")
-        super().__init__(
-            name=f"until {' or '.join(describe(condition) for condition in conditions)}",
-            child=behavior,
-        )
+        what = " or ".join(describe(condition) for condition in conditions)
+        super().__init__(name=f"until {what}", child=behavior)
         self.conditions = conditions
-        self.label = label
+        if isinstance(behavior, Node):
+            self.label, behavior.label = behavior.label, None
         self._happened: list[Watch] = []
 
     def setup(self, **kwargs: Any) -> None:

@@ -7,8 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.slots import place_key
-from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status
+from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status, place_key
 from osc2tx_runtime.language.tree.failure_reasons import with_situation
 
 if TYPE_CHECKING:
@@ -97,7 +96,7 @@ class Limits:
     def _unfinished(self) -> str:
         """Return which leaves inside are still running, in the order of the source."""
         leaves = [
-            (place_key(getattr(leaf, "source", ""), leaf.name), leaf)
+            (place_key(leaf), leaf)
             for leaf in self._node.iterate()
             if leaf.status is RUNNING and not leaf.children and leaf is not self._node
             if not getattr(leaf, "synthetic", False)

@@ -28,9 +28,10 @@ class End(Leaf):
     """
 
     instant = True
+    word = "end"
 
-    def __init__(self, *, label: str | None = None) -> None:
-        super().__init__("end of the scenario")
+    def __init__(self, label: str | None = None, /) -> None:
+        super().__init__(label or f"emit {self.word}")
         self.label = label
 
     def update(self) -> Status:
@@ -40,6 +41,8 @@ class End(Leaf):
 
 class Fail(End):
     """Ends the scenario with failure at this instant."""
+
+    word = "fail"
 
 
 class Ending(Node, Decorator):

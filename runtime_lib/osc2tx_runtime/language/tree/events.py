@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.conditions import Condition, Watch, evaluate, watch_level
+from osc2tx_runtime.language.tree.module_text import function_text
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -26,7 +27,7 @@ class Event:
     Args:
         trigger: Its specification: another event, a condition or a boolean function. It is
             watched where the event is used, from the start of that use on.
-        only_if: The event occurs only if this is true as well, at the same instant.
+        condition: The event occurs only if this is true as well, at the same instant.
         parameters: Names of its parameters to their defaults: a value, a function that is called
             when the event is emitted without the parameter, or None where it must be given.
 
@@ -42,13 +43,13 @@ class Event:
     def __init__(
         self,
         trigger: Trigger | None = None,
-        only_if: Guard | None = None,
         *,
+        condition: Guard | None = None,
         parameters: Mapping[str, Any] | None = None,
     ) -> None:
         self.name = ""
         self.trigger = trigger
-        self.only_if = only_if
+        self.condition = condition
         self.parameters = parameters
         self.arguments: Mapping[str, Any] = {}
         self.alias: Event | None = None
@@ -138,7 +139,7 @@ def watch_event(event: Event, only_if: Guard | None, context: ExecutionContext) 
     emitted = Occurrences(event, only_if, context)
     if event.trigger is None:
         return emitted
-    specified = watch(event.trigger, event.only_if, context)
+    specified = watch(event.trigger, event.condition, context)
 
     def happened() -> bool:
         # Both are asked: edges must be sampled in every step, occurrences used up.
@@ -200,11 +201,13 @@ class Occurrences:
         return bool(self.matching)
 
 
-def describe(trigger: Trigger) -> str:
-    """Return a few words for a trigger, where no sidecar map has better ones."""
+def describe(trigger: Trigger, condition: Guard | None = None) -> str:
+    """Return a few words for a trigger, and for what must be true as well."""
+    if condition is not None:
+        return f"{describe(trigger)} if {describe(condition)}"
     if isinstance(trigger, Event):
         trigger = trigger.meant()
         if trigger.name or trigger.trigger is None:
             return f"@{trigger.name or 'event'}"
-        return describe(trigger.trigger)
-    return trigger.text if isinstance(trigger, Condition) else "condition"
+        return describe(trigger.trigger, trigger.condition)
+    return trigger.text if isinstance(trigger, Condition) else function_text(trigger)

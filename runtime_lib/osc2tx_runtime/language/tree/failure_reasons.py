@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.slots import place_key
-from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, Behaviour, Node
+from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, Behaviour, Node, place_key
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -17,7 +16,7 @@ NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
 
 def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
     """Return what failed, where, when and why."""
-    culprits = sorted(failing(root), key=lambda node: place_key(source_of(node), node.name))
+    culprits = sorted(failing(root), key=place_key)
     texts = []
     for node in culprits:
         # The losers of a race failed before the race did.
@@ -31,7 +30,7 @@ def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
 def vain(root: Behaviour) -> list[str]:
     """Return a hint for each node that waited for a change to what was so already."""
     nodes = [node for node in root.iterate() if isinstance(node, Node) and node.waits_in_vain()]
-    nodes.sort(key=lambda node: place_key(source_of(node), node.name))
+    nodes.sort(key=place_key)
     return [
         f"{named(node)} never happened: its condition held from the start, and only a change counts"
         for node in nodes
@@ -50,7 +49,7 @@ def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
     """Return which leaves are still running."""
     running = [node for node in root.iterate() if node.status is RUNNING and not node.children]
     leaves = [node for node in running if not getattr(node, "synthetic", False)]
-    leaves.sort(key=lambda node: place_key(source_of(node), node.name))
+    leaves.sort(key=place_key)
     texts = [with_situation(named(leaf), leaf) for leaf in leaves[:NAMED_LEAVES]]
     if len(leaves) > NAMED_LEAVES:
         texts.append(f"and {len(leaves) - NAMED_LEAVES} more")

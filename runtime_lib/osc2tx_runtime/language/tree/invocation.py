@@ -16,7 +16,7 @@ from osc2tx_runtime.language.tree.parallel import Parallel
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario import Scenario
 
-__all__ = ["Caller", "Invocation", "check_recursion", "invocations", "unique_name"]
+__all__ = ["Caller", "Invocation", "check_recursion", "draw_key", "invocations", "unique_name"]
 
 ONE_PER_RUN = (Map, Environment)
 
@@ -89,6 +89,26 @@ def check_recursion(scenario: Scenario, invoked: type[Scenario]) -> None:
     if any(type(one) is invoked for one in chain):
         names = [one.name for one in reversed(chain)] + [invoked.name]
         raise ScenarioError(f"scenarios invoke themselves: {' -> '.join(names)}", scenario.source)
+
+
+def draw_key(
+    caller: Scenario,
+    invoked: type[Scenario],
+    actor: Actor | None,
+    arguments: Mapping[str, Any],
+) -> str:
+    """Return what draws of an invoked scenario depend on: `ego vehicle.approach(lead: car1)`.
+
+    That are names in the module alone. Values are left out: setting or drawing one does not
+    change what else is drawn.
+    """
+    fields = {id(value): name for name, value in vars(caller).items() if isinstance(value, Actor)}
+    shown = [
+        f"{name}: {fields[id(value)]}" if id(value) in fields else name
+        for name, value in arguments.items()
+    ]
+    who = "" if actor is None else f"{fields.get(id(actor), actor.id)} "
+    return f"{who}{invoked.name}({', '.join(shown)})"
 
 
 def unique_name(name: str, taken: Mapping[str, object]) -> str:

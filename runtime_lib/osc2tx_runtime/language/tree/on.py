@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from py_trees.composites import Sequence
+from py_trees.composites import Sequence as SequenceComposite
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Node, Status, pulse_of
@@ -25,7 +25,7 @@ __all__ = ["On"]
 NOTHING: Mapping[str, Any] = {}
 
 
-class On(Node, Sequence):
+class On(Node, SequenceComposite):
     """Reacts whenever something happens, for as long as the composition around it runs.
 
     Stands beside the behavior in a `Parallel`, which it does not keep from ending. At one instant
@@ -34,8 +34,8 @@ class On(Node, Sequence):
 
     Args:
         trigger: An event, a condition or a boolean function (once per step while it is true).
-        *reactions: `Emit` and `Call`, in order.
         condition: With an event: only an occurrence at which this is true counts.
+        do: The reactions, `Emit` and `Call`, in order.
     """
 
     open_ended = True
@@ -44,10 +44,11 @@ class On(Node, Sequence):
     def __init__(
         self,
         trigger: Trigger,
-        *reactions: Behaviour,
+        *,
         condition: Guard | None = None,
+        do: Sequence[Behaviour],
     ) -> None:
-        super().__init__(f"on {describe(trigger)}", memory=True, children=reactions)
+        super().__init__(f"on {describe(trigger, condition)}", memory=True, children=do)
         self.trigger = trigger
         self.condition = condition
         self._happened: Watch = lambda: False

@@ -8,8 +8,14 @@ from py_trees.common import ParallelPolicy
 from py_trees.composites import Parallel as ParallelComposite
 
 from osc2tx_runtime.errors import UnsupportedError
-from osc2tx_runtime.language.slots import place_key
-from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Behaviour, Status
+from osc2tx_runtime.language.tree.base import (
+    FAILURE,
+    RUNNING,
+    SUCCESS,
+    Behaviour,
+    Status,
+    place_key,
+)
 from osc2tx_runtime.language.tree.compositions import (
     Composition,
     Member,
@@ -100,7 +106,7 @@ class Parallel(Composition, ParallelComposite):
         if len(lasting) < 2:
             return None
         # The order of the secondaries only matters for which of several mistakes is reported.
-        others = sorted(lasting[1:], key=lambda c: place_key(getattr(c, "source", ""), c.name))
+        others = sorted(lasting[1:], key=place_key)
         nodes = [lasting[0], *others]
         parts = [Part(node.name, length_of(node), is_open(node)) for node in nodes]
         least = 0 if self._limits is None else self._limits.least

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.slots import place_key
-from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status
+from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status, place_key
 from osc2tx_runtime.language.tree.compositions import Member, is_open
 from osc2tx_runtime.language.tree.parallel_schedule import INF, Schedule
 
@@ -27,9 +26,9 @@ class _Runner:
         self.end: int | None = None
 
     @property
-    def key(self) -> tuple[str, int, str]:
+    def key(self) -> tuple[int, str]:
         """Order in which members are named."""
-        return place_key(getattr(self.node, "source", ""), self.node.name)
+        return place_key(self.node)
 
 
 class Course:

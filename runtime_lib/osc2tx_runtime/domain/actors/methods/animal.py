@@ -23,7 +23,6 @@ if TYPE_CHECKING:
         KeepPosition,
         KeepSpeed,
         PhysicalMovement,
-        Speed,
     )
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.language.tree.duration_limits import Duration
@@ -37,6 +36,21 @@ class AnimalMethods:
 
     def walk(
         self,
+        label: (
+            str
+            | TurnModifier
+            | PathModifier
+            | StartModifier
+            | Acceleration
+            | AvoidCollisions
+            | ChangeSpeed
+            | Distance
+            | KeepPosition
+            | KeepSpeed
+            | PhysicalMovement
+            | None
+        ) = None,
+        /,
         *modifiers: TurnModifier
         | PathModifier
         | StartModifier
@@ -46,9 +60,7 @@ class AnimalMethods:
         | Distance
         | KeepPosition
         | KeepSpeed
-        | PhysicalMovement
-        | Speed,
+        | PhysicalMovement,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Walk as the modifiers say, straight on or along a path."""

@@ -23,23 +23,25 @@ class EnvironmentMethods:
 
     def air(
         self,
+        label: str | None = None,
+        /,
         *,
         temperature: float | None = None,
         pressure: float | None = None,
         relative_humidity: float | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Set temperature (K), pressure (Pa) and relative humidity (0 to 1) (§8.11.2)."""
 
     def assign_celestial_position(
         self,
+        label: str | None = None,
+        /,
         *,
         light_source: CelestialLightSource | None = None,
         azimuth: float | None = None,
         elevation: float | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Set azimuth (rad from +y, clockwise) and elevation (rad) of the sun or the moon.
 
@@ -53,31 +55,32 @@ class EnvironmentMethods:
         """
 
     def clouds(
-        self, *, cloudiness: float, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, cloudiness: float, duration: Duration | None = None
     ) -> Behaviour:
         """Set the cloud cover (okta) (§8.11.7)."""
 
     def fog(
-        self, *, visual_range: float, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, visual_range: float, duration: Duration | None = None
     ) -> Behaviour:
         """Set the visual range (m) (§8.11.6)."""
 
     def rain(
-        self, *, intensity: float, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, intensity: float, duration: Duration | None = None
     ) -> Behaviour:
         """Set the intensity of rain (m/s of water column) (§8.11.3)."""
 
     def snow(
-        self, *, intensity: float, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, intensity: float, duration: Duration | None = None
     ) -> Behaviour:
         """Set the intensity of snow (m/s of water column) (§8.11.4)."""
 
     def wind(
         self,
+        label: str | None = None,
+        /,
         *,
         speed: float | None = None,
         direction: float | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Set speed (m/s) and direction (rad) of the wind (§8.11.5)."""

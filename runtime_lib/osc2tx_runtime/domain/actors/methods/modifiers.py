@@ -16,17 +16,28 @@ from osc2tx_runtime.domain.modifiers import (
     Lane,
     Lateral,
     Orient,
+    PhysicalMovement,
     Position,
     Speed,
     Yaw,
 )
 
-__all__ = ["LaneModifier", "PathModifier", "SpeedModifier", "StartModifier", "TurnModifier"]
+__all__ = ["PathModifier", "SideModifier", "SpeedModifier", "StartModifier", "TurnModifier"]
 
 SpeedModifier: TypeAlias = (
-    Speed | ChangeSpeed | KeepSpeed | Acceleration | Position | AvoidCollisions
+    Speed | ChangeSpeed | KeepSpeed | Acceleration | Position | AvoidCollisions | PhysicalMovement
 )
-LaneModifier: TypeAlias = Lane | Lateral | ChangeLane | KeepLane
+SideModifier: TypeAlias = (
+    Lane
+    | Lateral
+    | ChangeLane
+    | KeepLane
+    | Yaw
+    | Orient
+    | Along
+    | AvoidCollisions
+    | PhysicalMovement
+)
 TurnModifier: TypeAlias = Yaw | Orient
 PathModifier: TypeAlias = Along | AlongTrajectory
 StartModifier: TypeAlias = Lane | Lateral | Yaw | Orient | Position | Speed

@@ -13,20 +13,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from osc2tx_runtime.domain.actors.methods.modifiers import (
-        LaneModifier,
         PathModifier,
+        SideModifier,
         SpeedModifier,
         StartModifier,
         TurnModifier,
     )
     from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.modifiers import (
-        Along,
-        AvoidCollisions,
         Distance,
         KeepPosition,
         Lane,
-        Lateral,
         PhysicalMovement,
         Position,
         Speed,
@@ -57,16 +54,17 @@ class MovableObjectMethods:
     """What a scenario can tell a movable object to do."""
 
     def assign_acceleration(
-        self, *, acceleration: Value, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, acceleration: Value, duration: Duration | None = None
     ) -> Behaviour:
         """Have an acceleration (m/s^2) over the next step, whatever the limits (§8.8.2.7)."""
 
     def assign_orientation(
         self,
+        label: str | None = None,
+        /,
         *,
         orientation: Orientation | Callable[[], Orientation],
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Have a heading, pitch and roll at the next step (§8.8.2.5).
 
@@ -76,12 +74,13 @@ class MovableObjectMethods:
 
     def assign_position(
         self,
+        label: str | TurnModifier | Lane | Position | Speed | None = None,
+        /,
         *modifiers: TurnModifier | Lane | Position | Speed,
         position: Point | Callable[[], Point] | None = None,
         route_point: RoutePoint | Callable[[], RoutePoint] | None = None,
         odr_point: OdrPoint | Callable[[], OdrPoint] | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Be somewhere else at the next step; the speed stays (§8.8.2.4).
 
@@ -93,23 +92,19 @@ class MovableObjectMethods:
         """
 
     def assign_speed(
-        self, *, speed: Value, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, speed: Value, duration: Duration | None = None
     ) -> Behaviour:
         """Have a speed (m/s) at the next step, whatever the limits (§8.8.2.6)."""
 
     def change_acceleration(
         self,
-        *modifiers: LaneModifier
-        | TurnModifier
-        | StartModifier
-        | Along
-        | AvoidCollisions
-        | PhysicalMovement,
+        label: str | SideModifier | StartModifier | None = None,
+        /,
+        *modifiers: SideModifier | StartModifier,
         target: Value,
         rate_profile: DynamicProfile = "none",
         rate_peak: Value | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Reach an acceleration; fails if the actor comes to a stand before (§8.8.2.14).
 
@@ -122,7 +117,9 @@ class MovableObjectMethods:
 
     def change_position(
         self,
-        *modifiers: SpeedModifier | StartModifier | PhysicalMovement,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
         target_position: AnyPoint | Callable[[], AnyPoint] | None = None,
         target_xyz: Point | Callable[[], Point] | None = None,
         target_st: RoutePoint | Callable[[], RoutePoint] | None = None,
@@ -130,7 +127,6 @@ class MovableObjectMethods:
         interpolation: PathInterpolation = "straight_line",
         on_road_network: bool | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Go to a place; the speed is free, who stands sets out at `CRUISE` (§8.8.2.11).
 
@@ -146,17 +142,13 @@ class MovableObjectMethods:
 
     def change_speed(
         self,
-        *modifiers: LaneModifier
-        | TurnModifier
-        | StartModifier
-        | Along
-        | AvoidCollisions
-        | PhysicalMovement,
+        label: str | SideModifier | StartModifier | None = None,
+        /,
+        *modifiers: SideModifier | StartModifier,
         target: Value,
         rate_profile: DynamicProfile = "none",
         rate_peak: Value | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Reach a speed (§8.8.2.12).
 
@@ -169,7 +161,9 @@ class MovableObjectMethods:
 
     def follow_path(
         self,
-        *modifiers: SpeedModifier | StartModifier | PhysicalMovement,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
         absolute: Path | Callable[[], Path] | None = None,
         relative: RelativePath | Callable[[], RelativePath] | None = None,
         reference: PhysicalObject | None = None,
@@ -177,7 +171,6 @@ class MovableObjectMethods:
         start_offset: Value = 0.0,
         end_offset: Value = 0.0,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Follow a path as the limits of the actor allow (§8.8.2.16).
 
@@ -193,6 +186,8 @@ class MovableObjectMethods:
 
     def follow_trajectory(
         self,
+        label: str | StartModifier | PhysicalMovement | None = None,
+        /,
         *modifiers: StartModifier | PhysicalMovement,
         absolute: Trajectory | Callable[[], Trajectory] | None = None,
         relative: RelativeTrajectory | Callable[[], RelativeTrajectory] | None = None,
@@ -201,7 +196,6 @@ class MovableObjectMethods:
         start_offset: Value = 0.0,
         end_offset: Value = 0.0,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
 
@@ -219,49 +213,39 @@ class MovableObjectMethods:
 
     def keep_acceleration(
         self,
-        *modifiers: LaneModifier
-        | TurnModifier
-        | StartModifier
-        | Along
-        | AvoidCollisions
-        | PhysicalMovement,
+        label: str | SideModifier | StartModifier | None = None,
+        /,
+        *modifiers: SideModifier | StartModifier,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Hold the present acceleration; an actor that comes to a stand stays there (§8.8.2.15)."""
 
     def keep_speed(
         self,
-        *modifiers: LaneModifier
-        | TurnModifier
-        | StartModifier
-        | Along
-        | AvoidCollisions
-        | PhysicalMovement,
+        label: str | SideModifier | StartModifier | None = None,
+        /,
+        *modifiers: SideModifier | StartModifier,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Hold the present speed: what a released slot does by itself (§8.8.2.13)."""
 
     def move(
         self,
-        *modifiers: SpeedModifier
-        | LaneModifier
-        | TurnModifier
-        | PathModifier
-        | Distance
-        | KeepPosition
-        | PhysicalMovement,
+        label: (
+            str | SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition | None
+        ) = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Move as the modifiers say (§8.8.2.3)."""
 
     def remain_stationary(
         self,
-        *modifiers: TurnModifier | StartModifier | Lane | Lateral | PhysicalMovement | Position,
+        label: str | TurnModifier | StartModifier | PhysicalMovement | None = None,
+        /,
+        *modifiers: TurnModifier | StartModifier | PhysicalMovement,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Stand; an actor that moves brakes as hard as it can first (§8.8.2.10).
 
@@ -270,7 +254,9 @@ class MovableObjectMethods:
 
     def replay_path(
         self,
-        *modifiers: SpeedModifier | StartModifier | PhysicalMovement,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
         absolute: Path | Callable[[], Path] | None = None,
         relative: RelativePath | Callable[[], RelativePath] | None = None,
         reference: PhysicalObject | None = None,
@@ -278,12 +264,13 @@ class MovableObjectMethods:
         start_offset: Value = 0.0,
         end_offset: Value = 0.0,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Be on a path exactly, whatever the limits; arguments as of `follow_path` (§8.8.2.8)."""
 
     def replay_trajectory(
         self,
+        label: str | StartModifier | PhysicalMovement | None = None,
+        /,
         *modifiers: StartModifier | PhysicalMovement,
         absolute: Trajectory | Callable[[], Trajectory] | None = None,
         relative: RelativeTrajectory | Callable[[], RelativeTrajectory] | None = None,
@@ -292,7 +279,6 @@ class MovableObjectMethods:
         start_offset: Value = 0.0,
         end_offset: Value = 0.0,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`.
 

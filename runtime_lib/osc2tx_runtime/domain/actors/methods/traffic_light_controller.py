@@ -31,10 +31,11 @@ class TrafficLightControllerMethods:
 
     def play_cycles(
         self,
+        label: str | None = None,
+        /,
         *,
         cycles: Sequence[TrafficLightCycle],
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Run cycles, again and again, until another action switches one of the lights.
 
@@ -47,6 +48,8 @@ class TrafficLightControllerMethods:
 
     def set_bulb_state(
         self,
+        label: str | None = None,
+        /,
         *,
         traffic_light: TrafficLight,
         bulb_color: BulbColor,
@@ -54,12 +57,13 @@ class TrafficLightControllerMethods:
         bulb_state: BulbState,
         sync: bool = False,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Switch one lamp of a box, chosen by its color and symbol (§8.15.9.1.1)."""
 
     def set_group_bulb_state(
         self,
+        label: str | None = None,
+        /,
         *,
         traffic_light: TrafficLight,
         bulb_color: BulbColor,
@@ -67,18 +71,18 @@ class TrafficLightControllerMethods:
         bulb_state: BulbState,
         sync: bool = False,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Switch one lamp in every box of the group that a light belongs to (§8.15.9.4.1)."""
 
     def set_group_semantic_state(
         self,
+        label: str | None = None,
+        /,
         *,
         traffic_light_group: TrafficLightGroup,
         state: SemanticTrafficLightState,
         sync: bool = False,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Let every box of a group say something; boxes without lamps for it ignore it.
 
@@ -87,33 +91,36 @@ class TrafficLightControllerMethods:
 
     def set_group_state(
         self,
+        label: str | None = None,
+        /,
         *,
         group: TrafficLightGroup,
         state: Bulbs,
         sync: bool = False,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Switch all lamps of every box of a group (§8.15.9.5.1)."""
 
     def set_semantic_state(
         self,
+        label: str | None = None,
+        /,
         *,
         traffic_light: TrafficLight,
         state: SemanticTrafficLightState,
         sync: bool = False,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Let a box say something; ignored if it has no lamps for it (§8.15.9.3.1)."""
 
     def set_state(
         self,
+        label: str | None = None,
+        /,
         *,
         traffic_light: TrafficLight,
         state: Bulbs,
         sync: bool = False,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Switch all lamps of a box, in their order (§8.15.9.2.1)."""

@@ -13,21 +13,14 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from osc2tx_runtime.domain.actors.methods.modifiers import (
-        LaneModifier,
         PathModifier,
+        SideModifier,
         SpeedModifier,
         StartModifier,
-        TurnModifier,
     )
     from osc2tx_runtime.domain.actors.parts import Towable
     from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
-    from osc2tx_runtime.domain.modifiers import (
-        Along,
-        Distance,
-        KeepPosition,
-        PhysicalMovement,
-        Value,
-    )
+    from osc2tx_runtime.domain.modifiers import Distance, KeepPosition, Value
     from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
     from osc2tx_runtime.enums import (
         DynamicProfile,
@@ -50,7 +43,9 @@ class VehicleMethods:
 
     def change_lane(
         self,
-        *modifiers: SpeedModifier | StartModifier | PhysicalMovement,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
         num_of_lanes: int | Callable[[], int] = 1,
         side: LaneChangeSide | None = None,
         reference: PhysicalObject | None = None,
@@ -59,7 +54,6 @@ class VehicleMethods:
         rate_peak: Value | None = None,
         target: Lane | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """End in another lane, aligned with it (§8.8.3.3).
 
@@ -79,12 +73,13 @@ class VehicleMethods:
 
     def change_space_gap(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         target: Value,
         direction: GapDirection,
         reference: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Reach a space (m) between facing ends or sides, in a direction from the reference.
 
@@ -93,23 +88,25 @@ class VehicleMethods:
 
     def change_space_headway(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         target: Value,
         direction: HeadwayDirection,
         reference: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Reach a distance (m) between fronts, `ahead` of or `behind` the reference (§8.8.3.10)."""
 
     def change_time_gap(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         target: Value,
         direction: GapDirection,
         reference: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Reach a time (s) between facing ends at the speed of the one behind, or between sides.
 
@@ -118,17 +115,18 @@ class VehicleMethods:
 
     def change_time_headway(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         target: Value,
         direction: HeadwayDirection,
         reference: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Reach a time (s) between fronts, at the speed of the one behind (§8.8.3.8)."""
 
     def connect_trailer(
-        self, *, trailer: Towable, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, trailer: Towable, duration: Duration | None = None
     ) -> Behaviour:
         """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end.
 
@@ -136,21 +134,18 @@ class VehicleMethods:
         """
 
     def disconnect_trailer(
-        self, *, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, duration: Duration | None = None
     ) -> Behaviour:
         """Uncouple the trailer, which brakes and stands (§8.8.3.13)."""
 
     def drive(
         self,
-        *modifiers: SpeedModifier
-        | LaneModifier
-        | TurnModifier
-        | PathModifier
-        | Distance
-        | KeepPosition
-        | PhysicalMovement,
+        label: (
+            str | SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition | None
+        ) = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Drive as the modifiers say; without any, on in the lane at the present speed.
 
@@ -159,14 +154,15 @@ class VehicleMethods:
 
     def follow_lane(
         self,
-        *modifiers: SpeedModifier | StartModifier | PhysicalMovement,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
         offset: Value | None = None,
         offset_range: Range[float] | Callable[[], Range[float]] | None = None,
         rate_profile: DynamicProfile = "none",
         rate_peak: Value | None = None,
         target: Lane | None = None,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Stay in a lane (§8.8.3.2).
 
@@ -181,44 +177,48 @@ class VehicleMethods:
 
     def keep_space_gap(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         reference: PhysicalObject,
         direction: RoadDistanceDirection = "longitudinal",
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Hold the present space between facing ends, or sides (§8.8.3.7)."""
 
     def keep_space_headway(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         reference: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Hold the present distance between fronts (§8.8.3.11)."""
 
     def keep_time_gap(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         reference: PhysicalObject,
         direction: RoadDistanceDirection = "longitudinal",
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Hold the present time between facing ends, or sides (§8.8.3.5)."""
 
     def keep_time_headway(
         self,
-        *modifiers: SpeedModifier | LaneModifier | TurnModifier | Along | PhysicalMovement,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
         reference: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour:
         """Hold the present time between fronts (§8.8.3.9)."""
 
     def set_lights(
-        self, *, mode: LightMode, duration: Duration | None = None, label: str | None = None
+        self, label: str | None = None, /, *, mode: LightMode, duration: Duration | None = None
     ) -> Behaviour:
         """Switch the lights.
 

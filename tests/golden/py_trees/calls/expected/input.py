@@ -28,8 +28,6 @@ require_api(1)
 
 
 class Calls(Scenario):
-    """Scenario `calls` (input.osc:14)."""
-
     name = "calls"
     source = "input.osc"
 
@@ -48,27 +46,27 @@ class Calls(Scenario):
         self.place(self.ego, speed(self.half(self.limit())))
 
     # What the base leaves open
-    def limit(self) -> float:  # input.osc:21
+    def limit(self) -> float:
         return 30 * kph
 
-    def half(self, v: float) -> float:  # input.osc:12
+    def half(self, v: float) -> float:
         return v / 2.0
 
     # A method of a type: its object comes first.
-    def vehicle_is_faster_than(self, vehicle: Vehicle, limit: float) -> bool:  # input.osc:7
+    def vehicle_is_faster_than(self, vehicle: Vehicle, limit: float) -> bool:
         return vehicle.speed > limit
 
-    def behavior(self) -> Behaviour:  # input.osc:29
+    def behavior(self) -> Behaviour:
         return Parallel(
             "calls",
             self.do_serial(),
             On(
                 self.passed,
-                Call(lambda: self.note(self.ego.speed, "passed")),
+                do=[Call(lambda: self.note(self.ego.speed, "passed"))],
             ),
         )
 
-    def do_serial(self) -> Behaviour:  # input.osc:29
+    def do_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             Until(
@@ -76,7 +74,7 @@ class Calls(Scenario):
                 elapsed(1 * s),
             ),
             Emit(self.passed),
-            Call(lambda: self.note(self.limit(), "there"), label="now"),
+            Call("now", lambda: self.note(self.limit(), "there")),
             Wait(
                 lambda: self.vehicle_is_faster_than(self.ego, 1 * kph) and self.doubled(2.0) == 4.0
             ),

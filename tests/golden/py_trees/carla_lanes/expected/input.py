@@ -24,8 +24,6 @@ require_api(1)
 
 
 class CarlaLanes(Scenario):
-    """Scenario `carla_lanes` (input.osc:3)."""
-
     name = "carla_lanes"
     source = "input.osc"
 
@@ -43,7 +41,7 @@ class CarlaLanes(Scenario):
         self.place(self.hero, lane(2, from_="left"), speed(0 * kph))
         self.place(self.cone, position(x=300.0, y=5.25, z=0.0, h=1.57 * rad, frame="carla"))
 
-    def behavior(self) -> Behaviour:  # input.osc:10
+    def behavior(self) -> Behaviour:
         return Serial(
             "carla_lanes",
             Wait(self.go),

@@ -25,8 +25,6 @@ require_api(1)
 
 
 class Top(Scenario):
-    """Scenario `top` (input.osc:4)."""
-
     name = "top"
     source = "input.osc"
 
@@ -59,7 +57,7 @@ class Top(Scenario):
             position(15 * m, behind=self.npc),
         )
 
-    def behavior(self) -> Behaviour:  # input.osc:15
+    def behavior(self) -> Behaviour:
         return Parallel(
             "top",
             self.npc.drive(speed(30 * kph)),
@@ -67,10 +65,10 @@ class Top(Scenario):
             duration=20 * s,
         )
 
-    def ego_vehicle_serial(self) -> Behaviour:  # input.osc:19
+    def ego_vehicle_serial(self) -> Behaviour:
         return Serial(
             "ego_vehicle: serial",
-            self.ego_vehicle.drive(speed(30 * kph), duration=5 * s, label="behind"),
+            self.ego_vehicle.drive("behind", speed(30 * kph), duration=5 * s),
             self.ego_vehicle.drive(lane(side_of=self.npc, side="left", at="end")),
         )
 

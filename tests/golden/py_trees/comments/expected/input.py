@@ -30,9 +30,7 @@ require_api(1)
 
 
 class Comments(Scenario):
-    """Scenario `comments` (input.osc:8).
-
-    About the scenario.
+    """About the scenario.
     beside the scenario
     """
 
@@ -63,7 +61,7 @@ class Comments(Scenario):
         self.place(self.ego, speed(self.v))
 
     # Above do
-    def behavior(self) -> Behaviour:  # input.osc:21
+    def behavior(self) -> Behaviour:
         return Serial(
             "comments",
             # Above a drive
@@ -83,7 +81,7 @@ class Comments(Scenario):
         )
 
     # Above a parallel
-    def parallel(self) -> Behaviour:  # input.osc:29
+    def parallel(self) -> Behaviour:
         return Parallel(
             "parallel",
             # above a member

@@ -24,8 +24,6 @@ require_api(1)
 
 
 class Compositions(Scenario):
-    """Scenario `compositions` (input.osc:5)."""
-
     name = "compositions"
     source = "input.osc"
 
@@ -36,7 +34,7 @@ class Compositions(Scenario):
         self.other = Vehicle()
 
     # Everything at once
-    def behavior(self) -> Behaviour:  # input.osc:11
+    def behavior(self) -> Behaviour:
         return Parallel(
             "compositions",
             self.ego_serial(),
@@ -47,20 +45,20 @@ class Compositions(Scenario):
         )
 
     # the ego vehicle
-    def ego_serial(self) -> Behaviour:  # input.osc:13
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.drive(duration=2 * s),
             # deep inside
             OneOf(
-                "ego: one_of",
+                "ego: keep_speed or inner",
                 self.ego.keep_speed(duration=4 * s),
                 self.inner(),
                 # nothing below
             ),
         )
 
-    def inner(self) -> Behaviour:  # input.osc:18
+    def inner(self) -> Behaviour:
         return Serial(
             "inner",
             Wait(elapsed(1 * s)),
@@ -68,7 +66,7 @@ class Compositions(Scenario):
         )
 
     # the other one
-    def with_limit(self) -> Behaviour:  # input.osc:23
+    def with_limit(self) -> Behaviour:
         return Until(
             Serial(
                 "with_limit",
@@ -76,7 +74,6 @@ class Compositions(Scenario):
                 duration=(3 * s, 5 * s),
             ),
             elapsed(4 * s),
-            label="with_limit",
         )
 
 

@@ -30,8 +30,6 @@ require_api(1)
 
 
 class Conditions(Scenario):
-    """Scenario `conditions` (input.osc:5)."""
-
     name = "conditions"
     source = "input.osc"
 
@@ -52,38 +50,37 @@ class Conditions(Scenario):
         self.late = Event(elapsed(self.wait_time))
         self.wait_time_2 = self.parameter("wait time 2", within(1 * s, 2 * s))
 
-    def behavior(self) -> Behaviour:  # input.osc:14
+    def behavior(self) -> Behaviour:
         return Parallel(
             "conditions",
             self.ego_serial(),
             self.other_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # input.osc:15
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Wait(self.close),
-            Wait(self.help_needed, lambda: self.ego.speed > 10 * kph),
+            Wait(self.help_needed, condition=lambda: self.ego.speed > 10 * kph),
             Wait(fall(lambda: self.ego.speed > 30 * kph and self.other.speed != 0 * kph)),
             Wait(elapsed(self.wait_time_2)),
             Wait(every(2 * s, offset=1 * s)),
             Wait(lambda: self.ego.speed < self.other.speed),
-            self.ego.keep_speed(duration=3 * s, label="first"),
+            self.ego.keep_speed("first", duration=3 * s),
             Wait(self.ended("second")),
         )
 
-    def other_serial(self) -> Behaviour:  # input.osc:24
+    def other_serial(self) -> Behaviour:
         return Serial(
             "other: serial",
             Wait(self.started("first")),
             Emit(self.help_needed),
             Until(
-                self.other.drive(speed(20 * kph), duration=(1 * s, 4 * s)),
+                self.other.drive("second", speed(20 * kph), duration=(1 * s, 4 * s)),
                 # whatever comes first
                 self.help_needed,
                 self.late,
                 lambda: 10 * kph <= self.ego.speed <= 20 * kph,
-                label="second",
             ),
         )
 

@@ -33,8 +33,6 @@ WeatherKind: TypeAlias = Literal["dry", "wet", "icy"]
 
 
 class Constraints(Scenario):
-    """Scenario `constraints` (input.osc:11)."""
-
     name = "constraints"
     source = "input.osc"
 
@@ -94,22 +92,21 @@ class Constraints(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(self.slow), lane(self.lanes))
 
-    def behavior(self) -> Behaviour:  # input.osc:51
+    def behavior(self) -> Behaviour:
         return Parallel(
             "constraints",
             Until(
-                self.ego.drive(speed(self.slow), duration=(self.first, inf)),
+                self.ego.drive("drive", speed(self.slow), duration=(self.first, inf)),
                 elapsed(self.second + self.pause),
-                label="drive",
             ),
             self.npc_serial(),
         )
 
-    def npc_serial(self) -> Behaviour:  # input.osc:57
+    def npc_serial(self) -> Behaviour:
         return Serial(
             "npc: serial",
             Wait(elapsed(1 * s)),
-            self.npc.change_speed(target=self.change_target, label="change"),
+            self.npc.change_speed("change", target=self.change_target),
             duration=(1 * s, 30 * s),
         )
 

@@ -12,8 +12,6 @@ require_api(1)
 
 
 class Coverage(Scenario):
-    """Scenario `coverage` (input.osc:5)."""
-
     name = "coverage"
     source = "input.osc"
 
@@ -57,7 +55,7 @@ class Coverage(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(10 * kph))
 
-    def behavior(self) -> Behaviour:  # input.osc:24
+    def behavior(self) -> Behaviour:
         return self.ego.drive(speed(self.target, at="end"), duration=3 * s)
 
 

@@ -12,8 +12,6 @@ require_api(1)
 
 
 class Expressions(Scenario):
-    """Scenario `expressions` (input.osc:5)."""
-
     name = "expressions"
     source = "input.osc"
 
@@ -31,7 +29,7 @@ class Expressions(Scenario):
         self.long = self.v * (3 * s) + 10 * m
         self.choice = self.v if self.b > 5 and not self.a < 1.0 else 2 * self.v
 
-    def behavior(self) -> Behaviour:  # input.osc:18
+    def behavior(self) -> Behaviour:
         return Serial(
             "expressions",
             Wait(

@@ -35,7 +35,7 @@ Mood: TypeAlias = Literal["calm", "brisk", "hurried", "reckless"]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Habits:
-    """Struct `habits` (input.osc:13)."""
+    """Struct `habits`."""
 
     pace: float = 10 * mps
     spends: float = 15 * kWh_100km
@@ -43,8 +43,6 @@ class Habits:
 
 
 class Commute(Scenario):
-    """Scenario `vehicle.commute` (input.osc:17)."""
-
     name = "vehicle.commute"
     source = "input.osc"
 
@@ -61,13 +59,11 @@ class Commute(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.actor, speed(self.habit.pace), throughout=True)
 
-    def behavior(self) -> Behaviour:  # input.osc:22
+    def behavior(self) -> Behaviour:
         return self.actor.drive(speed(self.habit.pace), duration=1 * s)
 
 
 class Extensions(Scenario):
-    """Scenario `extensions` (input.osc:36)."""
-
     name = "extensions"
     source = "input.osc"
 
@@ -89,14 +85,14 @@ class Extensions(Scenario):
         self.keep(self.commute_top > self.economical.pace)
         self.keep(self.commute_top < self.fast.pace)
 
-    def habits_is_thrifty(self, habits: Habits) -> bool:  # input.osc:34
+    def habits_is_thrifty(self, habits: Habits) -> bool:
         return habits.spends < 600 * newton and habits.reserve > 0.1
 
-    def behavior(self) -> Behaviour:  # input.osc:50
+    def behavior(self) -> Behaviour:
         return Serial(
             "extensions",
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.commute_top),
-            self.invoke(Commute, actor=self.ego, habit=self.fast),
+            self.invoke(Commute, actor=self.ego, habit=self.fast, known_as="commute_2"),
             Wait(
                 lambda: self.habits_is_thrifty(self.economical)
                 and {"calm": 0, "brisk": 1, "hurried": 7, "reckless": 8}[self.state] == 8

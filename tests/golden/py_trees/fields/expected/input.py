@@ -47,8 +47,6 @@ require_api(1)
 
 
 class Fields(Scenario):
-    """Scenario `fields` (input.osc:6)."""
-
     name = "fields"
     source = "input.osc"
 
@@ -141,17 +139,17 @@ class Fields(Scenario):
             self.van, lane(3), position(100 * m), speed(2 * self.ego.bounding_box.length / (1 * s))
         )
 
-    def is_fast(self, motion: Velocity) -> bool:  # input.osc:81
+    def is_fast(self, motion: Velocity) -> bool:
         return motion.translational.norm() > self.limit.translational.norm()
 
-    def behavior(self) -> Behaviour:  # input.osc:83
+    def behavior(self) -> Behaviour:
         return Parallel(
             "fields",
             self.ego_serial(),
             self.serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # input.osc:84
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
@@ -175,7 +173,7 @@ class Fields(Scenario):
             ),
         )
 
-    def serial(self) -> Behaviour:  # input.osc:95
+    def serial(self) -> Behaviour:
         return Serial(
             "serial",
             self.env.rain(intensity=1 * mmph),

@@ -28,10 +28,7 @@ require_api(1)
 
 
 class Approach(Scenario):
-    """Scenario `vehicle.approach` (input.osc:6).
-
-    Closes in on a lead vehicle.
-    """
+    """Closes in on a lead vehicle."""
 
     name = "vehicle.approach"
     source = "input.osc"
@@ -54,23 +51,20 @@ class Approach(Scenario):
             self.actor, lane(same_as=self.lead), position(60 * m, behind=self.lead), speed(70 * kph)
         )
 
-    def behavior(self) -> Behaviour:  # input.osc:12
+    def behavior(self) -> Behaviour:
         return Serial(
             "approach",
             Until(
-                self.actor.drive(speed(70 * kph)),
+                self.actor.drive("close_in", speed(70 * kph)),
                 self.near,
-                label="close_in",
             ),
             self.actor.keep_space_gap(
-                reference=self.lead, direction="longitudinal", duration=2 * s, label="hold"
+                "hold", reference=self.lead, direction="longitudinal", duration=2 * s
             ),
         )
 
 
 class Top(Scenario):
-    """Scenario `top` (input.osc:20)."""
-
     name = "top"
     source = "input.osc"
 
@@ -87,27 +81,27 @@ class Top(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.car1, lane(2), position(200 * m), speed(50 * kph))
 
-    def behavior(self) -> Behaviour:  # input.osc:31
+    def behavior(self) -> Behaviour:
         return Parallel(
             "top",
             self.do_parallel(),
             On(
                 self.told,
-                Emit(self.done),
                 condition=lambda: self.told["v"] > 1 * mps,
+                do=[Emit(self.done)],
             ),
         )
 
-    def do_parallel(self) -> Behaviour:  # input.osc:31
+    def do_parallel(self) -> Behaviour:
         return Parallel(
             "do parallel",
-            self.invoke(Approach, actor=self.ego, lead=self.car1, gap=15 * m, label="p1"),
+            self.invoke("p1", Approach, actor=self.ego, lead=self.car1, gap=15 * m),
             self.car1.drive(speed(50 * kph)),
             self.serial(),
             overlap="start",
         )
 
-    def serial(self) -> Behaviour:  # input.osc:37
+    def serial(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.event("p1.near")),

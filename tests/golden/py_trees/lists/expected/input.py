@@ -17,8 +17,6 @@ KindOfRoad: TypeAlias = Literal["city", "rural", "highway"]
 
 
 class Lists(Scenario):
-    """Scenario `lists` (input.osc:7)."""
-
     name = "lists"
     source = "input.osc"
 
@@ -44,7 +42,7 @@ class Lists(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(self.cruise))
 
-    def behavior(self) -> Behaviour:  # input.osc:22
+    def behavior(self) -> Behaviour:
         return Serial(
             "lists",
             self.ego.drive(speed(self.cruise), duration=2 * s),

@@ -38,8 +38,6 @@ require_api(1)
 
 
 class MapValues(Scenario):
-    """Scenario `map_values` (input.osc:6)."""
-
     name = "map_values"
     source = "input.osc"
 
@@ -125,7 +123,7 @@ class MapValues(Scenario):
             speed(10 * mps),
         )
 
-    def behavior(self) -> Behaviour:  # input.osc:70
+    def behavior(self) -> Behaviour:
         return Parallel(
             "map_values",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

@@ -12,8 +12,6 @@ require_api(1)
 
 
 class Methods(Scenario):
-    """Scenario `methods` (input.osc:8)."""
-
     name = "methods"
     source = "input.osc"
 
@@ -30,17 +28,17 @@ class Methods(Scenario):
         self.place(self.ego, speed(self.share(self.limit)))
 
     # A method of the scenario becomes a method of its class.
-    def share(self, v: float, part: float = 0.5) -> float:  # input.osc:14
+    def share(self, v: float, part: float = 0.5) -> float:
         return v * part
 
     # A parameter may be called like a unit, or like a word of Python.
-    def longer(self, m_: float, self_: float = 1 * m) -> float:  # input.osc:16
+    def longer(self, m_: float, self_: float = 1 * m) -> float:
         return m_ + self_ + 5 * m
 
-    def is_faster(self, a: Vehicle, b: Vehicle) -> bool:  # input.osc:17
+    def is_faster(self, a: Vehicle, b: Vehicle) -> bool:
         return a.speed > b.speed
 
-    def behavior(self) -> Behaviour:  # input.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "methods",
             self.ego.drive(speed(self.share(self.limit)), duration=2 * s),

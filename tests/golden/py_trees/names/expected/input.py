@@ -15,10 +15,7 @@ furlong = 201.168
 
 
 class EventScenario(Scenario):
-    """Scenario `event` (input.osc:8).
-
-    Class names and keywords of Python must not disturb.
-    """
+    """Class names and keywords of Python must not disturb."""
 
     name = "event"
     source = "input.osc"
@@ -36,20 +33,20 @@ class EventScenario(Scenario):
         self.place(self.lambda_, speed(self.two_words))
         self.place(self.place_, position(self.name_, ahead_of=self.lambda_))
 
-    def behavior(self) -> Behaviour:  # input.osc:16
+    def behavior(self) -> Behaviour:
         return Parallel(
             "event",
             self.class_(),
             self.behavior_(),
         )
 
-    def class_(self) -> Behaviour:  # input.osc:17
+    def class_(self) -> Behaviour:
         return Serial(
             "class",
             self.lambda_.drive(speed(self.two_words), duration=1 * s),
         )
 
-    def behavior_(self) -> Behaviour:  # input.osc:20
+    def behavior_(self) -> Behaviour:
         return Serial(
             "behavior",
             self.place_.drive(duration=1 * s),
@@ -57,8 +54,6 @@ class EventScenario(Scenario):
 
 
 class Quoting(Scenario):
-    """Scenario `quoting` (input.osc:24)."""
-
     name = "quoting"
     source = "input.osc"
 
@@ -68,7 +63,7 @@ class Quoting(Scenario):
         self.ego = Vehicle()
 
     # a comment with """ and \ and {% raw %}
-    def behavior(self) -> Behaviour:  # input.osc:29
+    def behavior(self) -> Behaviour:
         return self.ego.drive(duration=1 * s)
 
 

@@ -33,12 +33,13 @@ class Honk(Protocol):
     def __call__(
         self,
         actor: Vehicle,
+        label: str | Modifier | None = None,
+        /,
         *modifiers: Modifier,
         times: Late[int] = ...,
         loudness: Late[float],
         at_whom: PhysicalObject,
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour: ...
 
 
@@ -54,13 +55,14 @@ class KeepHonking(Protocol):
     def __call__(
         self,
         actor: Vehicle,
+        label: str | Modifier | None = None,
+        /,
         *modifiers: Modifier,
         times: Late[int] = ...,
         loudness: Late[float],
         at_whom: PhysicalObject,
         pause: Late[float],
         duration: Duration | None = None,
-        label: str | None = None,
     ) -> Behaviour: ...
 
 
@@ -68,8 +70,6 @@ keep_honking: KeepHonking = user_action("keep_honking")
 
 
 class OwnActions(Scenario):
-    """Scenario `own_actions` (input.osc:14)."""
-
     name = "own_actions"
     source = "input.osc"
 
@@ -79,7 +79,7 @@ class OwnActions(Scenario):
         self.ego = Vehicle()
         self.other = Vehicle()
 
-    def behavior(self) -> Behaviour:  # input.osc:19
+    def behavior(self) -> Behaviour:
         return Serial(
             "own_actions",
             honk(self.ego, times=3, loudness=0.5, at_whom=self.ego),
@@ -87,7 +87,7 @@ class OwnActions(Scenario):
             honk(self.ego, speed(20 * kph), times=2, loudness=0.5, at_whom=self.ego),
         )
 
-    def ego_parallel(self) -> Behaviour:  # input.osc:21
+    def ego_parallel(self) -> Behaviour:
         return Parallel(
             "ego: parallel",
             keep_honking(

@@ -27,8 +27,6 @@ require_api(1)
 
 
 class Top(Scenario):
-    """Scenario `top` (input.osc:37)."""
-
     name = "top"
     source = "input.osc"
 
@@ -39,20 +37,20 @@ class Top(Scenario):
         self.other = Vehicle()
         self.seen = Event()
 
-    def behavior(self) -> Behaviour:  # input.osc:45
+    def behavior(self) -> Behaviour:
         return Parallel(
             "top",
             self.do_serial(),
             On(
                 self.event("quick.done"),
-                Emit(self.seen),
+                do=[Emit(self.seen)],
             ),
         )
 
-    def do_serial(self) -> Behaviour:  # input.osc:45
+    def do_serial(self) -> Behaviour:
         return Serial(
             "do serial",
-            self.invoke(HurryMore, actor=self.ego, label="quick"),
+            self.invoke("quick", HurryMore, actor=self.ego),
             self.invoke(Hurry, actor=self.ego, to=20 * mps * 0.25),
             self.invoke(Platoon, first=self.ego, second=self.other, pace=8 * mps),
             self.ego.drive(speed(9 * mps), duration=2 * s),
@@ -61,8 +59,6 @@ class Top(Scenario):
 
 
 class HurryMore(Scenario):
-    """Action `vehicle.hurry_more` (input.osc:15)."""
-
     name = "vehicle.hurry_more"
     source = "input.osc"
 
@@ -72,7 +68,7 @@ class HurryMore(Scenario):
         self.to = 18 * mps
         self.done = Event()
 
-    def behavior(self) -> Behaviour:  # input.osc:10
+    def behavior(self) -> Behaviour:
         return Serial(
             "hurry_more",
             self.actor.change_speed(target=self.to),
@@ -82,10 +78,7 @@ class HurryMore(Scenario):
 
 
 class Hurry(Scenario):
-    """Action `vehicle.hurry` (input.osc:7).
-
-    There and back to the speed it had
-    """
+    """There and back to the speed it had"""
 
     name = "vehicle.hurry"
     source = "input.osc"
@@ -96,7 +89,7 @@ class Hurry(Scenario):
         self.to = self.parameter("to", 15 * mps)
         self.done = Event()
 
-    def behavior(self) -> Behaviour:  # input.osc:10
+    def behavior(self) -> Behaviour:
         return Serial(
             "hurry",
             self.actor.change_speed(target=self.to),
@@ -106,10 +99,7 @@ class Hurry(Scenario):
 
 
 class Platoon(Scenario):
-    """Action `platoon` (input.osc:19).
-
-    Nobody in particular
-    """
+    """Nobody in particular"""
 
     name = "platoon"
     source = "input.osc"
@@ -125,7 +115,7 @@ class Platoon(Scenario):
         self.place(self.first, speed(self.pace), throughout=True)
         self.place(self.second, speed(self.pace), throughout=True)
 
-    def behavior(self) -> Behaviour:  # input.osc:22
+    def behavior(self) -> Behaviour:
         return Parallel(
             "platoon",
             self.first.drive(speed(self.pace)),

@@ -32,7 +32,7 @@ require_api(1)
 
 
 class Probe(Vehicle):
-    """Actor `probe` (input.osc:6)."""
+    """Actor `probe`."""
 
     kinds = ("probe", *Vehicle.kinds)
 
@@ -42,8 +42,6 @@ class Probe(Vehicle):
 
 
 class Step(Scenario):
-    """Scenario `vehicle.step` (input.osc:11)."""
-
     name = "vehicle.step"
     source = "input.osc"
 
@@ -57,18 +55,16 @@ class Step(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.actor, speed(self.pace), throughout=True)
 
-    def behavior(self) -> Behaviour:  # input.osc:15
+    def behavior(self) -> Behaviour:
         return Serial(
             "step",
-            self.actor.drive(speed(self.pace), duration=1 * s, label="roll"),
+            self.actor.drive("roll", speed(self.pace), duration=1 * s),
             Emit(self.moving, at=lambda: self.actor.speed),
             self.actor.drive(duration=1 * s),
         )
 
 
 class WalkAround(Scenario):
-    """Scenario `walk_around` (input.osc:21)."""
-
     name = "walk_around"
     source = "input.osc"
 
@@ -76,16 +72,14 @@ class WalkAround(Scenario):
         """Cast, events and values."""
         self.car = Vehicle()
 
-    def behavior(self) -> Behaviour:  # input.osc:23
+    def behavior(self) -> Behaviour:
         return Serial(
             "walk_around",
-            self.invoke(Step, actor=self.car, label="inner"),
+            self.invoke("inner", Step, actor=self.car),
         )
 
 
 class OwnEvents(Scenario):
-    """Scenario `own_events` (input.osc:26)."""
-
     name = "own_events"
     source = "input.osc"
 
@@ -107,18 +101,18 @@ class OwnEvents(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(10 * mps))
 
-    def behavior(self) -> Behaviour:  # input.osc:44
+    def behavior(self) -> Behaviour:
         return Parallel(
             "own_events",
             self.do_serial(),
             On(
                 self.event("round.inner.moving"),
-                Emit(self.told),
                 condition=lambda: self.event("round.inner.moving")["at"] > 1 * mps,
+                do=[Emit(self.told)],
             ),
         )
 
-    def do_serial(self) -> Behaviour:  # input.osc:44
+    def do_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             # Right at the start
@@ -127,42 +121,42 @@ class OwnEvents(Scenario):
             Emit(self.over),
         )
 
-    def do_parallel(self) -> Behaviour:  # input.osc:44
+    def do_parallel(self) -> Behaviour:
         return Parallel(
             "do parallel",
-            self.invoke(WalkAround, car=self.other, label="round"),
+            self.invoke("round", WalkAround, car=self.other),
             self.ego_serial(),
             self.serial(),
             self.serial_2(),
             self.serial_3(),
         )
 
-    def ego_serial(self) -> Behaviour:  # input.osc:46
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.drive(speed(15 * mps, at="end"), duration=3 * s),
         )
 
-    def serial(self) -> Behaviour:  # input.osc:50
+    def serial(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.ego_fast),
             Emit(self.reached),
         )
 
-    def serial_2(self) -> Behaviour:  # input.osc:53
+    def serial_2(self) -> Behaviour:
         return Serial(
-            "serial",
+            "serial 2",
             Wait(self.event("round.inner.roll.end")),
             Wait(elapsed(lambda: self.other.speed / (10 * mpsps))),
             Wait(lambda: self.other.speed < 7 * mps),
             Emit(self.heard),
         )
 
-    def serial_3(self) -> Behaviour:  # input.osc:58
+    def serial_3(self) -> Behaviour:
         return Serial(
-            "serial",
-            Wait(self.reached, elapsed(500 * ms)),
+            "serial 3",
+            Wait(self.reached, condition=elapsed(500 * ms)),
             Wait(lambda: self.other.speed > 4 * mps),
         )
 

@@ -15,7 +15,7 @@ require_api(1)
 
 
 class Coach(Vehicle):
-    """Actor `coach` (input.osc:11)."""
+    """Actor `coach`."""
 
     kinds = ("coach", *Vehicle.kinds)
 
@@ -25,22 +25,20 @@ class Coach(Vehicle):
 
 
 class DoubleDecker(Coach):
-    """Actor `double_decker` (input.osc:16)."""
+    """Actor `double_decker`."""
 
     kinds = ("double_decker", *Coach.kinds)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Limits:
-    """Struct `limits` (input.osc:5)."""
+    """Struct `limits`."""
 
     low: float
     high: float = 50 * kph
 
 
 class OwnMethods(Scenario):
-    """Scenario `own_methods` (input.osc:19)."""
-
     name = "own_methods"
     source = "input.osc"
 
@@ -61,13 +59,13 @@ class OwnMethods(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(self.limits_middle(self.range_of_speed)))
 
-    def scaled(self, factor: float) -> float:  # input.osc:30
+    def scaled(self, factor: float) -> float:
         return self.base * factor
 
-    def limits_middle(self, limits: Limits) -> float:  # input.osc:9
+    def limits_middle(self, limits: Limits) -> float:
         return (limits.low + limits.high) / 2.0
 
-    def coach_is_full(self, coach: Coach, guests: int) -> bool:  # input.osc:14
+    def coach_is_full(self, coach: Coach, guests: int) -> bool:
         return (
             self.double_decker_is_full(coach, guests)
             if isinstance(coach, DoubleDecker)
@@ -75,10 +73,9 @@ class OwnMethods(Scenario):
         )
 
     def double_decker_is_full(self, double_decker: DoubleDecker, guests: int) -> bool:
-        # input.osc:17
         return guests >= 2 * double_decker.seats
 
-    def behavior(self) -> Behaviour:  # input.osc:32
+    def behavior(self) -> Behaviour:
         return Serial(
             "own_methods",
             self.ego.drive(speed(self.limits_middle(self.range_of_speed)), duration=1 * s),

@@ -24,8 +24,6 @@ require_api(1)
 
 
 class Demo(Scenario):
-    """Scenario `demo` (input.osc:29)."""
-
     name = "demo"
     source = "input.osc"
 
@@ -39,38 +37,38 @@ class Demo(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(10 * mps), lane(2), position(50 * m))
 
-    def behavior(self) -> Behaviour:  # input.osc:33
+    def behavior(self) -> Behaviour:
         self.override("slow", "quick")
         return Serial(
             "demo",
-            self.ego.drive(speed(10 * mps), duration=2 * s, label="a"),
-            self.ego.drive(speed(8 * mps), duration=2 * s, label="b"),
-            self.ego.drive(speed(7 * mps), duration=2 * s, label="c"),
-            self.ego.drive(speed(6 * mps), duration=2 * s, label="d"),
+            self.ego.drive("a", speed(10 * mps), duration=2 * s),
+            self.ego.drive("b", speed(8 * mps), duration=2 * s),
+            self.ego.drive("c", speed(7 * mps), duration=2 * s),
+            self.ego.drive("d", speed(6 * mps), duration=2 * s),
             self.ego_parallel(),
         )
 
     # all at once
-    def ego_parallel(self) -> Behaviour:  # input.osc:45
+    def ego_parallel(self) -> Behaviour:
         return Parallel(
             "ego: parallel",
             self.ego.drive(
+                "slow",
                 # easily
                 # as it was
                 keep_lane(),
                 speed(8 * mps + 1 * mps),
                 lane(self.slow_easy_side, at="start"),
                 duration=3 * s,
-                label="slow",
             ),
             self.w(),
         )
 
-    def w(self) -> Behaviour:  # input.osc:49
+    def w(self) -> Behaviour:
         return Serial(
             "w",
             Wait(elapsed(1 * s)),
-            self.ego.change_speed(target=10 * mps, label="quick"),
+            self.ego.change_speed("quick", target=10 * mps),
         )
 
 

@@ -29,7 +29,7 @@ require_api(1)
 
 
 class Company(Actor):
-    """Actor `company` (input.osc:24)."""
+    """Actor `company`."""
 
     kinds = ("company", *Actor.kinds)
 
@@ -41,7 +41,7 @@ class Company(Actor):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Leg:
-    """Struct `leg` (input.osc:8)."""
+    """Struct `leg`."""
 
     pace: float = 10 * mps
     # twice as fast at most
@@ -51,7 +51,7 @@ class Leg:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Journey:
-    """Struct `journey` (input.osc:15)."""
+    """Struct `journey`."""
 
     first: Leg
     second: Leg
@@ -61,7 +61,7 @@ class Journey:
 
 
 class Cab(Vehicle):
-    """Actor `cab` (input.osc:28)."""
+    """Actor `cab`."""
 
     kinds = ("cab", *Vehicle.kinds)
 
@@ -73,14 +73,12 @@ class Cab(Vehicle):
 
 
 class Limousine(Cab):
-    """Actor `limousine` (input.osc:34)."""
+    """Actor `limousine`."""
 
     kinds = ("limousine", *Cab.kinds)
 
 
 class Top(Scenario):
-    """Scenario `top` (input.osc:37)."""
-
     name = "top"
     source = "input.osc"
 
@@ -107,7 +105,7 @@ class Top(Scenario):
         self.keep(self.names[0] == "first")
         self.keep(self.names[1] in ["second", "third"])
 
-    def behavior(self) -> Behaviour:  # input.osc:54
+    def behavior(self) -> Behaviour:
         return Serial(
             "top",
             self.invoke(Ride, it_is=self.ego),
@@ -121,8 +119,6 @@ class Top(Scenario):
 
 
 class Ride(Scenario):
-    """Scenario `ride` (input.osc:60)."""
-
     name = "ride"
     source = "input.osc"
 
@@ -134,16 +130,16 @@ class Ride(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.it_is, speed(self.it_is.trip.first.most), throughout=True)
 
-    def journey_longest(self, journey: Journey) -> float:  # input.osc:22
+    def journey_longest(self, journey: Journey) -> float:
         return journey.first.time_of + journey.second.time_of
 
-    def cab_fare(self, cab: Cab, km: float) -> float:  # input.osc:32
+    def cab_fare(self, cab: Cab, km: float) -> float:
         return self.limousine_fare(cab, km) if isinstance(cab, Limousine) else 2.5 * km
 
-    def limousine_fare(self, limousine: Limousine, km: float) -> float:  # input.osc:35
+    def limousine_fare(self, limousine: Limousine, km: float) -> float:
         return 20.0 + 5.0 * km
 
-    def behavior(self) -> Behaviour:  # input.osc:62
+    def behavior(self) -> Behaviour:
         return Serial(
             "ride",
             self.it_is.drive(

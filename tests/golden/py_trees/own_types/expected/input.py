@@ -27,7 +27,7 @@ require_api(1)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DrivingStyle:
-    """Struct `driving_style` (input.osc:6).
+    """Struct `driving_style`.
 
     How a test car is driven.
     """
@@ -39,20 +39,20 @@ class DrivingStyle:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CalmStyle(DrivingStyle):
-    """Struct `calm_style` (input.osc:12)."""
+    """Struct `calm_style`."""
 
     patience: float = 5 * s
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Waypoint(Point):
-    """Struct `waypoint` (input.osc:15)."""
+    """Struct `waypoint`."""
 
     title: str = "nowhere"
 
 
 class TestCar(Vehicle):
-    """Actor `test_car` (input.osc:18)."""
+    """Actor `test_car`."""
 
     kinds = ("test_car", *Vehicle.kinds)
 
@@ -64,7 +64,7 @@ class TestCar(Vehicle):
 
 
 class LongCar(TestCar):
-    """Actor `long_car` (input.osc:23)."""
+    """Actor `long_car`."""
 
     kinds = ("long_car", *TestCar.kinds)
 
@@ -74,14 +74,12 @@ class LongCar(TestCar):
 
 
 class Child(Person):
-    """Actor `child` (input.osc:27)."""
+    """Actor `child`."""
 
     kinds = ("child", *Person.kinds)
 
 
 class OwnTypes(Scenario):
-    """Scenario `own_types` (input.osc:29)."""
-
     name = "own_types"
     source = "input.osc"
 
@@ -98,7 +96,7 @@ class OwnTypes(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, position(at_point=self.start), speed(self.style.v))
 
-    def behavior(self) -> Behaviour:  # input.osc:45
+    def behavior(self) -> Behaviour:
         return Serial(
             "own_types",
             self.ego.assign_position(position(at_point=self.start), speed(self.style.v)),

@@ -30,7 +30,7 @@ Load: TypeAlias = Literal["empty", "full"]
 
 
 class Lorry(Vehicle):
-    """Actor `lorry` (input.osc:8)."""
+    """Actor `lorry`."""
 
     kinds = ("lorry", *Vehicle.kinds)
 
@@ -41,7 +41,7 @@ class Lorry(Vehicle):
 
 
 class LoadedLorry(Lorry):
-    """Actor `loaded_lorry` (input.osc:14).
+    """Actor `loaded_lorry`.
 
     Slower, and somebody helps to unload
     """
@@ -54,8 +54,6 @@ class LoadedLorry(Lorry):
 
 
 class Top(Scenario):
-    """Scenario `top` (input.osc:19)."""
-
     name = "top"
     source = "input.osc"
 
@@ -65,18 +63,16 @@ class Top(Scenario):
         self.ego = LoadedLorry(crew=2, load="full")
         self.other = Lorry(load="empty")
 
-    def behavior(self) -> Behaviour:  # input.osc:27
+    def behavior(self) -> Behaviour:
         return Serial(
             "top",
             self.invoke(Haul, who=self.ego, hands=2),
-            self.invoke(Haul, who=self.other, hands=1),
+            self.invoke(Haul, who=self.other, hands=1, known_as="haul_2"),
             Wait(lambda: as_type(self.ego, LoadedLorry).weight > 7.0 and self.other.load != "full"),
         )
 
 
 class Haul(Scenario):
-    """Scenario `haul` (input.osc:32)."""
-
     name = "haul"
     source = "input.osc"
 
@@ -90,13 +86,13 @@ class Haul(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.who, speed(self.lorry_pace(self.who)), throughout=True)
 
-    def lorry_pace(self, lorry: Lorry) -> float:  # input.osc:11
+    def lorry_pace(self, lorry: Lorry) -> float:
         return self.loaded_lorry_pace(lorry) if isinstance(lorry, LoadedLorry) else 20 * mps
 
-    def loaded_lorry_pace(self, loaded_lorry: LoadedLorry) -> float:  # input.osc:17
+    def loaded_lorry_pace(self, loaded_lorry: LoadedLorry) -> float:
         return 12 * mps
 
-    def behavior(self) -> Behaviour:  # input.osc:35
+    def behavior(self) -> Behaviour:
         return Serial(
             "haul",
             self.who.drive(speed(self.lorry_pace(self.who)), duration=1 * s),

@@ -12,8 +12,6 @@ require_api(1)
 
 
 class Parameters(Scenario):
-    """Scenario `parameters` (input.osc:5)."""
-
     name = "parameters"
     source = "input.osc"
 
@@ -44,7 +42,7 @@ class Parameters(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, lane(self.lanes), speed(self.limit))
 
-    def behavior(self) -> Behaviour:  # input.osc:26
+    def behavior(self) -> Behaviour:
         return self.ego.drive(speed(self.limit), duration=2 * s)
 
 

@@ -32,10 +32,7 @@ require_api(1)
 
 
 class Paths(Scenario):
-    """Scenario `paths` (input.osc:6).
-
-    Ways to go along, and a trailer.
-    """
+    """Ways to go along, and a trailer."""
 
     name = "paths"
     source = "input.osc"
@@ -77,14 +74,14 @@ class Paths(Scenario):
             self.ego, tow_trailer(trailer=self.cart), lane(1), position(100 * m), speed(10 * mps)
         )
 
-    def behavior(self) -> Behaviour:  # input.osc:60
+    def behavior(self) -> Behaviour:
         return Parallel(
             "paths",
             self.ego_serial(),
             self.other_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:  # input.osc:61
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.follow_path(absolute=self.spelled_out),
@@ -96,7 +93,7 @@ class Paths(Scenario):
             ),
         )
 
-    def other_serial(self) -> Behaviour:  # input.osc:72
+    def other_serial(self) -> Behaviour:
         return Serial(
             "other: serial",
             self.other.replay_trajectory(absolute=self.in_time),

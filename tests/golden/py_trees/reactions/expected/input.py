@@ -26,8 +26,6 @@ require_api(1)
 
 
 class Reactions(Scenario):
-    """Scenario `reactions` (input.osc:5)."""
-
     name = "reactions"
     source = "input.osc"
 
@@ -39,7 +37,7 @@ class Reactions(Scenario):
         self.seen = Event()
         self.reported = Event()
 
-    def behavior(self) -> Behaviour:  # input.osc:19
+    def behavior(self) -> Behaviour:
         return Parallel(
             "reactions",
             self.do_serial(),
@@ -49,22 +47,24 @@ class Reactions(Scenario):
                     lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
                     < 20 * m
                 ),
-                Emit(self.seen),
+                do=[Emit(self.seen)],
             ),
             On(
                 self.seen,
-                # once more
-                Emit(self.reported),
                 condition=lambda: self.ego.speed > 10 * kph,
+                do=[
+                    # once more
+                    Emit(self.reported)
+                ],
             ),
         )
 
-    def do_serial(self) -> Behaviour:  # input.osc:19
+    def do_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             Until(
                 self.ego.drive(),
-                Event(self.reported, lambda: self.other.speed > 1 * kph),
+                Event(self.reported, condition=lambda: self.other.speed > 1 * kph),
                 elapsed(9 * s),
             ),
         )

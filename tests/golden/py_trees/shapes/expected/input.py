@@ -31,7 +31,7 @@ require_api(1)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ramp(AnySpeedShape):
-    """Struct `ramp` (input.osc:6).
+    """Struct `ramp`.
 
     Evenly from one value to another.
     """
@@ -43,21 +43,21 @@ class Ramp(AnySpeedShape):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sway(AnyLateralShape):
-    """Struct `sway` (input.osc:14)."""
+    """Struct `sway`."""
 
     rate: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Turn(AnyShape):
-    """Struct `turn` (input.osc:18)."""
+    """Struct `turn`."""
 
     rate: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Noted(CommonPositionShape):
-    """Struct `noted` (input.osc:24).
+    """Struct `noted`.
 
     Says nothing of its own: a common shape with a note.
     """
@@ -66,8 +66,6 @@ class Noted(CommonPositionShape):
 
 
 class Shapes(Scenario):
-    """Scenario `shapes` (input.osc:27)."""
-
     name = "shapes"
     source = "input.osc"
 
@@ -94,25 +92,25 @@ class Shapes(Scenario):
         )
         self.place(self.walker, speed(self.plain.compute(500 * ms)))
 
-    def ramp_duration(self, ramp: Ramp) -> float:  # input.osc:10
+    def ramp_duration(self, ramp: Ramp) -> float:
         return ramp.length
 
-    def ramp_share(self, ramp: Ramp, time: float) -> float:  # input.osc:11
+    def ramp_share(self, ramp: Ramp, time: float) -> float:
         return time / ramp.length
 
-    def ramp_compute(self, ramp: Ramp, time: float) -> float:  # input.osc:12
+    def ramp_compute(self, ramp: Ramp, time: float) -> float:
         return ramp.first + (ramp.last - ramp.first) * self.ramp_share(ramp, time)
 
-    def sway_compute(self, sway: Sway, time: float) -> float:  # input.osc:16
+    def sway_compute(self, sway: Sway, time: float) -> float:
         return sway.rate * time
 
-    def turn_duration(self, turn: Turn) -> float:  # input.osc:20
+    def turn_duration(self, turn: Turn) -> float:
         return 2 * s
 
-    def turn_compute(self, turn: Turn, time: float) -> float:  # input.osc:21
+    def turn_compute(self, turn: Turn, time: float) -> float:
         return turn.rate * time
 
-    def behavior(self) -> Behaviour:  # input.osc:49
+    def behavior(self) -> Behaviour:
         return Parallel(
             "shapes",
             self.ego_serial(),
@@ -125,7 +123,7 @@ class Shapes(Scenario):
             overlap="any",
         )
 
-    def ego_serial(self) -> Behaviour:  # input.osc:50
+    def ego_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             # What holds throughout starts with its first value.

@@ -26,8 +26,6 @@ require_api(1)
 
 
 class Sky(Scenario):
-    """Scenario `sky` (input.osc:6)."""
-
     name = "sky"
     source = "input.osc"
 
@@ -41,7 +39,7 @@ class Sky(Scenario):
         self.dusk = CelestialPosition(elevation=2 * deg, azimuth=270 * deg)
         self.ego = Vehicle()
 
-    def behavior(self) -> Behaviour:  # input.osc:22
+    def behavior(self) -> Behaviour:
         return Serial(
             "sky",
             self.ego.drive(duration=1 * s),

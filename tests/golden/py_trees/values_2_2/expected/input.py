@@ -22,8 +22,6 @@ require_api(1)
 
 
 class Values(Scenario):
-    """Scenario `values` (input.osc:8)."""
-
     name = "values"
     source = "input.osc"
 
@@ -45,10 +43,10 @@ class Values(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(self.cruise.low))
 
-    def float_doubled(self, value: float) -> float:  # input.osc:6
+    def float_doubled(self, value: float) -> float:
         return value * 2.0
 
-    def behavior(self) -> Behaviour:  # input.osc:21
+    def behavior(self) -> Behaviour:
         return Serial(
             "values",
             self.ego.drive(speed(self.cruise.low), duration=1 * s),

@@ -1,0 +1,88 @@
+"""What a module itself says: nodes without a label are called as they are written.
+
+`self.ego.drive(speed(self.v_ego))` makes a node `ego.drive(speed(v_ego))`, `Wait(rise(lambda:
+self.ego.speed > 3))` one named `wait rise(ego.speed > 3)`. Names are for people and only for them:
+where Python knows no positions (`PYTHONNODEBUGRANGES`) or the text is gone, they are shorter.
+"""
+
+from __future__ import annotations
+
+import linecache
+import re
+import sys
+from collections.abc import Callable, Iterator
+from itertools import islice
+from types import CodeType
+from typing import Any
+
+__all__ = ["call_arguments", "function_text"]
+
+RUNTIME = __name__.partition(".")[0]
+MAX_LENGTH = 90
+
+Position = tuple[int | None, int | None, int | None, int | None]
+
+
+def call_arguments() -> str:
+    """Return the arguments, with their parentheses, of the call that led into this library."""
+    frame = sys._getframe(1)
+    while _package(frame.f_globals) == RUNTIME and frame.f_back is not None:
+        frame = frame.f_back
+    position = next(islice(frame.f_code.co_positions(), frame.f_lasti // 2, None))
+    text = _text(frame.f_code, frame.f_globals, position)
+    return _shorten(text[text.index("(") :]) if "(" in text else ""
+
+
+def function_text(function: Callable[..., object]) -> str:
+    """Return what a lambda computes, `ego.speed > 3`; of any other function its name."""
+    code = getattr(function, "__code__", None)
+    name = str(getattr(function, "__name__", "function"))
+    if code is None or name != "<lambda>":
+        return name
+    known = list(_known(code))
+    if not known:
+        return "condition"
+    first = min((line, column) for line, _, column, _ in known)
+    last = max((line, column) for _, line, _, column in known)
+    position = (first[0], last[0], first[1], last[1])
+    text = _text(code, getattr(function, "__globals__", {}), position)
+    return _shorten(re.sub(r"^lambda[^:]*: ", "", text)) or "condition"
+
+
+def _package(names: dict[str, Any]) -> str:
+    return str(names.get("__name__", "")).partition(".")[0]
+
+
+def _known(code: CodeType) -> Iterator[tuple[int, int, int, int]]:
+    """Yield the positions of what code computes."""
+    for line, end_line, column, end_column in code.co_positions():
+        if line is None or end_line is None or column is None or end_column is None:
+            continue
+        if (line, column) < (end_line, end_column):
+            yield line, end_line, column, end_column
+
+
+def _text(code: CodeType, names: dict[str, Any], position: Position) -> str:
+    """Return the text at a position on one line, without `self.`; nothing if it is not known."""
+    line, end_line, column, end_column = position
+    if line is None or end_line is None or column is None or end_column is None:
+        return ""
+    file = code.co_filename
+    lines = [
+        linecache.getline(file, number, names).encode() for number in range(line, end_line + 1)
+    ]
+    lines[-1] = lines[-1][:end_column]
+    lines[0] = lines[0][column:]
+    return _condense([part.decode(errors="replace") for part in lines])
+
+
+def _condense(lines: list[str]) -> str:
+    """Join lines as black would, if they had room; comments are left out."""
+    kept = (line.strip() for line in lines if not line.lstrip().startswith("#"))
+    joined = re.sub(r"\s+", " ", " ".join(kept))
+    joined = re.sub(r"(?<=[(\[]) |,? (?=[)\]])", "", joined)
+    return re.sub(r"\bself\.|\blambda: ", "", joined)
+
+
+def _shorten(text: str) -> str:
+    return text if len(text) <= MAX_LENGTH else f"{text[: MAX_LENGTH - 1]}…"

@@ -1,0 +1,81 @@
+"""The module alone decides a run: its source map only adds lines."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from osc2tx.backends.py_trees import emit
+from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from tests.end_to_end.harness import SCENARIOS, compile_scenario
+
+FILES = sorted(SCENARIOS.rglob("*.osc"))
+OTHER = emit(compile_scenario(SCENARIOS / "follow_leader.osc")).source_map
+LINE = re.compile(r"(?<=\.osc):\d+")
+
+
+def without_line(place: str) -> str:
+    """Drop the line of `cut_in.osc:30`."""
+    return LINE.sub("", place)
+
+
+def traces(path: Path) -> dict[str, list[dict[str, Any]]]:
+    with scenarios_of_file(path, "module_under_test") as scenarios:
+        return {name: trace(scenario) for name, scenario in sorted(scenarios.items())}
+
+
+def trace(scenario: type[Scenario]) -> list[dict[str, Any]]:
+    """Return the lines of the first seconds of a run, without the numbers of lines in them."""
+    try:
+        result = run_scenario(scenario, RunSettings(max_time=3.0, seed=7))
+    except ScenarioError as error:
+        return [{"error": without_line(str(error))}]
+    lines = [json.loads(line) for line in result.trace_lines]
+    for line in lines:
+        for key in ("source", "reason"):
+            if key in line:
+                line[key] = without_line(line[key])
+    return lines
+
+
+def broken_maps(source_map: str) -> Mapping[str, str]:
+    """Return contents of maps: nothing readable, other lines, one of another module."""
+    own = json.loads(source_map)
+    for entry in own["scenarios"].values():
+        for key in ("constraints", "placements", "nodes"):
+            entry[key] = [1000 - line for line in entry[key]]
+        entry["names"] = entry["draws"] = ["x"] * 20
+    return {
+        "not JSON": "{",
+        "a list": "[1, 2]",
+        "other lines": json.dumps(own),
+        "of another module": OTHER,
+    }
+
+
+@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+def test_the_map_changes_lines_alone(file: Path, tmp_path: Path) -> None:
+    module = emit(compile_scenario(file))
+    path = tmp_path / f"{module.stem}.py"
+    path.write_text(module.python, encoding="utf-8")
+    expected = traces(path)
+    for what, text in {"its own": module.source_map, **broken_maps(module.source_map)}.items():
+        path.with_suffix(".map.json").write_text(text, encoding="utf-8")
+        assert traces(path) == expected, what
+
+
+def test_lines_come_from_the_map(tmp_path: Path) -> None:
+    module = emit(compile_scenario(SCENARIOS / "cut_in.osc"))
+    path = tmp_path / "cut_in.py"
+    path.write_text(module.python, encoding="utf-8")
+    path.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")
+    with scenarios_of_file(path, "cut_in_with_map") as scenarios:
+        result = run_scenario(scenarios["cut_in"], RunSettings(max_time=0.1))
+    sources = [json.loads(line).get("source", "") for line in result.trace_lines]
+    assert "cut_in.osc:19" in sources
