@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
@@ -295,7 +296,8 @@ def user_action(name: str) -> Any:
 
     def call(actor: Actor, *args: Any, **kwargs: Any) -> Action:
         node = methods.bind(actor, name)(*args, **kwargs)
-        node.name = node.label or f"{name}{call_arguments()}"  # which begin with the actor
+        written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor stands before it
+        node.name = node.label or f"{actor.id}.{name}{written}"
         return node
 
     return call
