@@ -40,6 +40,7 @@ class Environment(Actor, EnvironmentMethods):
     """
 
     kinds = ("environment", *Actor.kinds)
+    one_per_run = True
 
     def __init__(
         self,
