@@ -1,4 +1,4 @@
-"""Writes the actions of the library as typed methods: `osc2tx_runtime/domain/actors/methods/`.
+"""Writes the actions of the library as typed methods: `osc2tx_runtime/domain/methods/`.
 
 A file for each kind of actors, read from the registry: signature and docstring of the class that
 carries an action out, and the modifiers that it takes; the section of the standard is from the
@@ -23,17 +23,17 @@ import black
 from osc2tx.backends.py_trees.naming import class_name
 from osc2tx.catalogue import catalogue
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
-from osc2tx_runtime.domain.actions.modifier_groups import (
+from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
+from osc2tx_runtime.domain.modifiers.groups import (
     PATH_SHAPERS,
     SIDE_FREE,
     SPEED_FREE,
     TURN_SHAPERS,
 )
-from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
 from osc2tx_runtime.language.registry import Method, methods
 
-FOLDER = Path(__file__).parents[1] / "runtime_lib/osc2tx_runtime/domain/actors/methods"
-PACKAGE = "osc2tx_runtime.domain.actors.methods"
+FOLDER = Path(__file__).parents[1] / "runtime_lib/osc2tx_runtime/domain/methods"
+PACKAGE = "osc2tx_runtime.domain.methods"
 MODIFIERS = "osc2tx_runtime.domain.modifiers"
 MADE = "made by tools/make_actor_methods.py"
 

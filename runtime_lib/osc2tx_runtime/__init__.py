@@ -28,14 +28,6 @@ from osc2tx_runtime.domain.actors import (
     Trailer,
     Vehicle,
 )
-from osc2tx_runtime.domain.actors.parts import (
-    Axle,
-    BehavioralModel,
-    BmEngine,
-    BoundingBox,
-    HitchCoupler,
-    HitchReceiver,
-)
 from osc2tx_runtime.domain.measuring.weather import (
     Air,
     CelestialLightSource,
@@ -48,6 +40,14 @@ from osc2tx_runtime.domain.measuring.weather import (
     Wind,
 )
 from osc2tx_runtime.domain.modifiers.base import Late, Modifier, value_of
+from osc2tx_runtime.domain.objects.parts import (
+    Axle,
+    BehavioralModel,
+    BmEngine,
+    BoundingBox,
+    HitchCoupler,
+    HitchReceiver,
+)
 from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePathOdr,

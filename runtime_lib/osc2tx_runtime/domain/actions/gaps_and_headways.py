@@ -23,7 +23,7 @@ from .modifiable import ShapedAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
-    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
 __all__ = [
     "ChangeSpaceGap",

@@ -32,7 +32,7 @@ from .modifiable import ShapedAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
-    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
 __all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
 

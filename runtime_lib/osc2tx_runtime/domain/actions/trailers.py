@@ -12,7 +12,7 @@ from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
-    from osc2tx_runtime.domain.actors.parts import Towable
+    from osc2tx_runtime.domain.objects.parts import Towable
 
 __all__ = ["ConnectTrailer", "DisconnectTrailer"]
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from osc2tx_runtime.domain.measuring.object_position import RoutePosition
 from osc2tx_runtime.domain.measuring.weather import CelestialLightSource
+from osc2tx_runtime.domain.objects.base import Actor
+from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject, StationaryObject
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, Pose
 
-from .base import Actor
 from .environment import Environment
 from .map import Map
 from .movable_objects import Animal, MovableObject, Person, TrafficParticipant
-from .physical_objects import PhysicalObject, StationaryObject
 from .traffic_light_controller import TrafficLightController
 from .vehicles import Trailer, Vehicle
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Unpack
 
-from osc2tx_runtime.domain.actors.part_defaults import known_infrastructure, known_role
+from osc2tx_runtime.domain.methods import AnimalMethods, MovableObjectMethods, PersonMethods
+from osc2tx_runtime.domain.objects.part_defaults import known_infrastructure, known_role
+from osc2tx_runtime.domain.objects.physical_objects import ObjectFields, PhysicalObject
 from osc2tx_runtime.enums import IntendedInfrastructure, TrafficParticipantRole
 from osc2tx_runtime.errors import ScenarioError
-
-from .methods import AnimalMethods, MovableObjectMethods, PersonMethods
-from .physical_objects import ObjectFields, PhysicalObject
 
 __all__ = ["Animal", "MovableObject", "ParticipantFields", "Person", "TrafficParticipant"]
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .base import Actor
-from .methods import TrafficLightControllerMethods
+from osc2tx_runtime.domain.methods import TrafficLightControllerMethods
+from osc2tx_runtime.domain.objects.base import Actor
 
 __all__ = ["TrafficLightController"]
 

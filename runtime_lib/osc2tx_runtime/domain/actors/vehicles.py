@@ -6,19 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Unpack
 
-from osc2tx_runtime.domain.actors.part_defaults import (
+from osc2tx_runtime.domain.methods import VehicleMethods
+from osc2tx_runtime.domain.objects.part_defaults import (
     known_axles,
     known_coupler,
     known_receiver,
     known_trailer_category,
     misfit,
 )
-from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver, completed
+from osc2tx_runtime.domain.objects.parts import Axle, HitchCoupler, HitchReceiver, completed
 from osc2tx_runtime.enums import TrailerCategory, VehicleCategory
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.actor_dimensions import VEHICLE_CATEGORIES, Shape, category_of
 
-from .methods import VehicleMethods
 from .movable_objects import ParticipantFields, TrafficParticipant
 
 __all__ = ["Trailer", "Vehicle", "VehicleFields"]

@@ -16,7 +16,7 @@ from .base import Modifier, MovementModifier, Value, now, wanted
 from .registry import modifier
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
 _EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left

@@ -12,14 +12,13 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from osc2tx_runtime.domain.actors.methods.modifiers import (
+    from osc2tx_runtime.domain.methods.modifiers import (
         PathModifier,
         SideModifier,
         SpeedModifier,
         StartModifier,
         TurnModifier,
     )
-    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.modifiers import (
         Distance,
         KeepPosition,
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
         Speed,
         Value,
     )
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.paths.path_values import (
         Path,
         RelativePath,

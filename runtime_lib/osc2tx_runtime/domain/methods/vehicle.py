@@ -12,15 +12,15 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from osc2tx_runtime.domain.actors.methods.modifiers import (
+    from osc2tx_runtime.domain.methods.modifiers import (
         PathModifier,
         SideModifier,
         SpeedModifier,
         StartModifier,
     )
-    from osc2tx_runtime.domain.actors.parts import Towable
-    from osc2tx_runtime.domain.actors.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.modifiers import Distance, KeepPosition, Value
+    from osc2tx_runtime.domain.objects.parts import Towable
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
     from osc2tx_runtime.enums import (
         DynamicProfile,

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, TypedDict, TypeVar
 
-from osc2tx_runtime.domain.actors.parts import (
+from osc2tx_runtime.domain.measuring.object_measurements import Measures
+from osc2tx_runtime.domain.objects.parts import (
     UNSAID,
     BehavioralModel,
     BoundingBox,
     completed,
     is_open,
 )
-from osc2tx_runtime.domain.measuring.object_measurements import Measures
 from osc2tx_runtime.domain.points_and_poses import Point, Rgb
 from osc2tx_runtime.enums import (
     Color,

@@ -10,11 +10,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.language.registry import carried_out
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors.methods.modifiers import (
-        PathModifier,
-        StartModifier,
-        TurnModifier,
-    )
+    from osc2tx_runtime.domain.methods.modifiers import PathModifier, StartModifier, TurnModifier
     from osc2tx_runtime.domain.modifiers import (
         Acceleration,
         AvoidCollisions,
