@@ -1,4 +1,4 @@
-"""Digests of texts, and what tells one osc2tx from another: a result holds until either changes."""
+"""Digests of texts, and the stamp that identifies this installation of osc2tx."""
 
 from __future__ import annotations
 

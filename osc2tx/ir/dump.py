@@ -40,12 +40,12 @@ from osc2tx.ir.nodes import (
     Event,
     FieldValue,
     Module,
-    OwnType,
     Parameter,
     Placement,
     Scenario,
     Struct,
     UserAction,
+    UserType,
     Variable,
 )
 
@@ -70,7 +70,7 @@ def _indented(lines: Iterator[str]) -> Iterator[str]:
     return (INDENT + line for line in lines)
 
 
-def _own_type(own: OwnType) -> Iterator[str]:
+def _own_type(own: UserType) -> Iterator[str]:
     base = "" if own.base is None else f" inherits {own.base}"
     yield f"{'actor' if own.is_actor else 'struct'} {own.name}{base} @{own.span.line}"
     for field in own.fields:

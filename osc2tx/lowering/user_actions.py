@@ -22,14 +22,16 @@ MOVEMENT = "action_for_movable_object"
 """Base of all actions of the library that modifiers of movement may be applied to."""
 
 
-def is_own(action: sym.ActionSymbol) -> bool:
+def is_user_defined(action: sym.ActionSymbol) -> bool:
     """Whether an action comes neither from the library nor from the prelude of a dialect."""
     return action.origin == "user"
 
 
 def lower_actions(actions: Iterable[sym.ActionSymbol]) -> tuple[ir.UserAction, ...]:
     """Return the declarations of the user's own actions among those that are invoked."""
-    return tuple(_lower_action(action) for action in dict.fromkeys(actions) if is_own(action))
+    return tuple(
+        _lower_action(action) for action in dict.fromkeys(actions) if is_user_defined(action)
+    )
 
 
 def _lower_action(action: sym.ActionSymbol) -> ir.UserAction:

@@ -14,7 +14,7 @@ from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import FieldView, TypeView
 
 
-def write_types(own: Sequence[ir.OwnType], table: TypeTable, uses: Uses) -> tuple[TypeView, ...]:
+def write_types(own: Sequence[ir.UserType], table: TypeTable, uses: Uses) -> tuple[TypeView, ...]:
     """Return the view models of the types, in their order.
 
     Args:
@@ -31,7 +31,7 @@ def write_types(own: Sequence[ir.OwnType], table: TypeTable, uses: Uses) -> tupl
 
 
 def _write(
-    own: ir.OwnType, later: frozenset[str], table: TypeTable, uses: Uses, writer: ExpressionWriter
+    own: ir.UserType, later: frozenset[str], table: TypeTable, uses: Uses, writer: ExpressionWriter
 ) -> TypeView:
     if not own.is_actor:
         uses.standard("dataclasses", "dataclass")
