@@ -19,6 +19,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
+from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
 from osc2tx.catalogue import object_tables
@@ -31,10 +32,13 @@ RUNTIME_CLASSES = frozenset(
         "Actor",
         "Behaviour",
         "Call",
+        "Duration",
         "Emit",
         "End",
         "Event",
         "Fail",
+        "Late",
+        "Modifier",
         "On",
         "OneOf",
         "OwnShape",
@@ -42,7 +46,7 @@ RUNTIME_CLASSES = frozenset(
         "Range",
         "Rgb",
     }
-    | {"Any", "Scenario", "Serial", "Unit", "Until", "Wait"}
+    | {"Any", "Protocol", "Scenario", "Serial", "Unit", "Until", "Wait"}
 )
 
 ONE_OF_POLICIES = {
@@ -78,6 +82,7 @@ def emit(module: ir.Module) -> GeneratedModule:
         classes.add(class_key(own.name), class_name(own.name), "Type")
     table = TypeTable(module.types, classes, uses)
     types = write_types(module.types, table, uses)
+    actions = write_actions(module.actions, classes, table, uses)
     writers = [ScenarioWriter(s, module.one_of, classes, table, uses) for s in module.scenarios]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
@@ -91,6 +96,7 @@ def emit(module: ir.Module) -> GeneratedModule:
         shown=classes[shown_scenario(module).key],
         standard_imports=uses.standard_imports(),
         types=types,
+        actions=actions,
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
