@@ -26,7 +26,7 @@ from osc2tx_runtime import (
     rise,
 )
 from osc2tx_runtime.modifiers import acceleration, lane, position, speed
-from osc2tx_runtime.units import m, mps, mpss, s
+from osc2tx_runtime.units import Acceleration, Speed, Time, m, mps, mpss, s
 
 require_api(1)
 
@@ -38,9 +38,9 @@ class Swell(AnySpeedShape):
     Up by `height` and down again, on a parabola over `length`.
     """
 
-    base: float
-    height: float
-    length: float
+    base: Speed
+    height: Speed
+    length: Time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,8 +50,8 @@ class Fading(AnyAccelerationShape):
     Falls evenly to zero.
     """
 
-    first: float
-    length: float
+    first: Acceleration
+    length: Time
 
 
 class OwnShapeScenario(Scenario):
@@ -80,19 +80,19 @@ class OwnShapeScenario(Scenario):
         )
         self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
 
-    def swell_duration(self, swell: Swell) -> float:
+    def swell_duration(self, swell: Swell) -> Time:
         return swell.length
 
     def swell_bow(self, swell: Swell, share: float) -> float:
         return 4.0 * share * (1.0 - share)
 
-    def swell_compute(self, swell: Swell, time: float) -> float:
+    def swell_compute(self, swell: Swell, time: Time) -> Speed:
         return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
 
-    def fading_duration(self, fading: Fading) -> float:
+    def fading_duration(self, fading: Fading) -> Time:
         return fading.length
 
-    def fading_compute(self, fading: Fading, time: float) -> float:
+    def fading_compute(self, fading: Fading, time: Time) -> Acceleration:
         return fading.first * (1.0 - time / fading.length)
 
     def behavior(self) -> Behaviour:

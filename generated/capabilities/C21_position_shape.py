@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import distance, lane, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Length, Speed, Time, m, mps, s
 
 require_api(1)
 
@@ -34,9 +34,9 @@ class Gaining(AnyPositionShape):
     Goes on at `pace`, and faster and faster: `more` further after `period`.
     """
 
-    pace: float
-    more: float
-    period: float
+    pace: Speed
+    more: Length
+    period: Time
 
 
 class PositionShape(Scenario):
@@ -65,7 +65,7 @@ class PositionShape(Scenario):
     def gaining_square(self, gaining: Gaining, share: float) -> float:
         return share * share
 
-    def gaining_compute(self, gaining: Gaining, time: float) -> float:
+    def gaining_compute(self, gaining: Gaining, time: Time) -> Length:
         return gaining.pace * time + gaining.more * self.gaining_square(
             gaining, time / gaining.period
         )

@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import lane, lateral, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Length, Time, m, mps, s
 
 require_api(1)
 
@@ -34,8 +34,8 @@ class Bulge(AnyLateralShape):
     Out by `reach` and back, on a parabola.
     """
 
-    reach: float
-    length: float
+    reach: Length
+    length: Time
 
 
 class LateralSpeeds(Scenario):
@@ -68,13 +68,13 @@ class LateralSpeeds(Scenario):
             speed(0.5 * mps, direction="lateral"),
         )
 
-    def bulge_duration(self, bulge: Bulge) -> float:
+    def bulge_duration(self, bulge: Bulge) -> Time:
         return bulge.length
 
     def bulge_bow(self, bulge: Bulge, share: float) -> float:
         return 4.0 * share * (1.0 - share)
 
-    def bulge_compute(self, bulge: Bulge, time: float) -> float:
+    def bulge_compute(self, bulge: Bulge, time: Time) -> Length:
         return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
 
     def behavior(self) -> Behaviour:

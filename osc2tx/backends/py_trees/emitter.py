@@ -14,6 +14,7 @@ from osc2tx.backends.py_trees.own_types import write_types
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     API_LEVEL,
+    PHYSICAL_TYPES,
     STRUCT_CLASSES,
 )
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
@@ -26,7 +27,7 @@ from osc2tx.support.portable_names import is_portable
 
 # Names a module may import; a scenario class must not hide them.
 RUNTIME_CLASSES = frozenset(
-    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()}
+    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values(), *PHYSICAL_TYPES.values()}
     | {
         "Actor",
         "Behaviour",

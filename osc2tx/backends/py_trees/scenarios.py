@@ -174,8 +174,9 @@ class ScenarioWriter:
                 class_ = name_expression(self._types.class_of(lineage))
                 call = CallView(_self("required_argument"), (code(literal(name)), code(class_)))
                 return ArgumentView(call=call)
-            case ir.Actor(lineage=lineage):
-                return self._objects.write(lineage, declaration.values)
+            case ir.Actor(name=name, lineage=lineage):
+                actor = self._objects.write(lineage, declaration.values)
+                return self._from_invoker("cast", name, actor)
             case ir.Struct():
                 return self._struct(declaration)
             case ir.Variable():
@@ -193,9 +194,13 @@ class ScenarioWriter:
             value = code(self._calls.expressions.write(struct.value))
         else:
             value = self._objects.write(struct.lineage, struct.values)
+        return self._from_invoker("argument", struct.name, value)
+
+    def _from_invoker(self, method: str, name: str, value: ArgumentView) -> ArgumentView:
+        """Write what an invoker may hand in instead of the declared value."""
         if not self._scenario.is_invoked:
             return value
-        return ArgumentView(call=CallView(_self("argument"), (code(literal(struct.name)), value)))
+        return ArgumentView(call=CallView(_self(method), (code(literal(name)), value)))
 
     def _variable(self, variable: ir.Variable) -> ArgumentView:
         """Write the value, or how the variable is sampled."""

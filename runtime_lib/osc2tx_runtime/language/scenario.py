@@ -44,6 +44,7 @@ __all__ = [
 ]
 
 AnyT = TypeVar("AnyT")
+ActorT = TypeVar("ActorT", bound=Actor)
 
 
 class Scenario(ScenarioValues):
@@ -119,6 +120,17 @@ class Scenario(ScenarioValues):
         raise NotImplementedError
 
     # --- used by generated classes ---
+
+    def cast(self, name: str, declared: ActorT) -> ActorT:
+        """Return who plays a role: the actor that the invoker hands in, else the declared one.
+
+        Of maps and environments there is one in a run: all scenarios share it.
+
+        Args:
+            name: Name of the role.
+            declared: The actor as declared.
+        """
+        return declared if self._caller is None else self._caller.cast(name, declared)
 
     def place(self, actor: Actor, *modifiers: Modifier, throughout: bool = False) -> None:
         """Say where and how an actor starts.
@@ -305,8 +317,6 @@ class Scenario(ScenarioValues):
                 value.name = f"{self._path}.{name}" if self._path else name
                 self._variables[name] = value
                 return
-            if isinstance(value, Actor) and self._caller is not None:
-                value = self._caller.cast(name, value)
             object.__setattr__(self, name, value)
 
         def __getattr__(self, name: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from osc2tx_runtime.domain.actors import Actor, Environment, Map
 from osc2tx_runtime.errors import ScenarioError
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["Caller", "Invocation", "check_recursion", "draw_key", "invocations", "unique_name"]
 
 ONE_PER_RUN = (Map, Environment)
+ActorT = TypeVar("ActorT", bound=Actor)
 
 
 class Invocation(Serial):
@@ -56,7 +57,7 @@ class Caller:
     key: str
     arguments: Mapping[str, Any]
 
-    def cast(self, name: str, declared: Actor) -> Actor:
+    def cast(self, name: str, declared: ActorT) -> ActorT:
         """Return the actor handed in for a declared one; what there is one of is shared.
 
         Raises:
