@@ -42,6 +42,15 @@ class Swell(AnySpeedShape):
     height: Speed
     length: Time
 
+    def duration(self) -> Time:
+        return self.length
+
+    def bow(self, share: float) -> float:
+        return 4.0 * share * (1.0 - share)
+
+    def compute(self, time: Time) -> Speed:
+        return self.base + self.height * self.bow(time / self.length)
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Fading(AnyAccelerationShape):
@@ -52,6 +61,12 @@ class Fading(AnyAccelerationShape):
 
     first: Acceleration
     length: Time
+
+    def duration(self) -> Time:
+        return self.length
+
+    def compute(self, time: Time) -> Acceleration:
+        return self.first * (1.0 - time / self.length)
 
 
 class OwnShapeScenario(Scenario):
@@ -67,44 +82,24 @@ class OwnShapeScenario(Scenario):
         self.push = Fading(first=3 * mpss, length=6 * s)
         self.ramp = CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpss, target=6 * mps)
         self.half_way = Event(
-            rise(
-                lambda: self.swelling.speed
-                >= self.swell_compute(self.wave, self.swell_duration(self.wave) / 4.0)
-            )
+            rise(lambda: self.swelling.speed >= self.wave.compute(self.wave.duration() / 4.0))
         )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(
-            self.swelling, lane(1), position(50 * m), speed(self.swell_compute(self.wave, 0 * s))
-        )
+        self.place(self.swelling, lane(1), position(50 * m), speed(self.wave.compute(0 * s)))
         self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
-
-    def swell_duration(self, swell: Swell) -> Time:
-        return swell.length
-
-    def swell_bow(self, swell: Swell, share: float) -> float:
-        return 4.0 * share * (1.0 - share)
-
-    def swell_compute(self, swell: Swell, time: Time) -> Speed:
-        return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
-
-    def fading_duration(self, fading: Fading) -> Time:
-        return fading.length
-
-    def fading_compute(self, fading: Fading, time: Time) -> Acceleration:
-        return fading.first * (1.0 - time / fading.length)
 
     def behavior(self) -> Behaviour:
         return Parallel(
             "own_shape",
             self.swelling.drive(
-                speed(shape=OwnShape(self.wave, self.swell_compute, self.swell_duration)),
-                duration=self.swell_duration(self.wave),
+                speed(shape=OwnShape(self.wave, Swell.compute, Swell.duration)),
+                duration=self.wave.duration(),
             ),
             self.starting.drive(
-                acceleration(shape=OwnShape(self.push, self.fading_compute, self.fading_duration)),
-                duration=self.swell_duration(self.wave) + self.ramp.duration(),
+                acceleration(shape=OwnShape(self.push, Fading.compute, Fading.duration)),
+                duration=self.wave.duration() + self.ramp.duration(),
             ),
             Wait(self.half_way),
         )

@@ -37,6 +37,15 @@ class Bulge(AnyLateralShape):
     reach: Length
     length: Time
 
+    def duration(self) -> Time:
+        return self.length
+
+    def bow(self, share: float) -> float:
+        return 4.0 * share * (1.0 - share)
+
+    def compute(self, time: Time) -> Length:
+        return self.reach * self.bow(time / self.length)
+
 
 class LateralSpeeds(Scenario):
     name = "lateral_speeds"
@@ -58,7 +67,7 @@ class LateralSpeeds(Scenario):
             lane(2),
             position(120 * m),
             speed(15 * mps),
-            lateral(self.bulge_compute(self.out, 0 * s)),
+            lateral(self.out.compute(0 * s)),
         )
         self.place(
             self.leaning,
@@ -68,22 +77,12 @@ class LateralSpeeds(Scenario):
             speed(0.5 * mps, direction="lateral"),
         )
 
-    def bulge_duration(self, bulge: Bulge) -> Time:
-        return bulge.length
-
-    def bulge_bow(self, bulge: Bulge, share: float) -> float:
-        return 4.0 * share * (1.0 - share)
-
-    def bulge_compute(self, bulge: Bulge, time: Time) -> Length:
-        return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
-
     def behavior(self) -> Behaviour:
         return Parallel(
             "lateral_speeds",
             self.drifting_serial(),
             self.bulging.drive(
-                lateral(shape=OwnShape(self.out, self.bulge_compute, self.bulge_duration)),
-                duration=4 * s,
+                lateral(shape=OwnShape(self.out, Bulge.compute, Bulge.duration)), duration=4 * s
             ),
             self.leaning.drive(duration=4 * s),
         )

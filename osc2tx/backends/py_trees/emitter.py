@@ -19,6 +19,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 )
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
@@ -78,8 +79,12 @@ def emit(module: ir.Module) -> GeneratedModule:
     for own in module.types:
         classes.add(class_key(own.name), class_name(own.name), "Type")
     table = TypeTable(module.types, classes, uses)
-    types = write_types(module.types, table, uses)
-    writers = [ScenarioWriter(s, module.one_of, classes, table, uses) for s in module.scenarios]
+    type_methods = TypeMethods(module.types, module.scenarios)
+    types = write_types(module.types, table, type_methods, uses)
+    writers = [
+        ScenarioWriter(scenario, module.one_of, classes, table, type_methods, uses)
+        for scenario in module.scenarios
+    ]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
         docstring=_docstring(module),

@@ -21,6 +21,7 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.objects import ObjectWriter
 from osc2tx.backends.py_trees.source_map import ScenarioMap
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import (
@@ -41,6 +42,7 @@ class ScenarioWriter:
         one_of: Policy of `one_of` in this module.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
+        type_methods: The methods of types that stand in their classes.
         uses: What the module has to import.
     """
 
@@ -50,6 +52,7 @@ class ScenarioWriter:
         one_of: str,
         classes: NameTable,
         types: TypeTable,
+        type_methods: TypeMethods,
         uses: Uses,
     ) -> None:
         """See the class."""
@@ -57,7 +60,8 @@ class ScenarioWriter:
         self._one_of = one_of
         self._classes = classes
         self._names = NameTable(SCENARIO_ATTRIBUTES)
-        for member in (*scenario.declarations, *scenario.methods):
+        self._methods = [each for each in scenario.methods if each.name not in type_methods]
+        for member in (*scenario.declarations, *self._methods):
             self._names.add(member.name, identifier(member.name))
         self._types = types
         expressions = ExpressionWriter(
@@ -67,6 +71,7 @@ class ScenarioWriter:
             lambda type_: types.class_of((type_,)),
             scenario.methods,
             types.member,
+            type_methods,
         )
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
         self._objects = ObjectWriter(expressions, types)
@@ -80,7 +85,7 @@ class ScenarioWriter:
         )
         functions = tuple(
             self._function(method, method.expression)
-            for method in self._scenario.methods
+            for method in self._methods
             if method.expression is not None
         )
         placements = tuple(self._placement(placement) for placement in self._scenario.placements)
@@ -255,7 +260,7 @@ class ScenarioWriter:
     def _externals(self) -> tuple[StatementView, ...]:
         """Write the methods that are code of the user: the runtime asks whether they may run."""
         statements = []
-        for method in self._scenario.methods:
+        for method in self._methods:
             if method.external is None:
                 continue
             name = self._names[method.name]
