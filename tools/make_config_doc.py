@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx.config import COMPILE_SETTINGS, PROJECT_SETTINGS, RUN_SETTINGS, Setting
-from osc2tx_runtime.running.settings import OPTIONS, Option
+from osc2tx_runtime.running.options import OPTIONS, Option
 
 PAGE = Path(__file__).parent.parent / "docs/config.md"
 

@@ -21,7 +21,7 @@ from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.running.main import choose_scenario as choose
 from osc2tx_runtime.running.main import verdict
-from osc2tx_runtime.running.settings import OPTIONS
+from osc2tx_runtime.running.options import OPTIONS, read_options
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation
@@ -144,7 +144,7 @@ def merge_settings(
     """
     stated = config.run_settings(path)
     try:
-        RunSettings.from_options(stated)
+        read_options(stated)
     except SettingsError as error:
         where = f"{config.path}: in [scenarios.{path.stem}.run]"
         raise ConfigError(f"{where}: {error.message}") from None
@@ -155,7 +155,7 @@ def merge_settings(
         texts[option.name] = (*stated.get(option.name, ()), *own)  # the last one of a key counts
     maps = tuple(given.get("map_path") or ())
     texts["map-path"] = (*maps, *stated.get("map-path", ()))
-    settings = RunSettings.from_options(texts)
+    settings = read_options(texts)
     return replace(settings, map_path=(*settings.map_path, path.resolve().parent))
 
 

@@ -25,11 +25,11 @@ def join_lines(lines: Sequence[LogicalLine]) -> str:
         starts_block = before is None or before.opens_block
         apart = before is not None and line.depth == 0 and line.opens_block
         for comment in line.above:
-            least = (wants_blank or apart) and comment.depth == 0
+            least = (wants_blank or apart) and comment.depth == 0 and not comment.belongs_above
             _add_blanks(text, comment.comment.blank_lines, comment.depth, least, starts_block)
             text.append(_indented(comment.comment.text, comment.depth))
             starts_block = False
-            if comment.depth == 0:
+            if comment.depth == 0 and not comment.belongs_above:
                 wants_blank = apart = False
         if line.pieces:
             least = (wants_blank or apart) and line.depth == 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from osc2tx.formatter.token_gaps import Comment, Gap, read_gap
+from osc2tx.syntax.comments import Between, share
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, NEWLINE, TokenTable
 
 _LAYOUT = frozenset({INDENT, DEDENT, NEWLINE, EOF})
@@ -29,10 +30,17 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class CommentLine:
-    """A comment on a line of its own, between two logical lines."""
+    """A comment on a line of its own, between two logical lines.
+
+    Attributes:
+        depth: Number of blocks around it.
+        comment: The comment.
+        belongs_above: Whether it belongs to the line above (`osc2tx.syntax.comments`).
+    """
 
     depth: int
     comment: Comment
+    belongs_above: bool = False
 
 
 @dataclass(slots=True)
@@ -74,7 +82,8 @@ def read_lines(table: TokenTable) -> list[LogicalLine]:
         else:
             gap = _gap(table, end, index)
             if not lines or (lines[-1].pieces and table.types[index - 1] in _LAYOUT):
-                lines.append(_new_line(gap, widths, closed))
+                follows = bool(lines) and not lines[-1].opens_block
+                lines.append(_new_line(gap, widths, closed, follows=follows))
                 gap = Gap((), 0, False)
                 closed = []
             if kind != EOF:
@@ -87,17 +96,18 @@ def _gap(table: TokenTable, end: int, index: int) -> Gap:
     return read_gap(table.source.text, end, table.starts[index])
 
 
-def _new_line(gap: Gap, widths: list[int], closed: list[int]) -> LogicalLine:
-    """Begin a line; comments above it stay in the blocks that end there if indented like them.
+def _new_line(gap: Gap, widths: list[int], closed: list[int], *, follows: bool) -> LogicalLine:
+    """Begin a line; comments above it are indented like what they belong to.
 
     A block comment that stands before a statement on its line goes above it.
     """
     depth = len(widths) - 1
-    open_widths = [*widths, *reversed(closed)]
+    shared = share(gap.comments, Between(tuple(closed), widths[-1], follows, gap.blank_lines))
     above: list[CommentLine] = []
-    deepest = len(open_widths) - 1
-    for comment in gap.comments:
-        while deepest > depth and comment.column < open_widths[deepest]:
-            deepest -= 1
-        above.append(CommentLine(deepest, comment))
+    for inner, comments in enumerate(shared.ends):
+        inner_depth = depth + len(closed) - inner
+        above += [CommentLine(inner_depth, comment) for comment in comments]
+    above += [CommentLine(depth + 1, comment) for comment in shared.deeper]
+    above += [CommentLine(depth, comment, belongs_above=True) for comment in shared.touching]
+    above += [CommentLine(depth, comment) for comment in shared.above]
     return LogicalLine(depth, gap.blank_lines, above)

@@ -69,6 +69,7 @@ class ConstraintLowering:
     _hard: dict[Key, Domain] = field(default_factory=dict)
     _written: dict[Key, Domain] = field(default_factory=dict)
     _used: set[Constraint] = field(default_factory=set)
+    _with_comments: set[ast.Node] = field(default_factory=set)
 
     @classmethod
     def of_scenario(cls, ctx: LoweringContext, scenario: Composed) -> ConstraintLowering:
@@ -109,7 +110,7 @@ class ConstraintLowering:
         self._note(key, type_, definition, domain, hard if is_fixed else None)
         said = [c for c in mentioned if self._is_said(c, key, definition, domain)]
         self._used.update(c for c in said if c is definition or c is within)
-        comments = dict.fromkeys(line for c in said for line in _comments(c))
+        comments = dict.fromkeys(line for c in said for line in self._comments(c))
         return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
 
     def members(self, field_: sym.FieldSymbol) -> Iterator[tuple[Key, Setting]]:
@@ -318,8 +319,16 @@ class ConstraintLowering:
             self.ctx.unsupported("OSC502", constraint.span, what, help=instead)
             return None
         return ir.Constraint(
-            expression=expression, span=constraint.span, comments=_comments(constraint)
+            expression=expression, span=constraint.span, comments=self._comments(constraint)
         )
+
+    def _comments(self, constraint: Constraint) -> tuple[str, ...]:
+        """Return the comments of a constraint; one on several fields has them at the first."""
+        node = constraint.node
+        if not isinstance(node, ast.KeepConstraint) or node in self._with_comments:
+            return ()
+        self._with_comments.add(node)
+        return statement_comments(node)
 
 
 def _is_known_here(constraint: Constraint, key: Key) -> bool:
@@ -341,8 +350,3 @@ def _is_last(key: Key, others: list[Key]) -> bool:
         and first.span.start < last.span.start
         for first, *_ in others
     )
-
-
-def _comments(constraint: Constraint) -> tuple[str, ...]:
-    node = constraint.node
-    return statement_comments(node) if isinstance(node, ast.KeepConstraint) else ()

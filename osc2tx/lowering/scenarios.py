@@ -149,21 +149,13 @@ def _lower_scenario(
         methods=(*methods, *type_methods),
         placements=merged((*_member_placements(ctx, statements, constraints), *placements)),
         body=body,
-        end_comments=_end_comments(ctx, scenario),
+        end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
         overrides=lower_overrides(ctx, statements),
         coverage=coverage,
         constraints=(*lowering.global_constraints, *left_over),
         is_imported=is_imported,
         is_action=isinstance(scenario, sym.ActionSymbol),
     )
-
-
-def _end_comments(ctx: LoweringContext, scenario: Composed) -> tuple[str, ...]:
-    """Return the comments below the last member; those at the end of the file go to the last."""
-    is_last = bool(ctx.model.scenarios) and scenario is ctx.model.scenarios[-1]
-    node = scenario.node
-    own = node.end_comments if isinstance(node, ast.ScenarioDeclaration) else ()
-    return (*own, *(ctx.model.root.comments if is_last else ()))
 
 
 def _own_actor(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Actor, ...]:

@@ -70,7 +70,6 @@ class ASTTransformer(DeclarationBuilder):
             span=Span(self._source, 0, len(self._code)),
             imports=tuple(imports),
             statements=tuple(statements),
-            comments=self._comments.rest(),
         )
 
     def _block_without_header(self, block: Tree) -> tuple[Any, ...]:

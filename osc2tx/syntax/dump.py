@@ -48,13 +48,11 @@ def _node_lines(role: str, node: ast.Node, depth: int) -> Iterator[str | tuple[s
             values.append(f"{field.name}={_shown(value)}")
     head = " ".join([type(node).__name__, *values])
     yield f"{indent}{role}{': ' if role else ''}{head}  <{_extent(node.span)}>"
-    above = () if isinstance(node, ast.File) else ("comments", "trailing_comment")
-    for name in above:
+    for name in ("comments", "trailing_comment"):
         yield from _comment_lines(node, name, indent)
     for child_role, child in children:
         yield child_role, child, depth + 1
-    last = "comments" if isinstance(node, ast.File) else "end_comments"
-    yield from _comment_lines(node, last, indent)
+    yield from _comment_lines(node, "end_comments", indent)
 
 
 def _comment_lines(node: ast.Node, name: str, indent: str) -> Iterator[str]:

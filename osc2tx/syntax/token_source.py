@@ -22,6 +22,7 @@ from osc2tx.syntax.tokens import (
     STRING,
     Comment,
     TokenTable,
+    column_after,
 )
 
 MAX_NESTING = 200
@@ -60,6 +61,7 @@ class TokenSource:
         self._questions = [0]  # open `?` per bracket level
         self._line: int | None = None  # index of the first token of the current logical line
         self._indent_of_line = 0
+        self._blank_lines = 0  # in a row, above where we are
         self._strict_layout = False  # an unclosed bracket was found: close at the next statement
         self._statement_start = (0, 0)  # number of tokens and comments before the statement
 
@@ -99,14 +101,19 @@ class TokenSource:
         if match[3] is not None:
             if match[2] is not None:
                 self._add_comment(match.start(2), match.end(2), alone=True)
+            elif self.table.line_start(pos) == pos:
+                self._blank_lines += 1
             return match.end() if match[3] else len(self._text)
         end = match.end(1)
         if self._text.startswith(("/*", "//"), end):
             return self._skip_foreign_comment(end)
-        self._begin_line(_width(match[1]), end)
+        self._begin_line(column_after(match[1]), end)
         return end
 
     def _begin_line(self, width: int, at: int) -> None:
+        if self._blank_lines:
+            self.table.blank_lines[len(self.table.types)] = self._blank_lines
+            self._blank_lines = 0
         self._set_indentation(width, at)
         if width == 0:
             self._statement_start = (len(self.table.types), len(self.table.comments))
@@ -124,7 +131,7 @@ class TokenSource:
         if width not in indents:
             width = self._nearest_block(width, at)
         while width < indents[-1]:
-            indents.pop()
+            self.table.widths[len(self.table.types)] = indents.pop()
             self._append(DEDENT, at, at)
 
     def _nearest_block(self, width: int, at: int) -> int:
@@ -216,11 +223,13 @@ class TokenSource:
         return not self._text[self.table.line_start(start) : start].strip()
 
     def _add_comment(self, start: int, end: int, *, alone: bool) -> None:
-        column = _width(self._text[self.table.line_start(start) : start]) if alone else 0
+        column = column_after(self._text[self.table.line_start(start) : start]) if alone else 0
         body = self._text[start + 1 : end].rstrip()
         body = body[1:] if body.startswith((" ", "\t")) else body
         place = len(self.table.types)
-        self.table.comments.append(Comment(place, self._line, alone, column, body))
+        blank_lines, self._blank_lines = self._blank_lines, 0
+        comment = Comment(place, self._line, alone, column, blank_lines, body)
+        self.table.comments.append(comment)
 
     def _skip_foreign_comment(self, start: int) -> int:
         end = self._errors.foreign_comment(start)
@@ -228,7 +237,7 @@ class TokenSource:
             rest = patterns.LINE_HEAD.match(self._text, end)
             if rest is not None and rest[3] is None:
                 blanks = self._text[self.table.line_start(start) : start]
-                self._begin_line(_width(blanks) if not blanks.strip() else 0, rest.end(1))
+                self._begin_line(column_after(blanks) if not blanks.strip() else 0, rest.end(1))
                 return rest.end(1)
         return end
 
@@ -286,7 +295,7 @@ class TokenSource:
         if not self._strict_layout:
             return False
         head = patterns.LINE_HEAD.match(self._text, line_start)
-        if head is None or head[3] is not None or _width(head[1]) > self._indent_of_line:
+        if head is None or head[3] is not None or column_after(head[1]) > self._indent_of_line:
             return False
         if self._text[head.end(1) : head.end(1) + 1] in (")", "]"):
             return False
@@ -310,18 +319,3 @@ class TokenSource:
             self.table.comments.pop()
         self._brackets, self._questions = [], [0]
         return pos
-
-
-def _width(blanks: str) -> int:
-    """Column after leading blanks: tabs go to multiples of 8, a form feed starts anew."""
-    if blanks.isspace() and blanks.count(" ") == len(blanks):
-        return len(blanks)
-    width = 0
-    for char in blanks:
-        if char == "\t":
-            width = (width // 8 + 1) * 8
-        elif char == "\f":
-            width = 0
-        else:
-            width += 1
-    return width

@@ -41,6 +41,7 @@ class Comment(NamedTuple):
         line: Index of the first token of the logical line it stands in; `None` between lines.
         alone: Whether nothing precedes it on its physical line.
         column: Its column, from 0, when it stands alone.
+        blank_lines: Number of blank lines above it, when it stands between lines.
         text: What follows the `#`, without one leading and all trailing blanks.
     """
 
@@ -48,6 +49,7 @@ class Comment(NamedTuple):
     line: int | None
     alone: bool
     column: int
+    blank_lines: int
     text: str
 
 
@@ -61,7 +63,10 @@ class TokenTable:
         starts: Offset of its first character.
         ends: Offset behind its last character.
         comments: The comments, in order.
-        widths: Column of the block that an INDENT token opens, by token index.
+        widths: Column of the block that an INDENT token opens or a DEDENT token closes, by token
+            index.
+        blank_lines: Number of blank lines directly above a line of code, where there are any, by
+            the index of its first token, layout included.
         damaged: Offsets of lexical mistakes, which are reported already.
     """
 
@@ -71,6 +76,7 @@ class TokenTable:
     ends: list[int] = field(default_factory=list)
     comments: list[Comment] = field(default_factory=list)
     widths: dict[int, int] = field(default_factory=dict)
+    blank_lines: dict[int, int] = field(default_factory=dict)
     damaged: list[int] = field(default_factory=list)
 
     def text(self, index: int) -> str:
@@ -84,3 +90,22 @@ class TokenTable:
     def line_start(self, offset: int) -> int:
         """Return the offset at which the physical line of `offset` begins."""
         return offset - self.source.position(offset)[1] + 1
+
+    def indentation(self, offset: int) -> int:
+        """Return the column of what begins at an offset, the first thing on its line."""
+        return column_after(self.source.text[self.line_start(offset) : offset])
+
+
+def column_after(blanks: str) -> int:
+    """Return the column after blanks: tabs go to multiples of 8, a form feed starts anew."""
+    if blanks.isspace() and blanks.count(" ") == len(blanks):
+        return len(blanks)
+    column = 0
+    for char in blanks:
+        if char == "\t":
+            column = (column // 8 + 1) * 8
+        elif char == "\f":
+            column = 0
+        else:
+            column += 1
+    return column

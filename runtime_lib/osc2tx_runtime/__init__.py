@@ -69,6 +69,7 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import (
     RoadPath,
     Route,
 )
+from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
     AnyLateralShape,
@@ -93,15 +94,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods
-from osc2tx_runtime.language.scenario import (
-    Range,
-    Scenario,
-    any_of,
-    at_least,
-    at_most,
-    fixed,
-    within,
-)
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
@@ -122,9 +115,9 @@ from osc2tx_runtime.language.tree import (
     rise,
 )
 from osc2tx_runtime.language.tree.coverage import Unit
+from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
-from osc2tx_runtime.running.settings import RunSettings
 from osc2tx_runtime.world.velocities import (
     Acceleration,
     OrientationAcceleration,

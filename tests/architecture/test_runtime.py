@@ -1,19 +1,117 @@
-"""What the runtime imports: little of others, and nothing of the compiler."""
+"""What the runtime imports: arrows between its floors only point downwards, without circles."""
 
 import sys
 from pathlib import Path
 
 import pytest
 
-from tests.architecture.module_graph import REPOSITORY, RUNTIME, files_of, imported_names
+from tests.architecture.module_graph import (
+    REPOSITORY,
+    RUNTIME,
+    circles,
+    files_of,
+    graph_of,
+    imported_names,
+)
 
 RULES = RUNTIME.parent / "osc2tx_rules"
 OTHERS = {"numpy", "osc2tx_rules", "py_trees"}
 
+LEAVES = {"clock", "enums", "errors"}
+GROUND = {"opendrive", "world", "language"} | LEAVES
 
-@pytest.mark.parametrize(
-    "path", files_of(RUNTIME), ids=lambda path: path.relative_to(REPOSITORY).as_posix()
-)
+# Part of the runtime -> what else of it that imports, from the ground up. The floor of the domain
+# model is told by its folders.
+MAY_IMPORT: dict[str, set[str]] = {
+    # leaves
+    "clock": set(),
+    "enums": set(),
+    "errors": set(),
+    "units": set(),
+    # the map, the world on it, the language
+    "opendrive": {"enums"},
+    "world": {"clock", "enums", "errors", "opendrive"},
+    "language": {"clock", "errors", "world"},
+    # the domain model
+    "domain.points_and_poses": {"errors"},
+    "domain.shapes": {"enums", "errors", "language", "world"},
+    "domain.paths": {"domain.points_and_poses"} | GROUND - {"clock", "language"},
+    "domain.routes": {"domain.paths", "domain.points_and_poses"} | GROUND - {"clock"},
+    "domain.signals": {"domain.points_and_poses", "domain.routes"} | GROUND - {"clock"},
+    "domain.measuring": {"domain.paths", "domain.points_and_poses", "domain.routes"}
+    | GROUND - {"clock"},
+    "domain.actors": {"domain.measuring", "domain.paths", "domain.points_and_poses"}
+    | {"domain.routes", "domain.signals"}
+    | GROUND - {"clock"},
+    "domain.modifiers": {"domain.actors", "domain.paths", "domain.points_and_poses"}
+    | {"domain.routes", "domain.shapes"}
+    | GROUND - {"clock", "opendrive"},
+    "domain.placing": {"domain.actors", "domain.modifiers", "domain.paths"}
+    | {"domain.points_and_poses", "domain.routes", "domain.signals"}
+    | GROUND - {"clock", "enums"},
+    "domain.planning": {"domain.actors", "domain.modifiers", "domain.paths", "domain.placing"}
+    | {"domain.points_and_poses", "domain.routes", "domain.shapes"}
+    | GROUND - {"clock"},
+    "domain.actions": {"domain.actors", "domain.measuring", "domain.modifiers", "domain.paths"}
+    | {"domain.placing", "domain.planning", "domain.points_and_poses", "domain.routes"}
+    | {"domain.signals"}
+    | GROUND - {"clock"},
+    "domain.scenario": {"domain.actors", "domain.modifiers", "domain.routes"}
+    | {"errors", "language"},
+    "domain.capability_tables": {"domain.actors", "domain.measuring", "domain.paths"}
+    | {"domain.points_and_poses", "domain.routes", "domain.shapes", "domain.signals", "world"},
+    "domain.capabilities": {"domain.actions", "domain.actors", "domain.capability_tables"}
+    | {"domain.modifiers", "enums", "language"},
+    # what carries a scenario out, and what generated modules import
+    "report": {"language"},
+    "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
+    | {"errors", "language", "opendrive", "world"},
+    "modifiers": {"domain.modifiers"},
+    "": {"domain.actions", "domain.actors", "domain.measuring", "domain.paths"}
+    | {"domain.points_and_poses", "domain.routes", "domain.scenario", "domain.shapes"}
+    | {"domain.signals", "errors", "language", "running", "world"},
+}
+
+FILES = files_of(RUNTIME)
+
+
+def part_of(module: str) -> str:
+    """Return the part that a module belongs to; `""` for the package itself."""
+    first, *rest = [*module.split(".")[1:], ""]
+    return f"{first}.{rest[0]}".rstrip(".") if first == "domain" else first
+
+
+def imports_by_part() -> dict[str, set[str]]:
+    """Return which other parts each part imports."""
+    found: dict[str, set[str]] = {}
+    for module, imported in graph_of(RUNTIME).items():
+        parts = {part_of(other) for other in imported} - {part_of(module)}
+        found.setdefault(part_of(module), set()).update(parts)
+    del found["domain"]  # the empty package
+    return found
+
+
+def test_the_table_is_what_the_parts_import() -> None:
+    """Both ways: an entry that no import needs any more goes."""
+    found = imports_by_part()
+    assert set(found) == set(MAY_IMPORT)
+    wrong = {
+        (part, other): "is imported" if other in found[part] else "is not imported"
+        for part, allowed in MAY_IMPORT.items()
+        for other in allowed ^ found[part]
+    }
+    assert not wrong
+
+
+def test_the_table_has_no_circle() -> None:
+    assert not circles(MAY_IMPORT)
+
+
+def test_no_circle_between_modules() -> None:
+    assert not circles(graph_of(RUNTIME))
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(REPOSITORY).as_posix())
 def test_packages_of_others(path: Path) -> None:
     allowed = OTHERS | ({"lxml"} if path.is_relative_to(RUNTIME / "opendrive") else set())
     for name in imported_names(path, RUNTIME):

@@ -10,6 +10,7 @@ from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.config import ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
+from osc2tx_runtime.running.options import read_options
 from tests.end_to_end.harness import SCENARIOS, Trace, compile_scenario, permuted_module, run
 
 FILE = SCENARIOS / "hello_world.osc"
@@ -20,7 +21,7 @@ Load = Callable[[GeneratedModule], type[Scenario]]
 def settings(test_data: Path) -> RunSettings:
     """The settings of scenarios/osc2tx.toml, and the folder of the town."""
     texts = ConfigFiles().for_source(FILE).run_settings(FILE)
-    stated = RunSettings.from_options(texts)
+    stated = read_options(texts)
     return replace(stated, map_path=(test_data / "maps" / "carla-2020",))
 
 

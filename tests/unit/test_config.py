@@ -7,7 +7,7 @@ import pytest
 
 from osc2tx.config import RUN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import CompileOptions
-from osc2tx_runtime.running.settings import OPTIONS
+from osc2tx_runtime.running.options import OPTIONS
 
 REPOSITORY = Path(__file__).parents[2]
 

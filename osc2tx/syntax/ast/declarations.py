@@ -208,4 +208,3 @@ class File(Node):
 
     imports: tuple[Import, ...]
     statements: tuple[FileStatement, ...]
-    comments: tuple[str, ...] = ()

@@ -132,8 +132,7 @@ class DeclarationBuilder(BehaviorBuilder, EnumBuilder):
             enum = self._without_actor(name, "an enumeration")
             members = self._enum_members(enum_members, head)
             self._refuse_block(tree)
-            fields = self._with_comments(head, enum_members)
-            return ast.EnumExtension(**fields, name=enum, members=members)
+            return ast.EnumExtension(**head.fields(), name=enum, members=members)
         shown = f"`extend {name}`"
         if name.actor is None and name.name.namespace is None and name.name.text in PRIMITIVES:
             block = self._check_body(tree, shown, optional=False)

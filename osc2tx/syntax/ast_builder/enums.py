@@ -6,7 +6,7 @@ from osc2tx.syntax import ast
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Tree
 from osc2tx.syntax.ast_builder.statement_contexts import Place
-from osc2tx.syntax.ast_builder.statements import Head, HeadFields, StatementBuilder
+from osc2tx.syntax.ast_builder.statements import Head, StatementBuilder
 from osc2tx.syntax.tokens import Comment
 
 PRIMITIVES = frozenset({"int", "uint", "float", "bool", "string"})
@@ -71,11 +71,10 @@ class EnumBuilder(StatementBuilder):
     # --- Enumerations ---------------------------------------------------------------------------
 
     def _enum(self, tree: Tree, head: Head, place: Place) -> ast.Statement:
-        members_tree = tree.children[3]
-        members = self._enum_members(members_tree, head)
+        members = self._enum_members(tree.children[3], head)
         self._refuse_block(tree)
-        fields = self._with_comments(head, members_tree)
-        return ast.EnumDeclaration(**fields, name=self._name(tree.children[1]), members=members)
+        name = self._name(tree.children[1])
+        return ast.EnumDeclaration(**head.fields(), name=name, members=members)
 
     def _enum_members(self, tree: Tree, head: Head) -> tuple[ast.EnumMember, ...]:
         trees = [c for c in tree.children if c.__class__ is Grammar.EnumMemberContext]
@@ -110,14 +109,6 @@ class EnumBuilder(StatementBuilder):
         message = "the value of an enumeration member is an unsigned integer or another member"
         self._report("OSC100", self._tree_span(tree), message)
         return None
-
-    def _with_comments(self, head: Head, members: Tree) -> HeadFields:
-        """Give comments below the last member to the declaration."""
-        fields = head.fields()
-        last = max(c.start for c in members.children if not isinstance(c, int))
-        below = (c.text for c in head.inside if c.before > last and c.alone)
-        fields["comments"] = (*fields["comments"], *below)
-        return fields
 
 
 def constant(value: ast.Expression) -> int | float | None:

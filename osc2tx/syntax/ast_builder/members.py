@@ -161,6 +161,8 @@ class MemberBuilder(EventBuilder):
     def _with_block(self, tree: Tree, place: Place) -> tuple[ast.Statement, ...]:
         inner = tree.children[-1]
         if inner.__class__ is not Grammar.StatementContext:
+            if inner.__class__ is Grammar.BlockContext:
+                self._comments.hand_on(tree.start, inner.start + 1)
             return self._body(tree, place, "`with`")
         first = inner.start
         message = "what belongs to `with:` stands on lines of its own"

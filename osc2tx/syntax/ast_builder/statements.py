@@ -11,9 +11,9 @@ from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Tree
-from osc2tx.syntax.ast_builder.comments import CommentCursor
 from osc2tx.syntax.ast_builder.expressions import ExpressionBuilder
 from osc2tx.syntax.ast_builder.statement_contexts import ALLOWED, Place, help_for
+from osc2tx.syntax.comments import CommentTable
 from osc2tx.syntax.tokens import Comment, TokenTable
 
 Handler = Callable[[Any, Tree, "Head", Place], ast.Statement | None]
@@ -61,12 +61,11 @@ class StatementBuilder(ExpressionBuilder):
     def __init__(self, table: TokenTable, sink: DiagnosticSink, allow: Collection[str]) -> None:
         """Build from `table`; the codes in `allow` are not reported."""
         super().__init__(table, sink, allow)
-        self._comments = CommentCursor(table)
+        self._comments = CommentTable(table)
 
     def _statement(self, tree: Tree, place: Place) -> ast.Statement | None:
         """Build the statement in a context `statement`; `None` when it cannot be used."""
         if tree.exception is not None:
-            self._comments.skip(tree.stop)
             return None
         inner = tree.children[0]
         return self._build(inner, self._head(inner), place)
@@ -85,27 +84,20 @@ class StatementBuilder(ExpressionBuilder):
         self._report("OSC108", self._span(first, first), message, help_for(tree.__class__, place))
 
     def _head(self, tree: Tree) -> Head:
-        """Take the comments of the statement that a tree holds."""
+        """Return extent and comments of the statement that a tree holds."""
         start = tree.start
         comments = self._comments.above(start)
         inside = self._comments.inside(start)
         if not inside:
             return Head(self._tree_span(tree), comments)
-        trailing: str | None = None
-        others: list[Comment] = []
-        for comment in inside:
-            if (
-                trailing is None
-                and not comment.alone
-                and comment.before <= self._first_member(tree)
-            ):
-                trailing = comment.text
-            else:
-                others.append(comment)
-        if self._enum_members_of(tree) is None:
-            comments += tuple(comment.text for comment in others)
-            others = []
-        return Head(self._tree_span(tree), comments, trailing, tuple(others))
+        first = inside[0]
+        is_trailing = not first.alone and first.before <= self._first_member(tree)
+        trailing = first.text if is_trailing else None
+        others = tuple(inside[is_trailing:])
+        if others and self._enum_members_of(tree) is None:
+            comments += tuple(comment.text for comment in inside)
+            trailing, others = None, ()
+        return Head(self._tree_span(tree), comments, trailing, others)
 
     def _enum_members_of(self, tree: Tree) -> Tree | None:
         for child in tree.children:
@@ -135,10 +127,8 @@ class StatementBuilder(ExpressionBuilder):
         return tuple(nodes)
 
     def _block_end(self, block: Tree | None) -> tuple[str, ...]:
-        """Take the comments at the end of a block."""
-        if block is None:
-            return ()
-        return self._comments.at_end_of_block(block.stop, self._table.widths[block.start])
+        """Return the comments at the end of a block."""
+        return () if block is None else self._comments.at_end_of_block(block.stop)
 
     def _block_of(self, tree: Tree) -> Tree | None:
         """Return the block that is a direct child."""

@@ -15,8 +15,8 @@ from osc2tx_runtime import enums
 from osc2tx_runtime.domain.actions.modifiable import ShapedAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
-from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier
-from osc2tx_runtime.language.registry import Method, methods
+from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
+from osc2tx_runtime.language.registry import RegisteredMethod, methods
 
 __all__ = ["actions", "modifiers", "objects"]
 
@@ -67,7 +67,7 @@ def objects() -> dict[str, Any]:
     }
 
 
-def _action(method: Method) -> dict[str, Any]:
+def _action(method: RegisteredMethod) -> dict[str, Any]:
     accepted = [kind.name for kind in method.factory.accepts if issubclass(kind, Modifier)]
     return {
         "arguments": _arguments(method.factory.__init__),
@@ -89,10 +89,11 @@ def _modifier(kind: type[Modifier]) -> dict[str, Any]:
     facts = dataclasses.asdict(kind.facts)
     combining = facts.pop("rules")
     combining["while_moving"] = _rules(kind.facts.rules.while_moving)
+    shape = kind.shaped_by if issubclass(kind, MovementModifier) else None
     return {
         "parameters": [field.name for field in dataclasses.fields(kind)],
         "required": _mandatory(kind),
-        "shape": None if kind.shaped_by is None else kind.shaped_by.kind,
+        "shape": None if shape is None else shape.kind,
         "rules": _rules(kind.rules),
         "combining": combining,
         **facts,

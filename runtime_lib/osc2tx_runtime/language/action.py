@@ -13,13 +13,13 @@ from osc2tx_runtime.errors import (
     blame,
     is_own,
 )
-from osc2tx_runtime.language.registry import Method
+from osc2tx_runtime.language.method import Method
 from osc2tx_runtime.language.tree.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.language.tree.duration_limits import Duration, Limits
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Actor
-    from osc2tx_runtime.domain.modifiers import Modifier
+    from osc2tx_runtime.language.declared import BaseActor
+    from osc2tx_runtime.language.modifier import Modifier
     from osc2tx_runtime.world.commands import Command
 
 __all__ = ["Action", "ActionOptions"]
@@ -60,7 +60,7 @@ class Action(Leaf):
 
     def __init__(
         self,
-        actor: Actor,
+        actor: BaseActor,
         *modifiers: Modifier,
         duration: Duration | None = None,
         label: str | None = None,
@@ -74,7 +74,7 @@ class Action(Leaf):
         self._start_step = 0
         method = getattr(type(self), "method", None)
         if method is None:
-            method = Method("osc_actor", type(self).__name__, (), "goal", type(self))
+            method = Method("osc_actor", type(self).__name__, (), "goal")
         self.registered: Method = method
         self.slots: tuple[str, ...] = method.slots
         self.become(method)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import BaseActor
 
 __all__ = ["as_type"]
 
-ActorT = TypeVar("ActorT", bound=Actor)
+ActorT = TypeVar("ActorT", bound=BaseActor)
 
 
-def as_type(actor: Actor, kind: type[ActorT]) -> ActorT:
+def as_type(actor: BaseActor, kind: type[ActorT]) -> ActorT:
     """Return an actor as one of a more special type.
 
     Raises:

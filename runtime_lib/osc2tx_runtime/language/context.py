@@ -11,27 +11,46 @@ hand their wishes in here, and `commit` carries them out once the instant is set
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Protocol
 
 from osc2tx_runtime.clock import whole_steps
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.slots import Effect, Effects, Slots
-from osc2tx_runtime.running.settings import RunSettings
-from osc2tx_runtime.running.trace import TraceWriter
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Actor
-    from osc2tx_runtime.domain.routes.map_segments import Stretch
-    from osc2tx_runtime.language.action import Action
-    from osc2tx_runtime.language.tree.events import Event
-    from osc2tx_runtime.language.tree.variables import Sampled
-    from osc2tx_runtime.world.commands import Command
-    from osc2tx_runtime.world.protocol import World
+from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.slots import Effect, Effects, Owner, Slots
+from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.world.commands import Command
+from osc2tx_runtime.world.protocol import World
 
 __all__ = ["MAX_PASSES", "ExecutionContext"]
 
 MAX_PASSES = 1000
+
+
+class PostedEvent(Protocol):
+    """What a run needs of an event."""
+
+    name: str
+
+    def occur(self, tick: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
+        """Become visible in pass `tick`."""
+        ...
+
+    def problem(self, given: Iterable[str]) -> str:
+        """Return what is wrong with the names of arguments."""
+        ...
+
+    def complete(self, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return all arguments of an occurrence."""
+        ...
+
+
+class AssignedVariable(Protocol):
+    """What a run needs of a sampled variable."""
+
+    name: str
+    value: Any
 
 
 class ExecutionContext:
@@ -41,7 +60,7 @@ class ExecutionContext:
         world: The world; its snapshot is that of the present step.
         settings: Settings of the run.
         actors: Actors by id, in the order of their declaration.
-        crossings: Where the crossings lie that the scenario declares.
+        objects: What the scenario declares of the map.
         events: Declared events by name.
         trace: Takes the lines of the trace.
         dt: Length of a step in seconds.
@@ -62,16 +81,18 @@ class ExecutionContext:
         self,
         world: World,
         settings: RunSettings | None = None,
-        actors: Mapping[str, Actor] | None = None,
+        actors: Mapping[str, BaseActor] | None = None,
         *,
-        events: Mapping[str, Event] | None = None,
+        events: Mapping[str, PostedEvent] | None = None,
+        objects: Sequence[DeclaredObject] = (),
         trace: TraceWriter | None = None,
-        label_events: Mapping[tuple[str, str], Event] | None = None,
+        label_events: Mapping[tuple[str, str], PostedEvent] | None = None,
         one_of: str = "race",
     ) -> None:
         self.world = world
         self.settings = settings or RunSettings()
-        self.actors: dict[str, Actor] = dict(actors or {})
+        self.actors: dict[str, BaseActor] = dict(actors or {})
+        self.objects = tuple(objects)
         self.events = dict(events or {})
         self.trace = trace or TraceWriter(enabled=False)
         self.label_events = dict(label_events or {})
@@ -86,11 +107,10 @@ class ExecutionContext:
         self.slots = Slots()
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
-        self.crossings: list[Stretch] = []
         self._cast: tuple[str, ...] | None = None
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
-        self._posted: dict[Event, list[Mapping[str, Any]]] = {}
-        self._assigned: dict[Sampled, Any] = {}
+        self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}
+        self._assigned: dict[AssignedVariable, Any] = {}
         self._pass_wanted = False
         self._settling_wanted = False
 
@@ -120,12 +140,12 @@ class ExecutionContext:
 
     # --- events and passes ---
 
-    def post(self, event: Event, arguments: Mapping[str, Any] | None = None) -> None:
+    def post(self, event: PostedEvent, arguments: Mapping[str, Any] | None = None) -> None:
         """Let an event occur now; others see it from the next pass of this instant on."""
         self._posted.setdefault(event, []).append(dict(arguments or {}))
         self.trace.event(event.name, arguments)
 
-    def assign(self, variable: Sampled, value: Any) -> None:
+    def assign(self, variable: AssignedVariable, value: Any) -> None:
         """Give a sampled variable a value; others read it from the next pass of this instant on."""
         self._assigned[variable] = value
         self._pass_wanted = True
@@ -184,11 +204,11 @@ class ExecutionContext:
 
     # --- who controls what ---
 
-    def claim(self, actor_id: str, slot: str, owner: Action) -> None:
+    def claim(self, actor_id: str, slot: str, owner: Owner) -> None:
         """Make an action the owner of a slot; two live owners at a settled instant conflict."""
         self.slots.claim((actor_id, slot), owner)
 
-    def release(self, actor_id: str, slot: str, owner: Action) -> None:
+    def release(self, actor_id: str, slot: str, owner: Owner) -> None:
         """Give a slot up. Without a new owner the actor holds its speed or keeps its lane."""
         self.slots.release((actor_id, slot), owner)
 
@@ -204,12 +224,12 @@ class ExecutionContext:
             raise ScenarioError(f"{actor_id} gets two behavioral models at once: {names}")
         self.slots.leave((actor_id, slot), command)
 
-    def command(self, actor_id: str, slot: str, owner: Action, command: Command) -> None:
+    def command(self, actor_id: str, slot: str, owner: Owner, command: Command) -> None:
         """Set the command of an owner; the world gets it when the instant is settled."""
         self.slots.command((actor_id, slot), owner, command)
 
     def effect(
-        self, key: tuple[str, ...], owner: Action, value: object, apply: Callable[[], None]
+        self, key: tuple[str, ...], owner: Owner, value: object, apply: Callable[[], None]
     ) -> None:
         """Ask for a change of state at this instant.
 
@@ -220,15 +240,6 @@ class ExecutionContext:
             apply: Carries it out, once the instant is settled: calls of the world and the trace.
         """
         self.effects.add(key, Effect(owner, value, apply))
-
-    def check_conflicts(self) -> None:
-        """Judge the claims and effects of a settled instant.
-
-        Raises:
-            SlotConflict: If two actions control the same thing.
-        """
-        self.slots.check()
-        self.effects.check()
 
     def commit(self) -> None:
         """Carry out what the settled instant brought: effects first, then commands."""

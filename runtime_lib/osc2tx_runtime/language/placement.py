@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Actor
-    from osc2tx_runtime.domain.modifiers import Modifier
+    from osc2tx_runtime.language.declared import BaseActor
+    from osc2tx_runtime.language.modifier import Modifier
 
 __all__ = ["Placement"]
 
@@ -23,7 +23,7 @@ class Placement:
         throughout: All of it holds later as well.
     """
 
-    actor: Actor
+    actor: BaseActor
     modifiers: tuple[Modifier, ...]
     source: str
     throughout: bool = False

@@ -8,7 +8,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Actor
+    from osc2tx_runtime.language.declared import BaseActor
 
 __all__ = ["RefusedAction"]
 
@@ -27,7 +27,7 @@ class RefusedAction(Action):
     """
 
     def __init__(
-        self, actor: Actor, name: str, error: ScenarioError, label: str | None = None
+        self, actor: BaseActor, name: str, error: ScenarioError, label: str | None = None
     ) -> None:
         super().__init__(actor, label=label)
         self.action_name = f"{actor.id} {name}"

@@ -6,7 +6,7 @@ import difflib
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, TypeVar
 
 from osc2tx_runtime.errors import (
     USER_CODE_ERRORS,
@@ -15,22 +15,20 @@ from osc2tx_runtime.errors import (
     blame,
     is_own,
 )
+from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.argument_rules import check_arguments
+from osc2tx_runtime.language.declared import BaseActor
+from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method, Need
+from osc2tx_runtime.language.refused_action import RefusedAction
 from osc2tx_runtime.language.tree.base import split_label
 from osc2tx_runtime.language.tree.module_text import call_arguments
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Actor
-    from osc2tx_runtime.language.action import Action
 
 __all__ = [
     "ENTRY_POINTS",
     "LATERAL",
     "LONGITUDINAL",
-    "Ends",
-    "Method",
     "MethodRegistry",
-    "Need",
+    "RegisteredMethod",
     "action",
     "methods",
 ]
@@ -38,45 +36,20 @@ __all__ = [
 ENTRY_POINTS = "osc2tx.methods"
 """Group of entry points; each names a module that registers actions. See docs/extending.md."""
 
-LONGITUDINAL = "longitudinal"
-LATERAL = "lateral"
-
 _OPTIONS = ("duration",)  # what every action takes
-
-Ends = Literal["goal", "open", "instant", "step"]
-Need = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
-"""What a world must have beside moving actors."""
 
 ActionT = TypeVar("ActionT", bound="type[Action]")
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
-    """One registered action.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegisteredMethod(Method):
+    """An action with the class that carries it out.
 
     Attributes:
-        kind: Actor kind of the DSL (`vehicle`).
-        name: Method name (`change_lane`).
-        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
-            moves as its modifiers say controls nothing itself.
-        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once,
-            `step` at the next step, where what it assigns can be seen.
-        factory: The class that carries it out.
-        places: Whether its arguments say where the actor is.
-        paces: Whether it sets or holds the speed of the actor.
-        needs: What a world must have to carry it out.
-        undeclared: Why the library does not declare it, if it does not.
+        factory: The class.
     """
 
-    kind: str
-    name: str
-    slots: tuple[str, ...]
-    ends: Ends
     factory: type[Action]
-    places: bool = False
-    paces: bool = False
-    needs: tuple[Need, ...] = ()
-    undeclared: str = ""
 
     def signature(self) -> str:
         """Return the call as one writes it: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
@@ -88,7 +61,7 @@ class MethodRegistry:
     """Finds action classes by actor kind and method name."""
 
     def __init__(self) -> None:
-        self._methods: dict[tuple[str, str], Method] = {}
+        self._methods: dict[tuple[str, str], RegisteredMethod] = {}
         self._extended = False
 
     def extend(self) -> None:
@@ -129,7 +102,7 @@ class MethodRegistry:
         """Register the decorated `Action` class as method `name` of actors of `kind`.
 
         Args:
-            kind: Actor kind of the DSL, such as `vehicle`.
+            kind: BaseActor kind of the DSL, such as `vehicle`.
             name: Method name.
             slots: Slots the action claims for as long as it runs.
             ends: When it ends.
@@ -151,12 +124,13 @@ class MethodRegistry:
                     " pass replace=True to take its place"
                 )
             claimed = tuple(slots)
-            method = Method(
-                *(kind, name, claimed, ends, factory),
+            method = RegisteredMethod(
+                *(kind, name, claimed, ends),
                 places=places,
                 paces=LONGITUDINAL in claimed if paces is None else paces,
                 needs=tuple(needs),
                 undeclared=undeclared,
+                factory=factory,
             )
             self._methods[kind, name] = method
             if "method" not in vars(factory):  # for instances made without the registry
@@ -165,7 +139,7 @@ class MethodRegistry:
 
         return register
 
-    def find(self, kinds: Iterable[str], name: str) -> Method | None:
+    def find(self, kinds: Iterable[str], name: str) -> RegisteredMethod | None:
         """Return the method of the first of `kinds` (most derived first) that has it."""
         for kind in kinds:
             method = self._methods.get((kind, name))
@@ -182,7 +156,7 @@ class MethodRegistry:
         """Return up to three method names that look like `name`."""
         return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
 
-    def bind(self, actor: Actor, name: str) -> Callable[..., Action]:
+    def bind(self, actor: BaseActor, name: str) -> Callable[..., Action]:
         """Return the constructor of the action `name` for one actor.
 
         What it cannot make refuses the run at its line, before the first step: an action that
@@ -194,8 +168,6 @@ class MethodRegistry:
         found = self.find(kinds, name)
 
         def create(*args: Any, **kwargs: Any) -> Action:
-            from osc2tx_runtime.language.refused_action import RefusedAction  # it needs this module
-
             label, modifiers = split_label(args)
             try:
                 if found is None:
@@ -223,12 +195,14 @@ class MethodRegistry:
         """Return how a method is called, as text."""
         return self._methods[kind, name].signature()
 
-    def all(self) -> tuple[Method, ...]:
+    def all(self) -> tuple[RegisteredMethod, ...]:
         """Return every method, sorted by kind and name."""
         return tuple(self._methods[key] for key in sorted(self._methods))
 
 
-def make(method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> Action:
+def make(
+    method: RegisteredMethod, actor: BaseActor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+) -> Action:
     """Make an action.
 
     Raises:
@@ -243,7 +217,7 @@ def make(method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[st
 
 
 def _check_arguments(
-    method: Method, actor: Actor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+    method: RegisteredMethod, actor: BaseActor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> None:
     """Compare a call with the signature and the rules of the class.
 

@@ -1,78 +1,45 @@
-"""The base of generated scenarios: cast, values, placement, behavior."""
+"""The base of scenarios: what generated classes write, and what they call."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from osc2tx_runtime.domain.actors import Actor, Map
-from osc2tx_runtime.domain.modifiers import SetMapFile
-from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import BaseActor
+from osc2tx_runtime.language.modifier import Modifier
 from osc2tx_runtime.language.placement import Placement
 from osc2tx_runtime.language.scenario_members import check_arguments, check_settings, name_members
-from osc2tx_runtime.language.scenario_values import ScenarioValues
+from osc2tx_runtime.language.scenario_parts import Caller, ScenarioParts
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements, number_nodes
 from osc2tx_runtime.language.tree.base import Behaviour, split_label
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger
 from osc2tx_runtime.language.tree.invocation import (
-    Caller,
     Invocation,
     check_recursion,
     draw_key,
     unique_name,
 )
 from osc2tx_runtime.language.tree.override import Mode
-from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
 from osc2tx_runtime.language.tree.variables import MISSING, Sampled
-from osc2tx_runtime.running.settings import RunSettings, near
-from osc2tx_runtime.running.sidecar import read_source_map
 
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.modifiers import MapModifier, Modifier
-
-__all__ = [
-    "Placement",
-    "Range",
-    "Scenario",
-    "any_of",
-    "at_least",
-    "at_most",
-    "fixed",
-    "within",
-]
+__all__ = ["BaseScenario"]
 
 AnyT = TypeVar("AnyT")
-ActorT = TypeVar("ActorT", bound=Actor)
+ActorT = TypeVar("ActorT", bound=BaseActor)
 
 
-class Scenario(ScenarioValues):
-    """A scenario. Generated classes write `declare`, `placement` and `behavior`.
+class BaseScenario(ScenarioParts):
+    """A scenario, whatever its actors are.
 
     Args:
         settings: Of the run.
         caller: The scenario that invokes this one; `invoke` gives it.
         **arguments: Values of parameters, before those of the settings; for an invoked scenario
             also the actors that take the place of the declared ones.
-
-    Attributes:
-        name: Name in the scenario file.
-        source: Scenario file.
-        one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
-        settings: Of the run.
-        actors: Declared actors by id, in order; the scenario that runs also has those of all that
-            it invokes.
-        map_objects: Declared traffic lights and groups of them; likewise.
-        events: Declared events by name, in order; likewise.
-        parameters: Values of the parameters, in order; likewise.
-        placements: What `placement` asked for; likewise, once there is a tree.
-        label_events: (label, `start` | `end` | `fail`) to the event that somebody waits for.
     """
-
-    name: ClassVar[str] = ""
-    source: ClassVar[str] = ""
-    one_of: ClassVar[str] = "race"
 
     def __init__(
         self,
@@ -81,26 +48,7 @@ class Scenario(ScenarioValues):
         caller: Caller | None = None,
         **arguments: Any,
     ) -> None:
-        super().__init__(
-            settings or RunSettings(),
-            arguments,
-            read_source_map(type(self), self.name, self.source),
-            caller=None if caller is None else caller.scenario,
-            path="" if caller is None else caller.path,
-            key="" if caller is None else caller.key,
-        )
-        self._caller = caller
-        self._root: Scenario = self if caller is None else caller.scenario._root
-        self.actors: dict[str, Actor] = {}
-        self.map_objects: list[MapObject] = []
-        self.events: dict[str, Event] = {}
-        self.placements: list[Placement] = []
-        self.label_events: dict[tuple[str, str], Event] = {}
-        self._variables: dict[str, Sampled] = {}
-        self._invoked: dict[str, Scenario] = {}
-        self._keys: dict[str, None] = {}
-        self._inner_events: dict[str, Event] = {}
-        self._overrides: list[tuple[str, str, Mode]] = []
+        super().__init__(settings or RunSettings(), caller, arguments)
         self._declare_values(self.declare)
         name_members(self)
         check_arguments(self)
@@ -132,7 +80,7 @@ class Scenario(ScenarioValues):
         """
         return declared if self._caller is None else self._caller.cast(name, declared)
 
-    def place(self, actor: Actor, *modifiers: Modifier, throughout: bool = False) -> None:
+    def place(self, actor: BaseActor, *modifiers: Modifier, throughout: bool = False) -> None:
         """Say where and how an actor starts.
 
         Args:
@@ -143,10 +91,6 @@ class Scenario(ScenarioValues):
         """
         source = self._source_map.of_placement(len(self.placements))
         self.placements.append(Placement(actor, modifiers, source, throughout))
-
-    def require(self, road_map: Map, *modifiers: MapModifier) -> None:
-        """Say what the declared roads and lanes of the map are like."""
-        self.place(road_map, *modifiers)
 
     def sample(
         self,
@@ -173,10 +117,10 @@ class Scenario(ScenarioValues):
     @overload
     def invoke(
         self,
-        scenario: type[Scenario],
+        scenario: type[BaseScenario],
         /,
         *,
-        actor: Actor | None = None,
+        actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
         **arguments: Any,
@@ -185,10 +129,10 @@ class Scenario(ScenarioValues):
     def invoke(
         self,
         label: str,
-        scenario: type[Scenario],
+        scenario: type[BaseScenario],
         /,
         *,
-        actor: Actor | None = None,
+        actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
         **arguments: Any,
@@ -197,7 +141,7 @@ class Scenario(ScenarioValues):
         self,
         /,
         *label_and_scenario: Any,
-        actor: Actor | None = None,
+        actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
         **arguments: Any,
@@ -232,13 +176,6 @@ class Scenario(ScenarioValues):
         self._invoked[name] = invoked
         who = f"{actor.id} {name}" if actor is not None else name
         return Invocation(label or who, invoked, invoked.create_tree(), duration)
-
-    def invoked(self, label: str) -> Any:
-        """Return an invoked scenario, to read its values: `self.invoked("p1").gap`."""
-        if label not in self._invoked:
-            hint = near(label, self._invoked)
-            raise ScenarioError(f"{label}: no invocation has this label{hint}", self.source)
-        return self._invoked[label]
 
     def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
         """Let a behavior end another when it starts; call it in `behavior`.
@@ -291,25 +228,6 @@ class Scenario(ScenarioValues):
         except ArithmeticError as error:
             raise ScenarioError(f"a value cannot be computed: {error}", self.source) from error
 
-    def map_file(self) -> str | None:
-        """Return the map file the scenario names; None if it leaves the map open.
-
-        Raises:
-            ScenarioError: If it names two.
-        """
-        maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
-        named = [(found.named_file, found.source) for found in maps if found.named_file]
-        named += [
-            (modifier.file, placement.source)
-            for placement in self.placements
-            for modifier in placement.modifiers
-            if isinstance(modifier, SetMapFile)
-        ]
-        for file, source in named[1:]:
-            if file != named[0][0]:
-                raise ScenarioError(f"two maps are named: {named[0][0]} and {file}", source)
-        return named[0][0] if named else None
-
     if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
 
         def __setattr__(self, name: str, value: Any) -> None:
@@ -324,8 +242,3 @@ class Scenario(ScenarioValues):
             if name in variables:
                 return variables[name].read()
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
-
-    def _label_event(self, label: str, moment: str) -> Event:
-        event = self.label_events.setdefault((label, moment), Event())
-        event.name = f"{self._path}.{label}.{moment}" if self._path else f"{label}.{moment}"
-        return event

@@ -4,30 +4,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actors import Actor
-from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
+from osc2tx_runtime.language.settings import check_known, near
 from osc2tx_runtime.language.tree.events import Event
-from osc2tx_runtime.running.settings import check_known, near
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
 __all__ = ["check_arguments", "check_settings", "name_members"]
 
 
-def name_members(scenario: Scenario) -> None:
+def name_members(scenario: ScenarioParts) -> None:
     """Give actors, map objects and events the names of their attributes, and note them."""
     place_of = scenario._source_map.of_field
     handed_in = {id(actor) for actor in scenario._arguments.values()}
     handed_in.update(id(actor) for actor in scenario._root.actors.values())
     for attribute, value in vars(scenario).items():
         path = f"{scenario._path}.{attribute}" if scenario._path else attribute
-        if isinstance(value, Actor) and id(value) not in handed_in:
+        if isinstance(value, BaseActor) and id(value) not in handed_in:
             value.id = path
             value.source = place_of(attribute)
             scenario.actors[attribute] = scenario._root.actors[path] = value
-        elif isinstance(value, MapObject):
+        elif isinstance(value, DeclaredObject):
             value.source = place_of(attribute)
             scenario._root.map_objects.append(value)
         elif isinstance(value, Event):
@@ -35,7 +34,7 @@ def name_members(scenario: Scenario) -> None:
             scenario.events[attribute] = scenario._root.events[path] = value
 
 
-def check_arguments(scenario: Scenario) -> None:
+def check_arguments(scenario: ScenarioParts) -> None:
     """Refuse arguments that are no parameter and no actor of the scenario.
 
     Raises:
@@ -43,7 +42,7 @@ def check_arguments(scenario: Scenario) -> None:
         ScenarioError: A scenario invokes it so.
     """
     for name in scenario._arguments:
-        if name not in scenario.parameters and not isinstance(vars(scenario).get(name), Actor):
+        if name not in scenario.parameters and not isinstance(vars(scenario).get(name), BaseActor):
             if scenario._caller is None:
                 raise TypeError(f"{type(scenario).__name__}() has no parameter {name!r}")
             hint = near(name, scenario.parameters)
@@ -53,7 +52,7 @@ def check_arguments(scenario: Scenario) -> None:
             )
 
 
-def check_settings(scenario: Scenario) -> None:
+def check_settings(scenario: ScenarioParts) -> None:
     """Report settings that name nothing of this scenario."""
     settings = scenario.settings
     check_known("--set", "parameter", settings.set, scenario.parameters)

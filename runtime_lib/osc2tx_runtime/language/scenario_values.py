@@ -9,11 +9,11 @@ from typing import Any, TypeVar, Unpack, overload
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.external_methods import external_function
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.language.tree.module_text import call_arguments
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
-from osc2tx_runtime.running.settings import RunSettings
-from osc2tx_runtime.running.sidecar import SourceMap
 
 __all__ = ["ATTEMPTS", "ScenarioValues"]
 

@@ -6,29 +6,34 @@ in whatever order the tree visits them, and two parallel actions on one slot are
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
-from osc2tx_runtime.errors import ScenarioError, SlotConflict
-from osc2tx_runtime.language.tree.base import place_key
+from py_trees.behaviour import Behaviour
 
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.action import Action
-    from osc2tx_runtime.language.tree.base import Behaviour
-    from osc2tx_runtime.world.commands import Command
-    from osc2tx_runtime.world.protocol import World
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.world.commands import Command
+from osc2tx_runtime.world.protocol import World
 
-__all__ = ["Effects", "Slots"]
+__all__ = ["Effect", "Effects", "Owner", "Slots"]
 
 SlotKey = tuple[str, str]  # (actor id, slot)
+
+
+class Owner(Protocol):
+    """What controls a slot: an action, a node of the tree."""
+
+    name: str
+    source: str
+    parent: Behaviour | None
 
 
 class Slots:
     """Owners of the slots, and the commands they want carried out."""
 
     def __init__(self) -> None:
-        self._owners: dict[SlotKey, dict[Action, Command | None]] = {}
+        self._owners: dict[SlotKey, dict[Owner, Command | None]] = {}
         self._touched: dict[SlotKey, None] = {}
         self._sent: dict[SlotKey, Command | None] = {}
         self._left: dict[SlotKey, Command | None] = {}
@@ -39,19 +44,19 @@ class Slots:
             self._left[key] = command
             self._touched[key] = None
 
-    def claim(self, key: SlotKey, owner: Action) -> None:
+    def claim(self, key: SlotKey, owner: Owner) -> None:
         """Make `owner` an owner of the slot; claiming twice is claiming once."""
         self._owners.setdefault(key, {}).setdefault(owner, None)
         self._touched[key] = None
 
-    def release(self, key: SlotKey, owner: Action) -> None:
+    def release(self, key: SlotKey, owner: Owner) -> None:
         """Give the slot up; nothing happens if `owner` does not own it."""
         owners = self._owners.get(key, {})
         if owner in owners:
             del owners[owner]
             self._touched[key] = None
 
-    def command(self, key: SlotKey, owner: Action, command: Command) -> None:
+    def command(self, key: SlotKey, owner: Owner, command: Command) -> None:
         """Keep the command of an owner until the instant is settled."""
         owners = self._owners.get(key, {})
         if owner not in owners:
@@ -62,7 +67,7 @@ class Slots:
         owners[owner] = command
         self._touched[key] = None
 
-    def owners(self, key: SlotKey) -> tuple[Action, ...]:
+    def owners(self, key: SlotKey) -> tuple[Owner, ...]:
         """Return the live owners of a slot."""
         return tuple(self._owners.get(key, ()))
 
@@ -70,12 +75,12 @@ class Slots:
         """Return the slots that have an owner."""
         return tuple(sorted(key for key, owners in self._owners.items() if owners))
 
-    def check(self) -> None:
-        """Raise SlotConflict for the first slot (by name) with two live owners."""
+    def contested(self) -> Iterator[tuple[SlotKey, list[Owner]]]:
+        """Yield the slots with several live owners, by name."""
         for key in sorted(self._touched):
-            owners = self._owners.get(key, {})
+            owners = list(self._owners.get(key, ()))
             if len(owners) > 1:
-                raise conflict(f"the {key[1]} slot of {key[0]}", list(owners))
+                yield key, owners
 
     def send(self, world: World) -> None:
         """Hand the commands that changed to the world; an unowned slot gets what it is left to."""
@@ -92,7 +97,7 @@ class Slots:
 class Effect:
     """A change of state one action asks for."""
 
-    owner: Action
+    owner: Owner
     value: object
     apply: Callable[[], None]
 
@@ -101,7 +106,7 @@ class Effects:
     """Changes of state of the present instant, by what they change."""
 
     def __init__(self) -> None:
-        self._wanted: dict[tuple[str, ...], dict[Action, Effect]] = {}
+        self._wanted: dict[tuple[str, ...], dict[Owner, Effect]] = {}
 
     def add(self, key: tuple[str, ...], effect: Effect) -> None:
         """Remember an effect; a later one of the same owner takes its place."""
@@ -109,18 +114,12 @@ class Effects:
         effects.pop(effect.owner, None)  # so that the latest stands last
         effects[effect.owner] = effect
 
-    def check(self) -> None:
-        """Raise SlotConflict if two actions that are not in sequence want different values."""
+    def contested(self) -> Iterator[tuple[tuple[str, ...], list[Effect]]]:
+        """Yield what several actions want to change, by its name."""
         for key in sorted(self._wanted):
-            # By place, so that the report is the same whatever the order of the visit.
-            effects = sorted(
-                self._wanted[key].values(),
-                key=lambda effect: place_key(effect.owner),
-            )
-            for index, one in enumerate(effects):
-                for other in effects[index + 1 :]:
-                    if one.value != other.value and not in_sequence(one.owner, other.owner):
-                        raise conflict(" ".join(key), [one.owner, other.owner])
+            effects = list(self._wanted[key].values())
+            if len(effects) > 1:
+                yield key, effects
 
     def apply(self) -> None:
         """Carry the effects out, by name of what they change; the last of a sequence counts."""
@@ -131,42 +130,3 @@ class Effects:
     def clear(self) -> None:
         """Forget all."""
         self._wanted.clear()
-
-
-def conflict(what: str, owners: list[Action]) -> SlotConflict:
-    """Return the error that names two owners and their places, in the order of the source."""
-    first, second = sorted(owners, key=place_key)[:2]
-    return SlotConflict(
-        f"{first.name} ({first.source}) and {second.name} ({second.source}) control {what}"
-        f" at the same time; {remedy(first, second)}",
-        second.source or None,
-    )
-
-
-def remedy(one: Behaviour, other: Behaviour) -> str:
-    """Return what may help where two nodes must not run at the same time."""
-    from osc2tx_runtime.language.tree.compositions import OneOf
-
-    if isinstance(nearest_above(one, other), OneOf):
-        return "all members of a race run: let `--one-of first` or `seeded` choose one of them"
-    return "let them run one after the other"
-
-
-def in_sequence(one: Behaviour, other: Behaviour) -> bool:
-    """Return whether a serial composition orders the two nodes."""
-    from osc2tx_runtime.language.tree.compositions import Serial
-
-    return isinstance(nearest_above(one, other), Serial)
-
-
-def nearest_above(one: Behaviour, other: Behaviour) -> Behaviour | None:
-    """Return the innermost node that two nodes are both in."""
-    above = []
-    node: Behaviour | None = one
-    while node is not None:
-        above.append(node)
-        node = node.parent
-    node = other
-    while node is not None and node not in above:
-        node = node.parent
-    return node

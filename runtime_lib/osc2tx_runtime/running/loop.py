@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 from osc2tx_runtime.language.tree.base import (
     FAILURE,
     INVALID,
@@ -16,11 +17,10 @@ from osc2tx_runtime.language.tree.base import (
     Status,
     pulse_of,
 )
-from osc2tx_runtime.language.tree.events import Event
+from osc2tx_runtime.language.tree.conflicts import check_conflicts
 from osc2tx_runtime.language.tree.failure_reasons import failure_reason, timeout_reason
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["OnProgress", "Outcome", "run_tree", "settle"]
@@ -89,7 +89,7 @@ def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | N
     while True:
         context.begin_step(step)
         status = settle(pulse, context, signals.get(step, ()))
-        context.check_conflicts()
+        check_conflicts(context)
         context.commit()
         if status is SUCCESS:
             return Outcome("success", "", step)
@@ -107,7 +107,7 @@ def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | N
 
 
 def settle(
-    pulse: Callable[[], Status], context: ExecutionContext, signals: tuple[Event, ...]
+    pulse: Callable[[], Status], context: ExecutionContext, signals: tuple[PostedEvent, ...]
 ) -> Status:
     """Pulse the tree until nothing more happens at this instant.
 
@@ -126,15 +126,15 @@ def settle(
     return status
 
 
-def post_all(context: ExecutionContext, signals: tuple[Event, ...]) -> None:
+def post_all(context: ExecutionContext, signals: tuple[PostedEvent, ...]) -> None:
     """Post events from outside; their parameters have their defaults."""
     for event in signals:
         context.post(event, event.complete({}))
 
 
-def signals_by_step(context: ExecutionContext) -> dict[int, tuple[Event, ...]]:
+def signals_by_step(context: ExecutionContext) -> dict[int, tuple[PostedEvent, ...]]:
     """Return the signals of the settings by the first step at or after their time."""
-    found: dict[int, tuple[Event, ...]] = {}
+    found: dict[int, tuple[PostedEvent, ...]] = {}
     for name, seconds in context.settings.signal.items():
         step = context.steps(seconds)
         event = context.events[name]

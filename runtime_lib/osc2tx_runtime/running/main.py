@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
-from osc2tx_runtime.running.settings import OPTIONS, RunSettings
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.domain.scenario import Scenario
 
 __all__ = ["choose_scenario", "main", "verdict"]
 
@@ -40,7 +40,7 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         print(f"error: {error.message}", file=sys.stderr)
         return error.exit_code
     try:
-        settings = RunSettings.from_options(arguments)
+        settings = read_options(arguments)
         result = run_scenario(scenario, settings, progress, keep_trace=False)
     except ScenarioError as error:
         clear_progress(progress)

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from osc2tx_runtime.domain.routes.map_search import find_map
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.running.loop import OnProgress, run_tree
-from osc2tx_runtime.running.settings import RunSettings
-from osc2tx_runtime.running.trace import TraceWriter
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
 
@@ -105,6 +105,7 @@ def make_context(scenario: Scenario, world: World, keep_trace: bool) -> Executio
         settings,
         scenario.actors,
         events=scenario.events,
+        objects=scenario.map_objects,
         trace=TraceWriter(enabled),
         label_events=scenario.label_events,
         one_of=scenario.one_of,
@@ -115,11 +116,9 @@ def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
     """Put the actors where the scenario wants them."""
     from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
     from osc2tx_runtime.domain.routes.geodetic_points import check_globe
+    from osc2tx_runtime.domain.scenario import bind_all
 
-    for actor in scenario.actors.values():
-        actor.bind(context)
-    for each in scenario.map_objects:
-        each.bind(context)
+    bind_all(scenario, context)
     check_globe(scenario, context.world.map)
     ScenarioInitializer(context, scenario.map_objects).run(scenario.placements)
 

@@ -8,12 +8,12 @@ from typing import Any
 
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.registry import Method
+from osc2tx_runtime.language.method import Method
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.language.tree import Behaviour, Event, Status
 from osc2tx_runtime.running.loop import Outcome, run_tree
 from osc2tx_runtime.running.runner import setup_tree
-from osc2tx_runtime.running.settings import RunSettings
-from osc2tx_runtime.running.trace import TraceWriter
 
 
 class FakeActor:
@@ -64,7 +64,7 @@ class FakeWorld:
 class Drive(Action):
     """Open-ended, claims the longitudinal slot."""
 
-    method = Method("vehicle", "drive", ("longitudinal",), "open", None)  # type: ignore[arg-type]
+    method = Method("vehicle", "drive", ("longitudinal",), "open")
 
     def __init__(self, actor: Any, speed: float = 10.0, **options: Any) -> None:
         super().__init__(actor, **options)
@@ -77,7 +77,7 @@ class Drive(Action):
 class Task(Action):
     """Succeeds, or fails, after a number of steps."""
 
-    method = Method("vehicle", "task", (), "goal", None)  # type: ignore[arg-type]
+    method = Method("vehicle", "task", (), "goal")
 
     def __init__(self, actor: Any, steps: int, fails: bool = False, **options: Any) -> None:
         super().__init__(actor, **options)
@@ -100,7 +100,7 @@ class Task(Action):
 class Switch(Action):
     """Changes a state at one instant."""
 
-    method = Method("vehicle", "switch", (), "instant", None)  # type: ignore[arg-type]
+    method = Method("vehicle", "switch", (), "instant")
 
     def __init__(self, actor: Any, mode: str, **options: Any) -> None:
         super().__init__(actor, **options)

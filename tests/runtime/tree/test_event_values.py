@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
+from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, SettingsError
-from osc2tx_runtime.language.scenario import Scenario
 from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime.domain.actors import Environment, Map, Vehicle
+from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
-from osc2tx_runtime.language.scenario import Scenario, within
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
     Emit,
@@ -23,9 +24,9 @@ from osc2tx_runtime.language.tree import (
     elapsed,
     rise,
 )
+from osc2tx_runtime.language.tree.parameters import within
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.running.runner import run_scenario
-from osc2tx_runtime.running.settings import RunSettings
 
 
 class Approach(Scenario):

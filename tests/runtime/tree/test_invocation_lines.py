@@ -13,7 +13,7 @@ import pytest
 
 MODULE = """
 from osc2tx_runtime.language.tree import Behaviour, Serial, Wait, elapsed
-from osc2tx_runtime.language.scenario import Scenario
+from osc2tx_runtime.domain.scenario import Scenario
 
 
 class Inner(Scenario):

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 import osc2tx_runtime
+from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.scenario import Scenario
 from osc2tx_runtime.language.tree import Behaviour, Event, OneOf, Serial, Status, Wait, elapsed
 from osc2tx_runtime.language.tree.base import Leaf
 from osc2tx_runtime.running import runner

@@ -12,18 +12,19 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime.domain.actors import Environment, Map, Vehicle
+from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.registry import MethodRegistry
-from osc2tx_runtime.language.scenario import Scenario, within
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
-from osc2tx_runtime.running.settings import RunSettings
+from osc2tx_runtime.language.tree.parameters import within
 from tests.runtime.tree.kit import Run, Task
 
 MODULE = """
 from osc2tx_runtime.domain.actors import Vehicle
 from osc2tx_runtime.language.tree import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
-from osc2tx_runtime.language.scenario import Scenario
+from osc2tx_runtime.domain.scenario import Scenario
 
 
 class Mapped(Scenario):

@@ -8,16 +8,17 @@ import pytest
 
 from osc2tx_runtime.domain.routes.map_search import find_map
 from osc2tx_runtime.errors import InputError, SettingsError
-from osc2tx_runtime.running.settings import OPTIONS, RunSettings
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.running.options import OPTIONS, read_options
 
 
 def test_defaults() -> None:
-    assert RunSettings.from_options({}) == RunSettings()
-    assert RunSettings.from_options({"seed": None, "signal": []}) == RunSettings()
+    assert read_options({}) == RunSettings()
+    assert read_options({"seed": None, "signal": []}) == RunSettings()
 
 
 def test_every_option() -> None:
-    read = RunSettings.from_options(
+    read = read_options(
         {
             "map_path": ["maps", "more"],
             "signal": ["go@1s", "stop@500ms", "on@2.5"],
@@ -67,7 +68,7 @@ def test_the_table_fits_the_settings() -> None:
 )
 def test_messages(name: str, text: str, message: str) -> None:
     with pytest.raises(SettingsError) as caught:
-        RunSettings.from_options({name: text})
+        read_options({name: text})
     assert message in caught.value.message
     assert caught.value.exit_code == 2
 

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime.domain.actors.parts import HitchReceiver
+from osc2tx_runtime.language.trace import TraceWriter, number, to_json
 from osc2tx_runtime.language.tree import Emit, Parallel
-from osc2tx_runtime.running.trace import TraceWriter, number, to_json
 from osc2tx_runtime.world.velocities import OrientationRate, Velocity
 from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
 

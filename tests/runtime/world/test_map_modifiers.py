@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     at_most,
     within,
 )
-from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
+from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.modifiers import (
     compound_lane_side,

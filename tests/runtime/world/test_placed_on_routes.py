@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.domain.routes.map_solver import MapSolver
+from osc2tx_runtime.domain.placing.map_solver import MapSolver
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.modifiers import (
     along,

@@ -47,7 +47,21 @@ def test_blanks_between_tokens_do_not_matter(data: st.DataObject) -> None:
         line if "#" in line or '"' in line else re.sub(r"([,:(\[])[ ]*(?=\S)(?!::)", respace, line)
         for line in text.splitlines()
     ]
-    assert format_of("\n".join(lines)) == format_of(text)
+    formatted = format_of(text)
+    assert formatted is not None
+    assert format_of("\n".join(lines)) == formatted
+
+
+@given(st.data())
+def test_comments_stay_with_what_they_belong_to(data: st.DataObject) -> None:
+    """Comment lines of any indentation, with blank lines around them or not."""
+    lines = SAMPLE.strip().splitlines()
+    indents = st.sampled_from(["", "  ", "    ", "\t", "          ", "                "])
+    for number in data.draw(st.lists(st.integers(0, len(lines)), min_size=1, max_size=8)):
+        shown = data.draw(st.sampled_from([[], [""], ["  "]]))
+        text = f"{data.draw(indents)}# {number}"
+        lines[number:number] = [*shown, text, *data.draw(st.sampled_from([[], [""]]))]
+    assert assert_well_formatted("\n".join(lines))
 
 
 def assert_well_formatted(text: str) -> bool:
@@ -79,7 +93,8 @@ import osc.standard
 enum kind: [one = 1, two, three]
 
 scenario vehicle.approach:
-    lead: vehicle with(name: "lead")
+    lead: vehicle with:
+        keep(it.name == "lead")
     gap: length with:
         keep(it in [10m..30m])
     event near(distance: length) is @closer as c if c.distance < 2 * gap

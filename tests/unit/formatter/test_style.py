@@ -82,9 +82,21 @@ def test_comments() -> None:
         "#one\nactor a: #two\n  x: int#three\n  #four\n #five\n#six\nactor b #  seven\n#!tool\n##\n"
     )
     assert formatted(before) == (
-        "# one\nactor a:  # two\n    x: int  # three\n    # four\n\n# five\n# six\n"
+        "# one\nactor a:  # two\n    x: int  # three\n    # four\n    # five\n\n# six\n"
         "actor b  #  seven\n#!tool\n##\n"
     )
+
+
+def test_comments_that_touch_the_block_above_stay_with_it() -> None:
+    before = "actor a:\n  x: int\n# end::a[]\n\nactor b:\n  x: int\n# end::b[]\nactor c\n"
+    assert formatted(before) == (
+        "actor a:\n    x: int\n# end::a[]\n\nactor b:\n    x: int\n\n# end::b[]\nactor c\n"
+    )
+
+
+def test_comments_deeper_than_the_next_line_stay_with_the_line_above() -> None:
+    before = "modifier m\n   # of m\n# of n\nmodifier n\n"
+    assert formatted(before) == "modifier m\n    # of m\n# of n\nmodifier n\n"
 
 
 def test_comments_at_the_end_of_blocks_stay_in_them() -> None:

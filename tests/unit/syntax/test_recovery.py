@@ -118,7 +118,7 @@ def test_nesting_up_to_the_limit() -> None:
 
 def test_odd_texts() -> None:
     assert parsed("")[1] == parsed(" \n\t\n\f")[1] == parsed("# only a comment")[1] == ()
-    assert parsed("# only\n  # comments\n")[0].comments == ("only", "comments")
+    assert parsed("# only\n  # comments\n")[1] == ()
     assert reports("\\") == [(1, "OSC102")]
     assert reports("scenario a\0b:\n    x: int\n") == [(1, "OSC102")]
     clean('struct s:\n    keep(x == "' + "a" * 1_000_000 + '")\n')

@@ -11,11 +11,11 @@ from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier
 from osc2tx_runtime.domain.paths.path_values import Path as Way
+from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.routes.map_segments import Stretch
-from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,

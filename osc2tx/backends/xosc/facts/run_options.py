@@ -9,7 +9,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.diagnostics import Span
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.language.tree import parallel_schedule as schedule
-from osc2tx_runtime.running.settings import parse_signal, parse_spawn
+from osc2tx_runtime.running.options import parse_signal, parse_spawn
 
 __all__ = ["plan_starts", "read_signal", "read_spawn"]
 

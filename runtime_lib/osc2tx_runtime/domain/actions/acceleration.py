@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.domain.modifiers.groups import SIDE_FREE
 from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LONGITUDINAL, action
@@ -17,7 +18,6 @@ from osc2tx_runtime.world.commands import Accelerate, AccelerationChange
 from osc2tx_runtime.world.longitudinal import excessive_acceleration
 
 from .modifiable import ShapedAction
-from .modifier_groups import SIDE_FREE
 from .profiled_change import RatedChange
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.modifiers.base import now
+from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.planning.path_commands import path_command
@@ -22,7 +23,6 @@ from osc2tx_runtime.language.registry import LATERAL, action
 from osc2tx_runtime.opendrive import DRIVING, LanePosition
 from osc2tx_runtime.world.commands import Command
 
-from .modifier_groups import SPEED_FREE
 from .path_following import CourseAction
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.domain.modifiers.groups import SIDE_FREE, SPEED_FREE
 from osc2tx_runtime.domain.planning.arrival_time import arrival
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.enums import GapDirection, RoadDistanceDirection
@@ -19,7 +20,6 @@ from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Beside, KeepGap
 
 from .modifiable import ShapedAction
-from .modifier_groups import SIDE_FREE, SPEED_FREE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle

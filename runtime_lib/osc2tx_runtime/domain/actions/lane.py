@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
 from osc2tx_rules import above, at_least, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
+from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
@@ -22,7 +23,6 @@ from osc2tx_runtime.world.lane_neighbours import lanes_to_left, neighbouring, of
 from osc2tx_runtime.world.lateral import shift_profile
 
 from .modifiable import ShapedAction
-from .modifier_groups import SPEED_FREE
 from .profiled_change import check_profile, peak_of
 
 if TYPE_CHECKING:

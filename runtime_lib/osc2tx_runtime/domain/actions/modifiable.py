@@ -24,6 +24,7 @@ from osc2tx_runtime.domain.modifiers import (
     Speed,
     Yaw,
 )
+from osc2tx_runtime.domain.modifiers.groups import PATH_SHAPERS
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
 from osc2tx_runtime.domain.planning.goals import distance_to_cover, watched_place
@@ -33,12 +34,12 @@ from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
 from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
 from osc2tx_runtime.language.action import ActionOptions
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, Method
+from osc2tx_runtime.language.method import Method
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import Careful, Command
 
 from .modifier_checks import check_modifiers, check_options
-from .modifier_groups import PATH_SHAPERS
 
 __all__ = ["ShapedAction"]
 

@@ -14,10 +14,15 @@ from osc2tx_runtime.domain.modifiers import (
     PhysicalMovement,
     Speed,
 )
+from osc2tx_runtime.domain.modifiers.groups import (
+    LANE_SHAPERS,
+    PATH_SHAPERS,
+    SPEED_SHAPERS,
+    TURN_SHAPERS,
+)
 from osc2tx_runtime.language.registry import action
 
 from .modifiable import ShapedAction
-from .modifier_groups import LANE_SHAPERS, PATH_SHAPERS, SPEED_SHAPERS, TURN_SHAPERS
 
 __all__ = ["Drive", "Move", "Walk"]
 

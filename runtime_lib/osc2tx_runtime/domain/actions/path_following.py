@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import now
+from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.paths.path_values import (
     Path,
     RelativePath,
@@ -28,7 +29,6 @@ from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Command
 
 from .modifiable import ShapedAction
-from .modifier_groups import SPEED_FREE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject, PhysicalObject

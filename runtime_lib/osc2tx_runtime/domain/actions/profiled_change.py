@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_rules import above
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.domain.modifiers.groups import SIDE_FREE
 from osc2tx_runtime.domain.planning.feasibility import check_peak
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import ScenarioError
@@ -13,7 +14,6 @@ from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.world.profiles import PROFILES
 
 from .modifiable import ShapedAction
-from .modifier_groups import SIDE_FREE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject

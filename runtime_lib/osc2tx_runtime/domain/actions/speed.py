@@ -6,6 +6,7 @@ import dataclasses
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
+from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
 from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
@@ -14,7 +15,6 @@ from osc2tx_runtime.world.commands import SpeedChange, Standstill
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
 
 from .modifiable import ShapedAction
-from .modifier_groups import PLACES, SIDE_FREE
 from .profiled_change import RatedChange
 
 if TYPE_CHECKING:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.registry import methods
 
 if TYPE_CHECKING:
@@ -16,22 +17,10 @@ if TYPE_CHECKING:
 __all__ = ["Actor"]
 
 
-class Actor:
-    """Base of all actors.
+class Actor(BaseActor):
+    """Base of all actors."""
 
-    Attributes:
-        kinds: Actor kinds of the DSL, most derived first.
-        id: Name of the field that holds it; given by the scenario.
-        source: Where it is declared.
-    """
-
-    kinds: ClassVar[tuple[str, ...]] = ("osc_actor",)
-
-    def __init__(self, *, name: str | None = None) -> None:
-        self.id = name or ""
-        self.source: str | None = None
-        self.name = name
-        self._context: ExecutionContext | None = None
+    _context: ExecutionContext | None = None
 
     def bind(self, context: ExecutionContext) -> None:
         """Joins a run: live fields read its world from now on."""
@@ -49,6 +38,3 @@ class Actor:
         if name.startswith("_"):
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
         return methods.bind(self, name)
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.id})"

@@ -39,6 +39,7 @@ class Environment(Actor):
     """
 
     kinds = ("environment", *Actor.kinds)
+    one_per_run = True
 
     def __init__(
         self,

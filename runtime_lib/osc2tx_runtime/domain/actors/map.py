@@ -26,6 +26,7 @@ class Map(Actor, RoadNetwork, TrafficLightControl):
     """
 
     kinds = ("map", *Actor.kinds)
+    one_per_run = True
 
     def __init__(
         self,

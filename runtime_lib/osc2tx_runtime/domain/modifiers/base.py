@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from osc2tx_rules import Rule
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.argument_rules import check_arguments
+from osc2tx_runtime.language.modifier import Modifier
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
-
-from .facts import ModifierFacts
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.parameters import Range
@@ -116,45 +113,6 @@ def target_of(shape: Shape | None) -> float | None:
     return shape.target if isinstance(shape, CommonShape) else None
 
 
-@dataclass(frozen=True, slots=True)
-class Modifier:
-    """Base of all modifiers.
-
-    Attributes:
-        name: Name in the DSL.
-        facts: What is stated of it at its registration.
-        rules: Which parameters go together; the compiler knows them as well.
-        shaped_by: The base of shapes that give the course of its value; None: there are none.
-    """
-
-    name: ClassVar[str] = ""
-    facts: ClassVar[ModifierFacts] = ModifierFacts()
-    rules: ClassVar[tuple[Rule, ...]] = ()
-    shaped_by: ClassVar[type[AnyShape] | None] = None
-
-    def __post_init__(self) -> None:
-        """Checks the rules. With slots, subclasses cannot reach it by `super()`."""
-        check_arguments(self.name, self.rules, self.given())
-        shape: Shape | None = getattr(self, "shape", None)
-        wanted = self.shaped_by
-        if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
-            raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")
-
-    @property
-    def is_start(self) -> bool:
-        """Whether it is a demand on the start alone."""
-        return getattr(self, "at", "all") == "start" and self.facts.rules.starts
-
-    def given(self) -> dict[str, Any]:
-        """Parameters with values that are not those of a modifier without arguments."""
-        values = ((field, getattr(self, field.name)) for field in fields(self))
-        return {
-            field.name: value
-            for field, value in values
-            if value is not None and value != field.default
-        }
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MovementModifier(Modifier):
     """Base of the modifiers with the common parameters (DSL 8.9.1.1).
@@ -165,7 +123,10 @@ class MovementModifier(Modifier):
             never turns back on its way; what cannot be done so fails.
         track: What counts of a reference: what it does, or (`projected`) what it would do if it
             went on in its lane at the speed it has at the start of the action.
+        shaped_by: The base of shapes that give the course of its value; None: there are none.
     """
+
+    shaped_by: ClassVar[type[AnyShape] | None] = None
 
     at: At = "all"
     movement_mode: MovementMode = "other"
@@ -180,3 +141,10 @@ class MovementModifier(Modifier):
     def monotonous(self) -> bool:
         """Whether it has to go without surprise."""
         return self.movement_mode == "monotonous"
+
+    def check(self) -> None:
+        """Checks that the shape is one of the value."""
+        shape: Shape | None = getattr(self, "shape", None)
+        wanted = self.shaped_by
+        if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
+            raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from osc2tx_rules import Sort
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
 from osc2tx_runtime.enums import MovementOptions
+from osc2tx_runtime.language.modifier_facts import COURSE, LANE, SIDE
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, now
-from .facts import COURSE, LANE, SIDE
 from .registry import modifier
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from osc2tx_rules import Sort, at_least, at_least_one, at_most_one
 from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
 from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
+from osc2tx_runtime.language.modifier_facts import LANE, SIDE
 from osc2tx_runtime.language.registry import LATERAL
 
 from .base import Modifier, MovementModifier, Value, now, wanted
-from .facts import LANE, SIDE
 from .registry import modifier
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from osc2tx_rules import at_least_one, at_most_one, none_of
 from osc2tx_runtime.domain.shapes import AnyShape, OwnShape
 from osc2tx_runtime.enums import OrientationMeasuredBy, YawMeasureBy
+from osc2tx_runtime.language.modifier_facts import LANE, SIDE
 from osc2tx_runtime.language.registry import LATERAL
 
 from .base import MovementModifier, Value, value_of, wanted
-from .facts import LANE, SIDE
 from .registry import modifier
 
 if TYPE_CHECKING:

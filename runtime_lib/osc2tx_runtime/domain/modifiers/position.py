@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Literal
 
 from osc2tx_rules import Sort, at_least_one, at_most_one, none_of
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.language.modifier_facts import COURSE
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, band_of, wanted
-from .facts import COURSE
 from .registry import modifier
 
 if TYPE_CHECKING:

@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from osc2tx_rules import ModifierRules, Rule, Sort
-from osc2tx_runtime.language.registry import Need
+from osc2tx_runtime.language.method import Need
+from osc2tx_runtime.language.modifier_facts import ModifierFacts
 
 from .base import Modifier, MovementModifier
-from .facts import ModifierFacts
 
 __all__ = ["MODIFIERS", "modifier"]
 

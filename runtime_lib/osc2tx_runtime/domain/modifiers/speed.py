@@ -16,10 +16,10 @@ from osc2tx_runtime.domain.shapes import (
 )
 from osc2tx_runtime.enums import DynamicProfile, LonLat
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.modifier_facts import COURSE, LANE, SIDE
 from osc2tx_runtime.language.registry import LONGITUDINAL
 
 from .base import Modifier, MovementModifier, Value, course_of, value_of, wanted
-from .facts import COURSE, LANE, SIDE
 from .registry import modifier
 
 if TYPE_CHECKING:

@@ -11,10 +11,9 @@ from osc2tx_runtime.domain.modifiers import (
     SetTrafficLightsControlFile,
 )
 from osc2tx_runtime.domain.placing.initial_state import Spot
+from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of
-from osc2tx_runtime.domain.routes.crossings import Crossing
-from osc2tx_runtime.domain.routes.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
@@ -25,8 +24,8 @@ from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.towing import pose_behind
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.routes.map_objects import MapObject
     from osc2tx_runtime.language.context import ExecutionContext
+    from osc2tx_runtime.language.declared import DeclaredObject
     from osc2tx_runtime.language.placement import Placement
 
 __all__ = ["ScenarioInitializer"]
@@ -40,7 +39,9 @@ class ScenarioInitializer:
         map_objects: Roads, lanes and the like that the scenario declares.
     """
 
-    def __init__(self, context: ExecutionContext, map_objects: Sequence[MapObject] = ()) -> None:
+    def __init__(
+        self, context: ExecutionContext, map_objects: Sequence[DeclaredObject] = ()
+    ) -> None:
         self._context = context
         self._map_objects = map_objects
         self._world = context.world
@@ -103,7 +104,6 @@ class ScenarioInitializer:
         ]
         if parts or relations:
             MapSolver(self._world.map, parts, relations).solve()
-        self._context.crossings.extend(p.found for p in parts if isinstance(p, Crossing))
         for line in lines:
             line.settle(self._world.map, self._world.signals)
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actions.modifier_groups import PLACES
 from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
+from osc2tx_runtime.domain.modifiers.groups import PLACES
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, headings_of, tilt_of
 from osc2tx_runtime.domain.planning.motion_action import Refused

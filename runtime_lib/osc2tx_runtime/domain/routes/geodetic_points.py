@@ -10,7 +10,7 @@ from osc2tx_runtime.opendrive import GeoReferenceError, Pose, RoadMap
 from osc2tx_runtime.world.actor_motion import ANY_LANE
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
 __all__ = ["check_globe", "place_of_geodetic"]
 
@@ -30,7 +30,7 @@ def place_of_geodetic(road_map: RoadMap, point: GeodeticPoint) -> Pose:
     return Pose(x, y, height + point.altitude, 0.0)
 
 
-def check_globe(scenario: Scenario, road_map: RoadMap) -> None:
+def check_globe(scenario: ScenarioParts, road_map: RoadMap) -> None:
     """Looks whether the points of the globe that a scenario declares have a place on its map.
 
     Raises:

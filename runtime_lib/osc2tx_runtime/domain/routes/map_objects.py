@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import DeclaredObject
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -13,18 +14,13 @@ if TYPE_CHECKING:
 __all__ = ["MapObject"]
 
 
-class MapObject:
-    """Something of the map; its live members can be read while the scenario runs.
-
-    Attributes:
-        source: Where it is declared.
-    """
+class MapObject(DeclaredObject):
+    """Something of the map; its live members can be read while the scenario runs."""
 
     word = ""
 
     def __init__(self, map_id: str | None) -> None:
         self._map_id = map_id
-        self.source: str | None = None
         self._context: ExecutionContext | None = None
 
     def bind(self, context: ExecutionContext) -> None:

@@ -72,7 +72,8 @@ def _aside(line: Pose, state: ActorState) -> float:
 
 def _on_crossing(context: ExecutionContext, state: ActorState) -> RoutePoint:
     """On a crossing of the scenario, else on a crosswalk of the map."""
-    for found in (*context.crossings, *graph_of(context.world.map).crossings):
+    declared = (each.found for each in context.objects if isinstance(each, Crossing))
+    for found in (*declared, *graph_of(context.world.map).crossings):
         assert found.line is not None
         s, t = found.line.place_of(state.x, state.y)
         half = 0.5 * (found.line.width or _UNKNOWN_WIDTH)

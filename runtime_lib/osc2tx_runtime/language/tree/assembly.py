@@ -5,30 +5,30 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.declared import BaseActor
+from osc2tx_runtime.language.settings import near
+from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.base import Behaviour, Leaf, Node
 from osc2tx_runtime.language.tree.compositions import Composition, OneOf
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import End, Ending
 from osc2tx_runtime.language.tree.events import Event
-from osc2tx_runtime.language.tree.invocation import invocations, unique_name
+from osc2tx_runtime.language.tree.invocation import invocations, own_nodes, unique_name
 from osc2tx_runtime.language.tree.override import Mode, guard
 from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.language.tree.variables import Sampling
-from osc2tx_runtime.running.settings import near
-from osc2tx_runtime.running.sidecar import apply_lines, own_nodes
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.placement import Placement
-    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
 __all__ = ["assemble", "invoked_placements", "number_nodes"]
 
 
-def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
+def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     """Return the tree of a scenario with all that its nodes do not say themselves.
 
     The trees of the scenarios it invokes are assembled already.
@@ -53,7 +53,21 @@ def assemble(scenario: Scenario, tree: Behaviour) -> Behaviour:
     return with_services(scenario, tree, services) if services else tree
 
 
-def name_nodes(scenario: Scenario, tree: Behaviour) -> None:
+def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
+    """Give the nodes of a scenario's tree their places.
+
+    The trees of invoked scenarios have their own maps and are left alone. If the map does not fit
+    the tree, the nodes get the file without a line.
+    """
+    nodes = [node for node in own_nodes(root) if not node.synthetic]
+    fits = len(nodes) == len(source_map.nodes)
+    for node in own_nodes(root):
+        node.source = source_map.file
+    for node, line in zip(nodes, source_map.nodes if fits else (), strict=False):
+        node.source = source_map.place(line)
+
+
+def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
     """Give the nodes of a scenario names that differ, and what their random values depend on.
 
     That are names of the module: of the composition around, and of the node or what it does.
@@ -79,7 +93,7 @@ def composition_around(node: Behaviour) -> str:
     return "" if above is None else above.name
 
 
-def check_labels(scenario: Scenario, tree: Behaviour) -> None:
+def check_labels(scenario: ScenarioParts, tree: Behaviour) -> None:
     """Report a label that somebody waits for and no node has."""
     known = {node.label for node in own_nodes(tree) if node.label}
     for label, moment in scenario.label_events:
@@ -88,7 +102,7 @@ def check_labels(scenario: Scenario, tree: Behaviour) -> None:
             raise ScenarioError(f"@{label}.{moment}: no node has this label{hint}", scenario.source)
 
 
-def find_event(scenario: Scenario, path: str) -> Event:
+def find_event(scenario: ScenarioParts, path: str) -> Event:
     """Return the event a path means: `near`, `cut.end`, or `p1.` before either.
 
     Raises:
@@ -105,7 +119,7 @@ def find_event(scenario: Scenario, path: str) -> Event:
     return find_event(scenario.invoked(label), rest)
 
 
-def find_node(scenario: Scenario, tree: Behaviour, path: str) -> Node:
+def find_node(scenario: ScenarioParts, tree: Behaviour, path: str) -> Node:
     """Return the node with a label, also `p1.cut` in an invoked scenario.
 
     Raises:
@@ -124,7 +138,7 @@ def find_node(scenario: Scenario, tree: Behaviour, path: str) -> Node:
 
 
 def with_override(
-    scenario: Scenario, tree: Behaviour, overridden: str, by: str, mode: Mode
+    scenario: ScenarioParts, tree: Behaviour, overridden: str, by: str, mode: Mode
 ) -> Behaviour:
     """Return the tree with a guard around a behavior that another overrides."""
     if overridden == by:
@@ -134,21 +148,21 @@ def with_override(
     return tree if around.parent is not None else around
 
 
-def with_services(scenario: Scenario, tree: Behaviour, services: list[Leaf]) -> Behaviour:
+def with_services(scenario: ScenarioParts, tree: Behaviour, services: list[Leaf]) -> Behaviour:
     """Return the tree with the nodes beside it that sample variables and coverage items."""
     for service in services:
         service.source, service.scope = getattr(tree, "source", ""), scenario._path
     return around(scenario, tree, Parallel(f"{tree.name}, with what it samples", tree, *services))
 
 
-def around(scenario: Scenario, tree: Behaviour, whole: Node) -> Node:
+def around(scenario: ScenarioParts, tree: Behaviour, whole: Node) -> Node:
     """Return a node around a tree that the module does not write."""
     whole.synthetic, whole.label = True, None
     whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
     return whole
 
 
-def invoked_placements(scenario: Scenario, tree: Behaviour) -> list[Placement]:
+def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placement]:
     """Return the placements of all scenarios that a tree invokes.
 
     Raises:
@@ -169,14 +183,14 @@ def invoked_placements(scenario: Scenario, tree: Behaviour) -> list[Placement]:
     return found
 
 
-def number_nodes(scenario: Scenario, tree: Behaviour) -> None:
+def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
     """Note where each node stands in the whole tree, those of invoked scenarios included."""
     for position, node in enumerate(in_order(tree, scenario.actors.values())):
         if isinstance(node, Node):
             node.position = position
 
 
-def in_order(tree: Behaviour, actors: Iterable[Actor]) -> list[Behaviour]:
+def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
     """Return the nodes of a tree, parents first, in an order that its meaning decides.
 
     Members that run together are ordered by their actors as these are declared, then by name:

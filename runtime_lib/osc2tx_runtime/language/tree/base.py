@@ -12,16 +12,13 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from osc2tx_runtime.errors import ScenarioError
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.context import ExecutionContext
-    from osc2tx_runtime.language.tree.events import Event
+from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 
 __all__ = [
     "Activity",
@@ -101,13 +98,13 @@ class Node(Behaviour):
     service: bool = False
     synthetic: bool = False
     scope: str = ""
-    listeners: Mapping[tuple[str, str], Event] | None = None
+    listeners: Mapping[tuple[str, str], PostedEvent] | None = None
     activity: Activity | None = None
     failed_at: float | None = None
     context: ExecutionContext
-    _started: Event | None = None
-    _ended: Event | None = None
-    _failed: Event | None = None
+    _started: PostedEvent | None = None
+    _ended: PostedEvent | None = None
+    _failed: PostedEvent | None = None
 
     def setup(self, **kwargs: Any) -> None:
         """Take the `context` of the run."""
@@ -244,7 +241,13 @@ def pulse_of(child: Behaviour) -> Callable[[], Status]:
     return tick_foreign
 
 
-def place_key(node: Behaviour) -> tuple[int, str]:
+class Named(Protocol):
+    """Something with a name, such as a node."""
+
+    name: str
+
+
+def place_key(node: Named) -> tuple[int, str]:
     """Return the sort key of a node: its place in the tree; where nobody set it, its name."""
     return getattr(node, "position", 0), node.name
 

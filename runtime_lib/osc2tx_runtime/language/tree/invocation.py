@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.domain.actors import Actor, Environment, Map
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.tree.base import Behaviour, Node
 from osc2tx_runtime.language.tree.compositions import OneOf, Serial
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parallel import Parallel
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.scenario import Scenario
+    from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
-__all__ = ["Caller", "Invocation", "check_recursion", "draw_key", "invocations", "unique_name"]
-
-ONE_PER_RUN = (Map, Environment)
-ActorT = TypeVar("ActorT", bound=Actor)
+__all__ = ["Invocation", "check_recursion", "draw_key", "invocations", "own_nodes", "unique_name"]
 
 
 class Invocation(Serial):
@@ -35,50 +31,13 @@ class Invocation(Serial):
     """
 
     def __init__(
-        self, name: str, scenario: Scenario, body: Behaviour, duration: Duration | None = None
+        self, name: str, scenario: ScenarioParts, body: Behaviour, duration: Duration | None = None
     ) -> None:
         super().__init__(name, body, duration=duration)
         self.scenario = scenario
 
 
-@dataclass(frozen=True, slots=True)
-class Caller:
-    """Who invokes a scenario, and how.
-
-    Attributes:
-        scenario: The scenario that invokes.
-        path: Path of the invocation: the labels from the scenario that runs down to it.
-        key: Names its draws from the seed.
-        arguments: As given.
-    """
-
-    scenario: Scenario
-    path: str
-    key: str
-    arguments: Mapping[str, Any]
-
-    def cast(self, name: str, declared: ActorT) -> ActorT:
-        """Return the actor handed in for a declared one; what there is one of is shared.
-
-        Raises:
-            ScenarioError: If an actor of another kind was handed in.
-        """
-        given = self.arguments.get(name)
-        if given is None:
-            if isinstance(declared, ONE_PER_RUN):
-                actors = self.scenario._root.actors.values()
-                return next((actor for actor in actors if type(actor) is type(declared)), declared)
-            return declared
-        if not isinstance(given, type(declared)):
-            what = given.kinds[0] if isinstance(given, Actor) else repr(given)
-            raise ScenarioError(
-                f"{self.path}: {name} must be a {declared.kinds[0]}, not {what}",
-                self.scenario.source,
-            )
-        return given
-
-
-def check_recursion(scenario: Scenario, invoked: type[Scenario]) -> None:
+def check_recursion(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> None:
     """Refuse a scenario that invokes itself, directly or through others.
 
     Raises:
@@ -93,9 +52,9 @@ def check_recursion(scenario: Scenario, invoked: type[Scenario]) -> None:
 
 
 def draw_key(
-    caller: Scenario,
-    invoked: type[Scenario],
-    actor: Actor | None,
+    caller: ScenarioParts,
+    invoked: type[ScenarioParts],
+    actor: BaseActor | None,
     arguments: Mapping[str, Any],
 ) -> str:
     """Return what draws of an invoked scenario depend on: `ego vehicle.approach(lead: car1)`.
@@ -103,7 +62,9 @@ def draw_key(
     That are names in the module alone. Values are left out: setting or drawing one does not
     change what else is drawn.
     """
-    fields = {id(value): name for name, value in vars(caller).items() if isinstance(value, Actor)}
+    fields = {
+        id(value): name for name, value in vars(caller).items() if isinstance(value, BaseActor)
+    }
     shown = [
         f"{name}: {fields[id(value)]}" if id(value) in fields else name
         for name, value in arguments.items()
@@ -119,6 +80,15 @@ def unique_name(name: str, taken: Mapping[str, object]) -> str:
         number += 1
         found = f"{name}_{number}"
     return found
+
+
+def own_nodes(root: Behaviour) -> Iterator[Node]:
+    """Yield the nodes of a scenario, parents first, without those of the scenarios it invokes."""
+    if isinstance(root, Node):
+        yield root
+    if not isinstance(root, Invocation):
+        for child in root.children:
+            yield from own_nodes(child)
 
 
 def invocations(

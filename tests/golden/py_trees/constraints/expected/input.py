@@ -51,11 +51,7 @@ class Constraints(Scenario):
         self.npc_bounding_box_length = self.parameter(
             "npc.bounding_box.length", within(4 * m, 5 * m)
         )
-        self.npc = Vehicle(
-            vehicle_category="car",
-            # set as `ego.bounding_box.length`
-            length=self.npc_bounding_box_length,
-        )
+        self.npc = Vehicle(vehicle_category="car", length=self.npc_bounding_box_length)
 
         # one bound and a default: the bound holds for settings
         self.gap = self.parameter("gap", 10 * m, at_least(3 * m))

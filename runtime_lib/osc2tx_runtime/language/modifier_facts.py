@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from osc2tx_rules import ModifierRules
-from osc2tx_runtime.language.registry import Need
+from osc2tx_runtime.language.method import Need
 
 __all__ = ["COURSE", "LANE", "SIDE", "ModifierFacts"]
 

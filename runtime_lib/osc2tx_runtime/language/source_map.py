@@ -7,15 +7,12 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from osc2tx_runtime.language.tree.base import Behaviour, Node
-from osc2tx_runtime.language.tree.invocation import Invocation
-
-__all__ = ["SourceMap", "apply_lines", "own_nodes", "read_source_map"]
+__all__ = ["SourceMap", "read_source_map"]
 
 VERSION = 2
 
@@ -87,29 +84,6 @@ def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
         placements=_lines(entry.get("placements")),
         nodes=_lines(entry.get("nodes")),
     )
-
-
-def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
-    """Give the nodes of a scenario's tree their places.
-
-    The trees of invoked scenarios have their own maps and are left alone. If the map does not fit
-    the tree, the nodes get the file without a line.
-    """
-    nodes = [node for node in own_nodes(root) if not node.synthetic]
-    fits = len(nodes) == len(source_map.nodes)
-    for node in own_nodes(root):
-        node.source = source_map.file
-    for node, line in zip(nodes, source_map.nodes if fits else (), strict=False):
-        node.source = source_map.place(line)
-
-
-def own_nodes(root: Behaviour) -> Iterator[Node]:
-    """Yield the nodes of a scenario, parents first, without those of the scenarios it invokes."""
-    if isinstance(root, Node):
-        yield root
-    if not isinstance(root, Invocation):
-        for child in root.children:
-            yield from own_nodes(child)
 
 
 def _table(value: Any) -> Mapping[str, Any]:

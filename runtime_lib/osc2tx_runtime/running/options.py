@@ -1,85 +1,20 @@
-"""Settings of one run, and the table of options that both command lines are built from."""
+"""The options of a run: the table that both command lines are built from, and their texts."""
 
 from __future__ import annotations
 
-import difflib
-import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.language.settings import RunSettings
 
-__all__ = ["OPTIONS", "Option", "RunSettings", "check_known", "near"]
+__all__ = ["OPTIONS", "Option", "parse_signal", "parse_spawn", "read_options"]
 
 SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 0.001, "min": 60.0}
 NUMBER_AND_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z]*)")
-
-
-@dataclass(frozen=True, slots=True)
-class RunSettings:
-    """What a run needs besides the scenario; every field has a default.
-
-    Attributes:
-        map_path: Folders searched for map files, before the maps of this package; a file among
-            them is used as the map itself.
-        signal: Events given from outside: name to time in seconds.
-        spawn: Start position of actors: id to (road id, lane id, road s in metres).
-        destination: Where vehicles go: id to an actor id or `ROAD,LANE,S`.
-        set: Values of the scenario's parameters, SI units: name to number or text.
-        seed: Of all that is sampled.
-        dt: Length of a step in seconds.
-        max_time: Simulated seconds after which the run ends with status `timeout`.
-        trace: Where to write the trace (JSON Lines).
-        report: Where to write the report (HTML).
-        allow_external: Functions of the user that the scenario may call, `module.function`.
-    """
-
-    map_path: tuple[Path, ...] = ()
-    signal: Mapping[str, float] = field(default_factory=dict)
-    spawn: Mapping[str, tuple[str, int, float]] = field(default_factory=dict)
-    destination: Mapping[str, str] = field(default_factory=dict)
-    set: Mapping[str, float | str] = field(default_factory=dict)
-    seed: int = 0
-    dt: float = 0.05
-    max_time: float = 300.0
-    trace: Path | None = None
-    report: Path | None = None
-    allow_external: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.dt) and self.dt > 0):
-            raise SettingsError(f"dt is {self.dt}: write a step length above zero, as in --dt 0.05")
-        if not (math.isfinite(self.max_time) and self.max_time > 0):
-            raise SettingsError(
-                f"max-time is {self.max_time}: write seconds above zero, as in --max-time 60"
-            )
-
-    @classmethod
-    def from_options(cls, texts: Mapping[str, str | Sequence[str] | None]) -> RunSettings:
-        """Build settings from the texts of a command line.
-
-        Args:
-            texts: Option name (`map-path` or `map_path`) to what was written: one text, a sequence
-                for repeatable options, None or nothing at all for the default.
-
-        Raises:
-            SettingsError: If a text does not have the form of its option.
-        """
-        given = {name.replace("_", "-"): text for name, text in texts.items()}
-        values: dict[str, Any] = {}
-        for option in OPTIONS:
-            text = given.pop(option.name, None)
-            if text is None:
-                continue
-            many = [text] if isinstance(text, str) else list(text)
-            if many:
-                values[option.field] = option.read(many)
-        if given:
-            raise SettingsError(f"unknown option --{min(given)}")
-        return cls(**values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,16 +147,25 @@ OPTIONS: tuple[Option, ...] = (
 )
 
 
-def check_known(option: str, what: str, given: Any, known: Any) -> None:
-    """Raise SettingsError for a name of the settings that the scenario does not have."""
-    for name in given:
-        if name not in known:
-            has = f"it has {', '.join(known)}" if known else "it has none"
-            hint = near(name, known) or f" ({has})"
-            raise SettingsError(f"{option} {name}: the scenario has no such {what}{hint}")
+def read_options(texts: Mapping[str, str | Sequence[str] | None]) -> RunSettings:
+    """Build settings from the texts of a command line.
 
+    Args:
+        texts: Option name (`map-path` or `map_path`) to what was written: one text, a sequence
+            for repeatable options, None or nothing at all for the default.
 
-def near(name: str, known: Any) -> str:
-    """Return a question that offers similar names, or nothing."""
-    found = difflib.get_close_matches(name, sorted(known), n=3)
-    return f"; did you mean {' or '.join(found)}?" if found else ""
+    Raises:
+        SettingsError: If a text does not have the form of its option.
+    """
+    given = {name.replace("_", "-"): text for name, text in texts.items()}
+    values: dict[str, Any] = {}
+    for option in OPTIONS:
+        text = given.pop(option.name, None)
+        if text is None:
+            continue
+        many = [text] if isinstance(text, str) else list(text)
+        if many:
+            values[option.field] = option.read(many)
+    if given:
+        raise SettingsError(f"unknown option --{min(given)}")
+    return RunSettings(**values)

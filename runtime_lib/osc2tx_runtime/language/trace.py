@@ -6,10 +6,9 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.action import Action
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["TRACE_VERSION", "TraceWriter", "number"]
@@ -49,6 +48,25 @@ def to_json(value: Any) -> str:
     return json.dumps(str(getattr(value, "id", value)))
 
 
+class TracedActor(Protocol):
+    """What the trace says of an actor."""
+
+    id: str
+
+
+class TracedAction(Protocol):
+    """What the trace says of an action."""
+
+    action_name: str
+    source: str
+    position: int
+
+    @property
+    def actor(self) -> TracedActor:
+        """Who acts."""
+        ...
+
+
 class TraceWriter:
     """Collects the lines of a run.
 
@@ -80,7 +98,7 @@ class TraceWriter:
             values = {key: arguments[key] for key in sorted(arguments)} if arguments else {}
             self._events.add((name, f',"arguments":{to_json(values)}' if values else ""))
 
-    def action(self, status: str, action: Action, reason: str | None = None) -> None:
+    def action(self, status: str, action: TracedAction, reason: str | None = None) -> None:
         """Note that an action starts, ends or fails; `reason` says why where it is not plain."""
         if not self.enabled:
             return

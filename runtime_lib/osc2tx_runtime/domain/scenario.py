@@ -1,0 +1,49 @@
+"""The base of generated scenarios: those of the language, with a map."""
+
+from __future__ import annotations
+
+from osc2tx_runtime.domain.actors import Actor, Map
+from osc2tx_runtime.domain.modifiers import MapModifier, SetMapFile
+from osc2tx_runtime.domain.routes.map_objects import MapObject
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.scenario import BaseScenario
+
+__all__ = ["Scenario", "bind_all"]
+
+
+class Scenario(BaseScenario):
+    """A scenario. Generated classes write `declare`, `placement` and `behavior`."""
+
+    def require(self, road_map: Map, *modifiers: MapModifier) -> None:
+        """Say what the declared roads and lanes of the map are like."""
+        self.place(road_map, *modifiers)
+
+    def map_file(self) -> str | None:
+        """Return the map file the scenario names; None if it leaves the map open.
+
+        Raises:
+            ScenarioError: If it names two.
+        """
+        maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
+        named = [(found.named_file, found.source) for found in maps if found.named_file]
+        named += [
+            (modifier.file, placement.source)
+            for placement in self.placements
+            for modifier in placement.modifiers
+            if isinstance(modifier, SetMapFile)
+        ]
+        for file, source in named[1:]:
+            if file != named[0][0]:
+                raise ScenarioError(f"two maps are named: {named[0][0]} and {file}", source)
+        return named[0][0] if named else None
+
+
+def bind_all(scenario: Scenario, context: ExecutionContext) -> None:
+    """Let the actors of a scenario and what it declares of the map join a run."""
+    for actor in scenario.actors.values():
+        if isinstance(actor, Actor):
+            actor.bind(context)
+    for each in scenario.map_objects:
+        if isinstance(each, MapObject):
+            each.bind(context)

@@ -1,0 +1,124 @@
+"""What a scenario consists of: cast, events, placements, what it invokes, and who invokes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
+from osc2tx_runtime.language.placement import Placement
+from osc2tx_runtime.language.scenario_values import ScenarioValues
+from osc2tx_runtime.language.settings import RunSettings, near
+from osc2tx_runtime.language.source_map import read_source_map
+from osc2tx_runtime.language.tree.events import Event
+from osc2tx_runtime.language.tree.override import Mode
+from osc2tx_runtime.language.tree.variables import Sampled
+
+__all__ = ["Caller", "ScenarioParts"]
+
+ActorT = TypeVar("ActorT", bound=BaseActor)
+
+
+class ScenarioParts(ScenarioValues):
+    """What a scenario has declared, and what its tree is assembled from.
+
+    Args:
+        settings: Of the run.
+        caller: The scenario that invokes this one.
+        arguments: Values of parameters, and actors that take the place of the declared ones.
+
+    Attributes:
+        name: Name in the scenario file.
+        source: Scenario file.
+        one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
+        settings: Of the run.
+        actors: Declared actors by id, in order; the scenario that runs also has those of all that
+            it invokes.
+        map_objects: Declared traffic lights and groups of them; likewise.
+        events: Declared events by name, in order; likewise.
+        parameters: Values of the parameters, in order; likewise.
+        placements: What `placement` asked for; likewise, once there is a tree.
+        label_events: (label, `start` | `end` | `fail`) to the event that somebody waits for.
+    """
+
+    name: ClassVar[str] = ""
+    source: ClassVar[str] = ""
+    one_of: ClassVar[str] = "race"
+
+    def __init__(
+        self,
+        settings: RunSettings,
+        caller: Caller | None,
+        arguments: Mapping[str, Any],
+    ) -> None:
+        super().__init__(
+            settings,
+            arguments,
+            read_source_map(type(self), self.name, self.source),
+            caller=None if caller is None else caller.scenario,
+            path="" if caller is None else caller.path,
+            key="" if caller is None else caller.key,
+        )
+        self._caller = caller
+        self._root: ScenarioParts = self if caller is None else caller.scenario._root
+        self.actors: dict[str, BaseActor] = {}
+        self.map_objects: list[DeclaredObject] = []
+        self.events: dict[str, Event] = {}
+        self.placements: list[Placement] = []
+        self.label_events: dict[tuple[str, str], Event] = {}
+        self._variables: dict[str, Sampled] = {}
+        self._invoked: dict[str, ScenarioParts] = {}
+        self._keys: dict[str, None] = {}
+        self._inner_events: dict[str, Event] = {}
+        self._overrides: list[tuple[str, str, Mode]] = []
+
+    def invoked(self, label: str) -> Any:
+        """Return an invoked scenario, to read its values: `self.invoked("p1").gap`."""
+        if label not in self._invoked:
+            hint = near(label, self._invoked)
+            raise ScenarioError(f"{label}: no invocation has this label{hint}", self.source)
+        return self._invoked[label]
+
+    def _label_event(self, label: str, moment: str) -> Event:
+        event = self.label_events.setdefault((label, moment), Event())
+        event.name = f"{self._path}.{label}.{moment}" if self._path else f"{label}.{moment}"
+        return event
+
+
+@dataclass(frozen=True, slots=True)
+class Caller:
+    """Who invokes a scenario, and how.
+
+    Attributes:
+        scenario: The scenario that invokes.
+        path: Path of the invocation: the labels from the scenario that runs down to it.
+        key: Names its draws from the seed.
+        arguments: As given.
+    """
+
+    scenario: ScenarioParts
+    path: str
+    key: str
+    arguments: Mapping[str, Any]
+
+    def cast(self, name: str, declared: ActorT) -> ActorT:
+        """Return the actor handed in for a declared one; what there is one of is shared.
+
+        Raises:
+            ScenarioError: If an actor of another kind was handed in.
+        """
+        given = self.arguments.get(name)
+        if given is None:
+            if declared.one_per_run:
+                actors = self.scenario._root.actors.values()
+                return next((actor for actor in actors if type(actor) is type(declared)), declared)
+            return declared
+        if not isinstance(given, type(declared)):
+            what = given.kinds[0] if isinstance(given, BaseActor) else repr(given)
+            raise ScenarioError(
+                f"{self.path}: {name} must be a {declared.kinds[0]}, not {what}",
+                self.scenario.source,
+            )
+        return given

@@ -1,0 +1,69 @@
+"""Settings of one run."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from osc2tx_runtime.errors import SettingsError
+
+__all__ = ["RunSettings", "check_known", "near"]
+
+
+@dataclass(frozen=True, slots=True)
+class RunSettings:
+    """What a run needs besides the scenario; every field has a default.
+
+    Attributes:
+        map_path: Folders searched for map files, before the maps of this package; a file among
+            them is used as the map itself.
+        signal: Events given from outside: name to time in seconds.
+        spawn: Start position of actors: id to (road id, lane id, road s in metres).
+        destination: Where vehicles go: id to an actor id or `ROAD,LANE,S`.
+        set: Values of the scenario's parameters, SI units: name to number or text.
+        seed: Of all that is sampled.
+        dt: Length of a step in seconds.
+        max_time: Simulated seconds after which the run ends with status `timeout`.
+        trace: Where to write the trace (JSON Lines).
+        report: Where to write the report (HTML).
+        allow_external: Functions of the user that the scenario may call, `module.function`.
+    """
+
+    map_path: tuple[Path, ...] = ()
+    signal: Mapping[str, float] = field(default_factory=dict)
+    spawn: Mapping[str, tuple[str, int, float]] = field(default_factory=dict)
+    destination: Mapping[str, str] = field(default_factory=dict)
+    set: Mapping[str, float | str] = field(default_factory=dict)
+    seed: int = 0
+    dt: float = 0.05
+    max_time: float = 300.0
+    trace: Path | None = None
+    report: Path | None = None
+    allow_external: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.dt) and self.dt > 0):
+            raise SettingsError(f"dt is {self.dt}: write a step length above zero, as in --dt 0.05")
+        if not (math.isfinite(self.max_time) and self.max_time > 0):
+            raise SettingsError(
+                f"max-time is {self.max_time}: write seconds above zero, as in --max-time 60"
+            )
+
+
+def check_known(option: str, what: str, given: Any, known: Any) -> None:
+    """Raise SettingsError for a name of the settings that the scenario does not have."""
+    for name in given:
+        if name not in known:
+            has = f"it has {', '.join(known)}" if known else "it has none"
+            hint = near(name, known) or f" ({has})"
+            raise SettingsError(f"{option} {name}: the scenario has no such {what}{hint}")
+
+
+def near(name: str, known: Any) -> str:
+    """Return a question that offers similar names, or nothing."""
+    found = difflib.get_close_matches(name, sorted(known), n=3)
+    return f"; did you mean {' or '.join(found)}?" if found else ""

@@ -1,0 +1,69 @@
+"""Judges a settled instant: two actions that control the same thing are a conflict.
+
+Claims and effects are judged together at the end of an instant, so a hand-over from one action to
+the next is silent in whatever order the tree visits them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx_runtime.errors import SlotConflict
+from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.slots import Owner
+from osc2tx_runtime.language.tree.base import Behaviour, place_key
+from osc2tx_runtime.language.tree.compositions import OneOf, Serial
+
+__all__ = ["check_conflicts"]
+
+
+def check_conflicts(context: ExecutionContext) -> None:
+    """Judge the claims and effects of a settled instant.
+
+    Raises:
+        SlotConflict: If two actions control the same thing.
+    """
+    for (actor_id, slot), owners in context.slots.contested():
+        raise conflict(f"the {slot} slot of {actor_id}", owners)
+    for key, effects in context.effects.contested():
+        # By place, so that the report is the same whatever the order of the visit.
+        effects.sort(key=lambda effect: place_key(effect.owner))
+        for index, one in enumerate(effects):
+            for other in effects[index + 1 :]:
+                if one.value != other.value and not in_sequence(one.owner, other.owner):
+                    raise conflict(" ".join(key), [one.owner, other.owner])
+
+
+def conflict(what: str, owners: Sequence[Owner]) -> SlotConflict:
+    """Return the error that names two owners and their places, in the order of the source."""
+    first, second = sorted(owners, key=place_key)[:2]
+    return SlotConflict(
+        f"{first.name} ({first.source}) and {second.name} ({second.source}) control {what}"
+        f" at the same time; {remedy(first, second)}",
+        second.source or None,
+    )
+
+
+def remedy(one: Owner, other: Owner) -> str:
+    """Return what may help where two nodes must not run at the same time."""
+    if isinstance(nearest_above(one, other), OneOf):
+        return "all members of a race run: let `--one-of first` or `seeded` choose one of them"
+    return "let them run one after the other"
+
+
+def in_sequence(one: Owner, other: Owner) -> bool:
+    """Return whether a serial composition orders the two nodes."""
+    return isinstance(nearest_above(one, other), Serial)
+
+
+def nearest_above(one: Owner, other: Owner) -> Behaviour | None:
+    """Return the innermost node that two nodes are both in."""
+    above = []
+    node = one.parent
+    while node is not None:
+        above.append(node)
+        node = node.parent
+    node = other.parent
+    while node is not None and node not in above:
+        node = node.parent
+    return node

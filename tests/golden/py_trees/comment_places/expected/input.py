@@ -1,0 +1,104 @@
+"""Scenario `top`.
+
+Above the last line of the head.
+
+Made by osc2tx from input.osc: edit the scenario, not this module.
+OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+"""
+
+from dataclasses import dataclass
+
+from osc2tx_runtime import (
+    Behaviour,
+    Event,
+    Parallel,
+    Scenario,
+    Serial,
+    Until,
+    Vehicle,
+    Wait,
+    at_most,
+    elapsed,
+    main,
+    require_api,
+)
+from osc2tx_runtime.modifiers import speed
+from osc2tx_runtime.units import kph, m, s
+
+require_api(1)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Part:
+    """Struct `part`.
+
+    tag::part[]
+    """
+
+    size: float = 2 * m
+
+
+class Top(Scenario):
+    """Of the scenario: nothing stands between.
+    The second paragraph.
+    """
+
+    name = "top"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        # First in its block.
+        self.one = Part()
+        self.ego = Vehicle()
+        self.other = Vehicle()
+
+        # above a value
+        self.v = self.parameter("v", 30 * kph, at_most(50 * kph))
+        self.over = Event()
+
+        self.keep(self.v < 50 * kph)
+
+    def placement(self) -> None:
+        """Where the actors are when the scenario starts."""
+        self.place(self.ego, speed(self.v))
+        self.place(self.other, speed(self.v))
+
+    def behavior(self) -> Behaviour:
+        return Parallel(
+            "top",
+            self.ego.drive(speed(self.v)),
+            self.other.drive(
+                # Above a modifier.
+                # beside a bracket
+                # within brackets
+                # behind an argument
+                speed(self.v)
+            ),
+            self.serial(),
+            duration=1 * s,
+            # At the end of the parallel.
+        )
+
+    # Above a serial.
+    def serial(self) -> Behaviour:
+        return Until(
+            Serial(
+                "serial",
+                Wait(elapsed(0.5 * s)),
+                # emit over
+            ),
+            # Above the `with` of the serial.
+            elapsed(1 * s),
+        )
+
+    # At the end of the scenario.
+
+
+def create_root() -> Behaviour:
+    """Return the behavior tree, for py-trees-render and other viewers."""
+    return Top().create_tree()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(Top))
