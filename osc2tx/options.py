@@ -1,4 +1,4 @@
-"""What can be chosen about a compilation."""
+"""Options of a compilation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way to the folders of data that belong to osc2tx."""
+"""Paths of the data folders of osc2tx: templates and grammar."""
 
 from __future__ import annotations
 

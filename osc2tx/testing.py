@@ -66,7 +66,7 @@ def assert_build_fresh(
     """
     __tracebackhide__ = True
     from osc2tx.building.build import BuildOptions, build
-    from osc2tx.compilation.file_reports import settle_all
+    from osc2tx.compilation.file_reports import apply_suppressions
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics import Severity
 
@@ -77,7 +77,7 @@ def assert_build_fresh(
     problems = [
         *(
             f"{found.primary}: {found.code}: {found.message}"
-            for found in settle_all(result.results).shown
+            for found in apply_suppressions(result.results).shown
             if found.severity is Severity.ERROR
         ),
         *result.bugs,

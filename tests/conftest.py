@@ -10,8 +10,10 @@ from hypothesis import HealthCheck, settings
 DATA_VARIABLE = "OSC2TX_TEST_DATA"
 
 # The same examples each time, and no clock decides: the machine may be busy.
+# tests/fuzz/run.py tries other ones for as long as one likes.
 settings.register_profile(
     "osc2tx",
+    max_examples=50,
     deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],

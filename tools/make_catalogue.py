@@ -32,6 +32,8 @@ NAMES = REPOSITORY / "runtime_lib" / "osc2tx_runtime" / "modifiers.py"
 # the lowering turns the item into something else; nothing carries it out.
 WORDS = ("abstract", "lowered", "unsupported")
 
+WIDTH = 100
+
 SECTION = re.compile(r"# §([\d.]+)")
 
 
@@ -246,20 +248,24 @@ def _dsl(name: str) -> str:
 
 def names() -> str:
     """Return the module with the modifiers by their names in the DSL."""
-    kinds = sorted(MODIFIERS.items())
+    kinds = sorted(MODIFIERS.items(), key=lambda each: (each[1].__module__, each[1].__name__))
     return "\n".join(
         [
             '"""The modifiers by their names in the DSL; made by tools/make_catalogue.py."""',
             "",
-            "from osc2tx_runtime.domain import modifiers",
-            "",
-            *(f"{name} = modifiers.{kind.__name__}" for name, kind in kinds),
+            *(_import(kind.__module__, kind.__name__, name) for name, kind in kinds),
             "",
             "__all__ = [",
-            *(f'    "{name}",' for name, _ in kinds),
+            *(f'    "{name}",' for name in sorted(MODIFIERS)),
             "]\n",
         ]
     )
+
+
+def _import(module: str, kind: str, name: str) -> str:
+    """Return an import of a class by another name, broken as black does it."""
+    line = f"from {module} import {kind} as {name}"
+    return line if len(line) <= WIDTH else f"from {module} import (\n    {kind} as {name},\n)"
 
 
 def render() -> dict[Path, str]:

@@ -100,8 +100,8 @@ def _section(code: Code) -> str:
     if explanation is not None:
         options = f" (with `{explanation.options}`)" if explanation.options else ""
         parts += [f"Faulty{options}:", code_block(explanation.faulty), explanation.remedy]
-        if explanation.mended:
-            parts += ["Mended:", code_block(explanation.mended)]
+        if explanation.fixed:
+            parts += ["Fixed:", code_block(explanation.fixed)]
     return "\n\n".join(parts) + "\n"
 
 

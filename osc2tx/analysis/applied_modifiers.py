@@ -1,4 +1,4 @@
-"""What the modifiers of an invocation amount to: those of the user stand for their bodies."""
+"""Modifiers of the library that apply to an invocation; those of the user are expanded."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the operands of an operation can be, given what it yields.
+"""Backward propagation: domains of operands from the domain of the result.
 
 Each function returns new domains for some operands, as pairs of position and domain. What is not
 returned stays as it is.
@@ -19,9 +19,9 @@ from osc2tx.analysis.domains import (
     Domain,
     EmptyDomainError,
     Interval,
-    hull,
     is_disjoint,
     is_void,
+    join,
 )
 from osc2tx.analysis.forward import negated, range_between
 from osc2tx.analysis.operation_list import Operation
@@ -199,7 +199,7 @@ def _in_list(operands: Sequence[Domain]) -> Narrowings:
     possible = [e for e in elements if not is_disjoint(value, e)]
     if not possible:
         raise EmptyDomainError
-    whole: Domain = reduce(hull, possible)
+    whole: Domain = reduce(join, possible)
     yield 0, _without_nan(whole)
 
 

@@ -1,4 +1,4 @@
-"""What the cast of a scenario lacks: a map, places and speeds to start with."""
+"""Checks of the actors of a scenario: map, start position and start speed."""
 
 from __future__ import annotations
 

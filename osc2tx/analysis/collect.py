@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
-from osc2tx.analysis.operation_list import Key, Tape, TapeWriter
+from osc2tx.analysis.operation_list import Key, OperationList, OperationListBuilder
 from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.analysis.specialisation import Special
 from osc2tx.analysis.tree_walk import do_members
@@ -42,7 +42,7 @@ class Constraint:
         is_default: Whether a later one may replace it.
         subject: The parameter alone on its left side, if it is an equality or a range.
         value: What the subject is set to, or the range or list that it is in.
-        tape: The whole of it.
+        operations: The whole of it.
         place: Where the names in `value` are looked up.
     """
 
@@ -52,13 +52,13 @@ class Constraint:
     is_default: bool
     subject: Key | None
     value: ast.Expression | None
-    tape: Tape
+    operations: OperationList
     place: Place
 
     @property
     def is_range(self) -> bool:
         """Whether the value is a set of values rather than the value itself."""
-        return self.tape.root.name in ("in range", "in list")
+        return self.operations.root.name in ("in range", "in list")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +79,7 @@ class Collector:
     ) -> None:
         """Take the checked program, and the conditional types that objects are known to be of."""
         self._model = model
-        self._writer = TapeWriter(model)
+        self._writer = OperationListBuilder(model)
         self._special = special or {}
         self.objects: dict[Key, sym.TypeSymbol] = {}
 
@@ -116,7 +116,9 @@ class Collector:
         found: list[Entry] = []
         seen: set[Key] = set()
         while entries:
-            keys = {(k[0],) for e in entries if isinstance(e, Constraint) for k in e.tape.keys}
+            keys = {
+                (k[0],) for e in entries if isinstance(e, Constraint) for k in e.operations.keys
+            }
             entries = []
             for key in sorted(keys - seen, key=lambda k: k[0].span.start):
                 seen.add(key)
@@ -210,7 +212,7 @@ class Collector:
             is_default=rule.strength is ast.KeepStrength.DEFAULT,
             subject=subject,
             value=value,
-            tape=self._writer.write(expression, place.locate),
+            operations=self._writer.write(expression, place.locate),
             place=place,
         )
 
@@ -218,15 +220,15 @@ class Collector:
         self, place: Place, key: Key, type_: types.Type, value: ast.Expression, origin: str
     ) -> Constraint:
         """Return `key == value`, or `key in value` for a range given to a number."""
-        tape = Tape()
-        left = self._writer.append_variable(tape, key, type_, value)
+        operations = OperationList()
+        left = self._writer.append_variable(operations, key, type_, value)
         if isinstance(value, ast.RangeLiteral) and not isinstance(type_, types.RangeType):
-            lower = self._writer.append(tape, value.lower, place.locate)
-            upper = self._writer.append(tape, value.upper, place.locate)
-            self._writer.append_comparison(tape, "in range", left, [lower, upper], value)
+            lower = self._writer.append(operations, value.lower, place.locate)
+            upper = self._writer.append(operations, value.upper, place.locate)
+            self._writer.append_comparison(operations, "in range", left, [lower, upper], value)
         else:
-            right = self._writer.append(tape, value, place.locate)
-            self._writer.append_comparison(tape, "==", left, [right], value)
+            right = self._writer.append(operations, value, place.locate)
+            self._writer.append_comparison(operations, "==", left, [right], value)
         return Constraint(
             node=value,
             span=value.span,
@@ -234,7 +236,7 @@ class Collector:
             is_default=origin == "default value",
             subject=key,
             value=value,
-            tape=tape,
+            operations=operations,
             place=place,
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from osc2tx.analysis.domains import FALSE, TRUE, Domain
-from osc2tx.analysis.operation_list import TapeWriter
+from osc2tx.analysis.operation_list import OperationListBuilder
 from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.analysis.solver import values_on
 from osc2tx.analysis.tree_walk import nodes_below
@@ -51,8 +51,8 @@ def _report_level(model: SemanticModel, expression: ast.Expression, sink: Diagno
 def _value(model: SemanticModel, expression: ast.Expression) -> Domain:
     """Evaluate a condition of literals alone; parameters count as unknown."""
     place = Place(model=model, owner=None, prefix=(), it=None)
-    tape = TapeWriter(model).write(expression, place.locate)
-    return values_on(tape, {})[-1]
+    operations = OperationListBuilder(model).write(expression, place.locate)
+    return values_on(operations, {})[-1]
 
 
 def _is_constant(model: SemanticModel, expression: ast.Expression) -> bool:

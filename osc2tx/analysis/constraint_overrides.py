@@ -15,7 +15,7 @@ from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class InForce:
+class EffectiveConstraints:
     """Constraints after overriding.
 
     Attributes:
@@ -27,7 +27,7 @@ class InForce:
     replaced: Mapping[Constraint, Constraint | None]
 
 
-def apply_overrides(entries: Iterable[Entry]) -> InForce:
+def apply_overrides(entries: Iterable[Entry]) -> EffectiveConstraints:
     """Drop the defaults that something later replaces."""
     active: dict[Constraint, None] = {}
     replaced: dict[Constraint, Constraint | None] = {}
@@ -48,6 +48,6 @@ def apply_overrides(entries: Iterable[Entry]) -> InForce:
         if isinstance(entry, Constraint):
             active[entry] = None
             if entry.is_default:
-                for key in entry.tape.keys:
+                for key in entry.operations.keys:
                     defaults.setdefault(key, []).append(entry)
-    return InForce(tuple(active), replaced)
+    return EffectiveConstraints(tuple(active), replaced)

@@ -1,4 +1,4 @@
-"""What the constraints of a program fix, bound and leave open.
+"""Results of the constraint analysis: parameters that are fixed, bounded or open.
 
 `ConstraintAnalysis` is the result for later stages. Ask it for a parameter of a scenario:
 
@@ -20,7 +20,7 @@ from dataclasses import field, replace
 from enum import Enum
 
 from osc2tx.analysis.collect import Collector, Constraint, Entry
-from osc2tx.analysis.constraint_overrides import InForce, apply_overrides
+from osc2tx.analysis.constraint_overrides import EffectiveConstraints, apply_overrides
 from osc2tx.analysis.domains import Choice, Domain, Interval, Value, close, is_void
 from osc2tx.analysis.operation_list import Key, domain_of_type
 from osc2tx.analysis.parameter_lookup import name_of
@@ -105,7 +105,7 @@ class TypeConstraints:
     """
 
     owner: sym.TypeSymbol | None
-    in_force: InForce
+    in_force: EffectiveConstraints
     domains: Mapping[Key, Domain]
     conflicts: tuple[tuple[Constraint, ...], ...]
     by_key: Mapping[Key, tuple[Constraint, ...]] = field(default_factory=dict)
@@ -147,7 +147,7 @@ class TypeConstraints:
             c for c in self.in_force.constraints if c.is_default and c.subject and not c.is_range
         }
         firm = [c for c in self.in_force.constraints if c not in plain]
-        return solve([c.tape for c in firm], range(len(firm))).domains
+        return solve([c.operations for c in firm], range(len(firm))).domains
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -220,18 +220,18 @@ def declared_types(model: SemanticModel) -> list[sym.TypeSymbol]:
 def _analyse(owner: sym.TypeSymbol | None, entries: list[Entry]) -> TypeConstraints:
     in_force = apply_overrides(entries)
     constraints = in_force.constraints
-    tapes = [constraint.tape for constraint in constraints]
+    expressions = [constraint.operations for constraint in constraints]
     active = list(range(len(constraints)))
     conflicts: list[tuple[Constraint, ...]] = []
-    solution = solve(tapes, active)
+    solution = solve(expressions, active)
     while solution.conflict and len(conflicts) < MOST_CONFLICTS:
-        core = smallest_conflict(tapes, solution.conflict)
+        core = smallest_conflict(expressions, solution.conflict)
         conflicts.append(tuple(constraints[index] for index in core))
         active = [index for index in active if index != core[-1]]
-        solution = solve(tapes, active)
+        solution = solve(expressions, active)
     by_key: dict[Key, list[Constraint]] = {}
     for constraint in constraints:
-        for key in constraint.tape.keys_in_order:
+        for key in constraint.operations.keys_in_order:
             by_key.setdefault(key, []).append(constraint)
     return TypeConstraints(
         owner=owner,

@@ -1,4 +1,4 @@
-"""Sets of values: what a parameter or expression can still be.
+"""Domains: the values that a parameter or expression can still have.
 
 Numbers are intervals in SI, with Python integers for `int` and `uint`, floats for the rest. Bools,
 enums and strings are finite sets or their complements. An interval says for each bound whether
@@ -144,7 +144,7 @@ def _is_slack(first: Number, second: Number) -> bool:
     return abs(first - second) <= max(ABSOLUTE_SLACK, RELATIVE_SLACK * size)
 
 
-def hull(first: Domain, second: Domain) -> Domain:
+def join(first: Domain, second: Domain) -> Domain:
     """Return a set that holds both."""
     if isinstance(first, Interval) and isinstance(second, Interval):
         lower, lower_open = min(_lower_key(first), _lower_key(second))

@@ -1,4 +1,4 @@
-"""What the operations of a tape can yield, given what their operands can be."""
+"""Forward evaluation: the domain of each operation from the domains of its operands."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from osc2tx.analysis.domains import (
     EmptyDomainError,
     Interval,
     Number,
-    hull,
     intersect,
     is_disjoint,
     is_void,
+    join,
 )
 from osc2tx.analysis.operation_list import Operation
 
@@ -66,7 +66,7 @@ def _conditional(operands: Sequence[Domain]) -> Domain:
     condition, first, second = operands
     if condition == TRUE:
         return first
-    return second if condition == FALSE else hull(first, second)
+    return second if condition == FALSE else join(first, second)
 
 
 def _in_list(operands: Sequence[Domain]) -> Domain:

@@ -1,4 +1,4 @@
-"""Warnings about what can never happen: reached, ended, chosen."""
+"""Warnings about members that are never reached, never end or are never chosen."""
 
 from __future__ import annotations
 

@@ -60,30 +60,30 @@ class Operation:
 
 
 @dataclass(slots=True, eq=False)
-class Tape:
+class OperationList:
     """Operations; the last one is the whole expression."""
 
-    operations: list[Operation] = field(default_factory=list)
+    items: list[Operation] = field(default_factory=list)
 
     @property
     def keys(self) -> frozenset[Key]:
         """The parameters in it."""
-        return frozenset(o.key for o in self.operations if o.key is not None)
+        return frozenset(o.key for o in self.items if o.key is not None)
 
     @property
     def keys_in_order(self) -> tuple[Key, ...]:
         """The parameters, as they stand in it: the order of a set is not the same in each run."""
-        return tuple(dict.fromkeys(o.key for o in self.operations if o.key is not None))
+        return tuple(dict.fromkeys(o.key for o in self.items if o.key is not None))
 
     @property
     def root(self) -> Operation:
         """The whole expression."""
-        return self.operations[-1]
+        return self.items[-1]
 
     def add(self, operation: Operation) -> int:
         """Append an operation; return its position."""
-        self.operations.append(operation)
-        return len(self.operations) - 1
+        self.items.append(operation)
+        return len(self.items) - 1
 
 
 def kind_of(type_: types.Type) -> str | None:
@@ -110,20 +110,20 @@ def domain_of_type(type_: types.Type) -> Domain:
     return ANY_BOOL if kind == "bool" else WHOLE.get(kind or "", ANYTHING)
 
 
-class TapeWriter:
-    """Writes expressions onto tapes."""
+class OperationListBuilder:
+    """Writes expressions as lists of operations."""
 
     def __init__(self, model: SemanticModel) -> None:
         """Take the types and references of the program."""
         self._model = model
 
-    def write(self, expression: ast.Expression, locate: Locate) -> Tape:
-        """Return an expression as a tape."""
-        tape = Tape()
-        self.append(tape, expression, locate)
-        return tape
+    def write(self, expression: ast.Expression, locate: Locate) -> OperationList:
+        """Return an expression as a list of operations."""
+        operations = OperationList()
+        self.append(operations, expression, locate)
+        return operations
 
-    def append(self, tape: Tape, expression: ast.Expression, locate: Locate) -> int:
+    def append(self, operations: OperationList, expression: ast.Expression, locate: Locate) -> int:
         """Append an expression; return its position."""
         done: dict[ast.Expression, int] = {}
         stack: list[tuple[ast.Expression, bool]] = [(expression, False)]
@@ -134,26 +134,28 @@ class TapeWriter:
                 stack.append((node, True))
                 stack += ((child, False) for child in reversed(children))
                 continue
-            done[node] = self._add(tape, node, [done[child] for child in children], locate)
+            done[node] = self._add(operations, node, [done[child] for child in children], locate)
         return done[expression]
 
-    def append_variable(self, tape: Tape, key: Key, type_: types.Type, node: ast.Node) -> int:
+    def append_variable(
+        self, operations: OperationList, key: Key, type_: types.Type, node: ast.Node
+    ) -> int:
         """Append a parameter; return its position."""
         kind = kind_of(type_) or "choice"
-        return tape.add(Operation("var", kind, domain_of_type(type_), key=key, node=node))
+        return operations.add(Operation("var", kind, domain_of_type(type_), key=key, node=node))
 
     def append_comparison(
-        self, tape: Tape, name: str, left: int, others: list[int], node: ast.Node
+        self, operations: OperationList, name: str, left: int, others: list[int], node: ast.Node
     ) -> int:
         """Append a comparison, with the conversion of its operands; return its position."""
-        kinds = {tape.operations[o].kind for o in (left, *others)}
+        kinds = {operations.items[o].kind for o in (left, *others)}
         if len(kinds) > 1 and kinds <= {"int", "uint", "float"}:
             kind = "float" if "float" in kinds else "int"
-            left = self._convert(tape, left, kind, node)
-            others = [self._convert(tape, o, kind, node) for o in others]
+            left = self._convert(operations, left, kind, node)
+            others = [self._convert(operations, o, kind, node) for o in others]
         elif len(kinds) > 1:
-            return tape.add(Operation("any", "bool", ANY_BOOL, node=node))
-        return tape.add(Operation(name, "bool", ANY_BOOL, (left, *others), node=node))
+            return operations.add(Operation("any", "bool", ANY_BOOL, node=node))
+        return operations.add(Operation(name, "bool", ANY_BOOL, (left, *others), node=node))
 
     def _children(self, node: ast.Expression) -> tuple[ast.Expression, ...]:
         match node:
@@ -182,119 +184,127 @@ class TapeWriter:
             case _:
                 return ()
 
-    def _add(self, tape: Tape, node: ast.Expression, operands: list[int], locate: Locate) -> int:
+    def _add(
+        self, operations: OperationList, node: ast.Expression, operands: list[int], locate: Locate
+    ) -> int:
         match node:
             case ast.BoolLiteral() | ast.IntegerLiteral() | ast.FloatLiteral():
-                return self._constant(tape, node, node.value)
+                return self._constant(operations, node, node.value)
             case ast.StringLiteral():
-                return self._constant(tape, node, node.value)
+                return self._constant(operations, node, node.value)
             case ast.PhysicalLiteral():
-                return self._physical(tape, node)
+                return self._physical(operations, node)
             case ast.Unary(
                 operator=ast.UnaryOperator.NEGATE, operand=ast.IntegerLiteral(value=value)
             ):
-                return tape.add(Operation("const", "int", point(-value), node=node))
+                return operations.add(Operation("const", "int", point(-value), node=node))
             case ast.Unary(
                 operator=ast.UnaryOperator.NEGATE, operand=ast.PhysicalLiteral() as literal
             ):
-                return self._physical(tape, literal, -1)
+                return self._physical(operations, literal, -1)
             case ast.Unary(operator=ast.UnaryOperator.NOT):
-                return tape.add(Operation("not", "bool", ANY_BOOL, tuple(operands), node=node))
+                return operations.add(
+                    Operation("not", "bool", ANY_BOOL, tuple(operands), node=node)
+                )
             case ast.Unary():
-                return self._negation(tape, node, operands[0])
+                return self._negation(operations, node, operands[0])
             case ast.Binary() if operands:
-                return self._binary(tape, node, operands)
+                return self._binary(operations, node, operands)
             case ast.Conditional():
-                return self._conditional(tape, node, operands)
+                return self._conditional(operations, node, operands)
             case ast.NameExpression() | ast.EnumLiteral() | ast.MemberAccess():
-                return self._path(tape, node, locate)
+                return self._path(operations, node, locate)
             case ast.ItExpression():
-                return self._variable(tape, node, locate)
+                return self._variable(operations, node, locate)
             case _:
-                return self._any(tape, node)
+                return self._any(operations, node)
 
-    def _constant(self, tape: Tape, node: ast.Expression, value: bool | int | float | str) -> int:
+    def _constant(
+        self, operations: OperationList, node: ast.Expression, value: bool | int | float | str
+    ) -> int:
         if value != value:
             return self._any(
-                tape, node
+                operations, node
             )  # NaN equals nothing; whoever writes it means no contradiction
         kind = kind_of(self._model.type_of(node)) or "choice"
         if isinstance(value, int) and not isinstance(value, bool) and kind == "float":
             value = float(value)
-        return tape.add(Operation("const", kind, point(value), node=node))
+        return operations.add(Operation("const", kind, point(value), node=node))
 
-    def _physical(self, tape: Tape, node: ast.PhysicalLiteral, sign: int = 1) -> int:
+    def _physical(self, operations: OperationList, node: ast.PhysicalLiteral, sign: int = 1) -> int:
         unit = self._model.units.get(node)
         if unit is None:
-            return self._any(tape, node)
+            return self._any(operations, node)
         value = to_si(sign * float(node.value), unit)
-        return tape.add(Operation("const", "float", point(value), node=node))
+        return operations.add(Operation("const", "float", point(value), node=node))
 
-    def _any(self, tape: Tape, node: ast.Expression) -> int:
+    def _any(self, operations: OperationList, node: ast.Expression) -> int:
         type_ = self._model.type_of(node)
         kind = kind_of(type_) or "choice"
-        return tape.add(Operation("any", kind, domain_of_type(type_), node=node))
+        return operations.add(Operation("any", kind, domain_of_type(type_), node=node))
 
     def _path(
         self,
-        tape: Tape,
+        operations: OperationList,
         node: ast.NameExpression | ast.EnumLiteral | ast.MemberAccess,
         locate: Locate,
     ) -> int:
         symbol = self._model.symbol_of(node)
         if isinstance(symbol, sym.EnumMemberSymbol):
-            return tape.add(Operation("const", "choice", point_of(symbol), node=node))
-        return self._variable(tape, node, locate)
+            return operations.add(Operation("const", "choice", point_of(symbol), node=node))
+        return self._variable(operations, node, locate)
 
-    def _variable(self, tape: Tape, node: ast.Expression, locate: Locate) -> int:
+    def _variable(self, operations: OperationList, node: ast.Expression, locate: Locate) -> int:
         key = locate(node)
         if key is None:
-            return self._any(tape, node)
-        return self.append_variable(tape, key, self._model.type_of(node), node)
+            return self._any(operations, node)
+        return self.append_variable(operations, key, self._model.type_of(node), node)
 
-    def _negation(self, tape: Tape, node: ast.Unary, operand: int) -> int:
+    def _negation(self, operations: OperationList, node: ast.Unary, operand: int) -> int:
         kind = kind_of(self._model.type_of(node)) or "choice"
-        operand = self._convert(tape, operand, kind, node)
-        return tape.add(
+        operand = self._convert(operations, operand, kind, node)
+        return operations.add(
             Operation("-", kind, domain_of_type(self._model.type_of(node)), (operand,), node=node)
         )
 
-    def _binary(self, tape: Tape, node: ast.Binary, operands: list[int]) -> int:
+    def _binary(self, operations: OperationList, node: ast.Binary, operands: list[int]) -> int:
         name = node.operator.value
         if node.operator in LOGIC:
-            return tape.add(Operation(name, "bool", ANY_BOOL, tuple(operands), node=node))
+            return operations.add(Operation(name, "bool", ANY_BOOL, tuple(operands), node=node))
         if node.operator is Op.IN:
             form = "in range" if isinstance(node.right, ast.RangeLiteral) else "in list"
-            return self.append_comparison(tape, form, operands[0], operands[1:], node)
+            return self.append_comparison(operations, form, operands[0], operands[1:], node)
         if node.operator in COMPARISONS:
-            return self.append_comparison(tape, name, operands[0], operands[1:], node)
+            return self.append_comparison(operations, name, operands[0], operands[1:], node)
         type_ = self._model.type_of(node)
         kind = kind_of(type_) or "choice"
         if kind == "choice" or any(
-            tape.operations[o].kind not in ("int", "uint", "float") for o in operands
+            operations.items[o].kind not in ("int", "uint", "float") for o in operands
         ):
-            return self._any(tape, node)  # strings: not worth it
-        converted = tuple(self._convert(tape, o, kind, node) for o in operands)
-        return tape.add(Operation(name, kind, domain_of_type(type_), converted, node=node))
+            return self._any(operations, node)  # strings: not worth it
+        converted = tuple(self._convert(operations, o, kind, node) for o in operands)
+        return operations.add(Operation(name, kind, domain_of_type(type_), converted, node=node))
 
-    def _convert(self, tape: Tape, operand: int, kind: str, node: ast.Node) -> int:
-        source = tape.operations[operand]
+    def _convert(self, operations: OperationList, operand: int, kind: str, node: ast.Node) -> int:
+        source = operations.items[operand]
         if source.kind == kind or kind == "choice":
             return operand
         if source.name == "const" and isinstance(source.initial, Interval) and kind != "float":
-            return tape.add(Operation("const", kind, source.initial, node=source.node))
-        return tape.add(Operation("convert", kind, WHOLE[kind], (operand,), node=node))
+            return operations.add(Operation("const", kind, source.initial, node=source.node))
+        return operations.add(Operation("convert", kind, WHOLE[kind], (operand,), node=node))
 
-    def _conditional(self, tape: Tape, node: ast.Conditional, operands: list[int]) -> int:
+    def _conditional(
+        self, operations: OperationList, node: ast.Conditional, operands: list[int]
+    ) -> int:
         type_ = self._model.type_of(node)
         kind = kind_of(type_)
         condition, *branches = operands
         if kind in ("int", "uint", "float"):
-            branches = [self._convert(tape, branch, kind, node) for branch in branches]
-        if kind is None or any(tape.operations[b].kind != kind for b in branches):
-            return self._any(tape, node)
+            branches = [self._convert(operations, branch, kind, node) for branch in branches]
+        if kind is None or any(operations.items[b].kind != kind for b in branches):
+            return self._any(operations, node)
         initial = domain_of_type(type_)
-        return tape.add(Operation("?", kind, initial, (condition, *branches), node=node))
+        return operations.add(Operation("?", kind, initial, (condition, *branches), node=node))
 
 
 def point_of(member: sym.EnumMemberSymbol) -> Choice:

@@ -1,4 +1,4 @@
-"""Contradictions in the order of parameters, `a < b < c < a`, that no interval shows.
+"""Contradictory orders of parameters, `a < b < c < a`, which no interval shows.
 
 Comparisons of two parameters are edges of a graph: from the smaller one to the larger one, both
 ways for equal ones. A cycle says that all on it are equal, which `<` and `!=` deny. Only plain
@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from osc2tx.analysis.operation_list import Key, Tape
+from osc2tx.analysis.operation_list import Key, OperationList
 from osc2tx.support.light_dataclass import dataclass
 
 # Which sides of a comparison are the smaller one, 0 left and 1 right, and whether strictly.
@@ -37,17 +37,19 @@ class _Edge:
 Graph: TypeAlias = Mapping[Key, Sequence[_Edge]]
 
 
-def disorder(tapes: Sequence[Tape], active: Sequence[int]) -> tuple[int, ...]:
+def find_contradiction(
+    expressions: Sequence[OperationList], active: Sequence[int]
+) -> tuple[int, ...]:
     """Return constraints that put parameters in an impossible order; empty if there are none.
 
     Args:
-        tapes: All constraints; the root of each must be true.
+        expressions: All constraints; the root of each must be true.
         active: Positions of those that count.
     """
     graph: dict[Key, list[_Edge]] = {}
     denied: list[_Edge] = []
     for index in active:
-        for name, left, right in _comparisons(tapes[index]):
+        for name, left, right in _comparisons(expressions[index]):
             sides, is_strict = SMALLER[name]
             for side in sides:
                 start, end = (left, right) if side == 0 else (right, left)
@@ -73,15 +75,15 @@ def disorder(tapes: Sequence[Tape], active: Sequence[int]) -> tuple[int, ...]:
     return ()
 
 
-def _comparisons(tape: Tape) -> Iterator[tuple[str, Key, Key]]:
+def _comparisons(operations: OperationList) -> Iterator[tuple[str, Key, Key]]:
     """Yield the comparisons of two parameters that have to hold."""
-    pending = [len(tape.operations) - 1]
+    pending = [len(operations.items) - 1]
     while pending:
-        operation = tape.operations[pending.pop()]
+        operation = operations.items[pending.pop()]
         if operation.name == "and":
             pending += operation.operands
         elif operation.name in SMALLER:
-            left, right = (tape.operations[o].key for o in operation.operands)
+            left, right = (operations.items[o].key for o in operation.operands)
             if left is not None and right is not None:
                 yield operation.name, left, right
 

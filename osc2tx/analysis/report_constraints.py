@@ -129,7 +129,7 @@ def _others(conflict: tuple[Constraint, ...], primary: Constraint) -> str:
 
 def _about(conflict: tuple[Constraint, ...]) -> str:
     """Return the parameter that they are about, if there is just one."""
-    shared = frozenset.intersection(*(c.tape.keys for c in conflict))
+    shared = frozenset.intersection(*(c.operations.keys for c in conflict))
     names = sorted({name_of(key) for key in shared})
     return f" on `{names[0]}`" if len(names) == 1 else ""
 
@@ -239,11 +239,11 @@ def _report_arithmetic(
     """Report divisions by zero, and integers that are computed too large."""
     for constraint in found.in_force.constraints:
         if constraint.node in misfits or all(
-            operation.name not in ARITHMETIC for operation in constraint.tape.operations
+            operation.name not in ARITHMETIC for operation in constraint.operations.items
         ):
             continue
-        values = values_on(constraint.tape, found.domains)
-        for operation in constraint.tape.operations:
+        values = values_on(constraint.operations, found.domains)
+        for operation in constraint.operations.items:
             operands = [values[o] for o in operation.operands]
             intervals = [o for o in operands if isinstance(o, Interval)]
             if operation.name not in ARITHMETIC or not isinstance(operation.node, ast.Node):

@@ -1,4 +1,4 @@
-"""Propagation of constraints to a fixed point (HC4: forward and backward over each tape).
+"""Propagation of constraints to a fixed point (HC4: forward and backward over each expression).
 
 Sound, not complete: no value that satisfies all constraints is ever excluded, and a contradiction
 that is found is one. Not every contradiction is found, and the number of steps is bounded.
@@ -20,8 +20,8 @@ from osc2tx.analysis.domains import (
     intersect,
 )
 from osc2tx.analysis.forward import evaluate
-from osc2tx.analysis.operation_list import Key, Tape
-from osc2tx.analysis.order_constraints import disorder
+from osc2tx.analysis.operation_list import Key, OperationList
+from osc2tx.analysis.order_constraints import find_contradiction
 from osc2tx.support.light_dataclass import dataclass
 
 PASSES = 40  # how often a constraint is visited on average, at most
@@ -45,26 +45,26 @@ class Solution:
 
 @dataclass(slots=True, eq=False)
 class _State:
-    tapes: Sequence[Tape]
+    expressions: Sequence[OperationList]
     domains: dict[Key, Domain] = field(default_factory=dict)
     reasons: dict[Key, int] = field(default_factory=dict)  # bit sets of constraints
     visits: int = 0
 
 
-def solve(tapes: Sequence[Tape], active: Sequence[int]) -> Solution:
+def solve(expressions: Sequence[OperationList], active: Sequence[int]) -> Solution:
     """Propagate some constraints of a list.
 
     Args:
-        tapes: All constraints; the root of each is boolean, and must be true.
+        expressions: All constraints; the root of each is boolean, and must be true.
         active: Positions of those that count.
     """
-    state = _State(tapes)
+    state = _State(expressions)
     users: dict[Key, list[int]] = {}
     for index in active:
-        for operation in tapes[index].operations:
+        for operation in expressions[index].items:
             if operation.key is not None:
                 state.domains.setdefault(operation.key, operation.initial)
-        for key in tapes[index].keys:
+        for key in expressions[index].keys:
             users.setdefault(key, []).append(index)
     queue = deque(active)
     waiting = set(active)
@@ -82,10 +82,12 @@ def solve(tapes: Sequence[Tape], active: Sequence[int]) -> Solution:
                 if user not in waiting:
                     waiting.add(user)
                     queue.append(user)
-    return Solution(state.domains, disorder(tapes, active))
+    return Solution(state.domains, find_contradiction(expressions, active))
 
 
-def smallest_conflict(tapes: Sequence[Tape], conflict: Sequence[int]) -> tuple[int, ...]:
+def smallest_conflict(
+    expressions: Sequence[OperationList], conflict: Sequence[int]
+) -> tuple[int, ...]:
     """Drop what a contradiction does not need, the first constraints first."""
     core = list(conflict)
     if len(core) > LARGEST_CORE:
@@ -93,16 +95,16 @@ def smallest_conflict(tapes: Sequence[Tape], conflict: Sequence[int]) -> tuple[i
     for index in conflict:
         if index not in core or len(core) == 1:
             continue
-        found = solve(tapes, [other for other in core if other != index]).conflict
+        found = solve(expressions, [other for other in core if other != index]).conflict
         if found:
             core = [other for other in core if other in found]
     return tuple(core)
 
 
-def values_on(tape: Tape, domains: Mapping[Key, Domain]) -> list[Domain]:
-    """Return what each operation of a tape can be."""
+def values_on(operations: OperationList, domains: Mapping[Key, Domain]) -> list[Domain]:
+    """Return what each operation of an expression can be."""
     values: list[Domain] = []
-    for operation in tape.operations:
+    for operation in operations.items:
         if operation.key is not None:
             values.append(domains.get(operation.key, operation.initial))
         else:
@@ -112,11 +114,11 @@ def values_on(tape: Tape, domains: Mapping[Key, Domain]) -> list[Domain]:
 
 def _revise(state: _State, index: int) -> list[Key]:
     """Let one constraint narrow its parameters; return those that it did narrow."""
-    tape = state.tapes[index]
-    values = values_on(tape, state.domains)
+    operations = state.expressions[index]
+    values = values_on(operations, state.domains)
     values[-1] = intersect(values[-1], TRUE)
     for position in range(len(values) - 1, -1, -1):
-        operation = tape.operations[position]
+        operation = operations.items[position]
         if not operation.operands:
             continue
         operands = [values[o] for o in operation.operands]
@@ -124,7 +126,7 @@ def _revise(state: _State, index: int) -> list[Key]:
             operand = operation.operands[which]
             values[operand] = intersect(values[operand], domain)
     changed: dict[Key, None] = {}
-    for operation, value in zip(tape.operations, values, strict=True):
+    for operation, value in zip(operations.items, values, strict=True):
         if operation.key is None:
             continue
         old = state.domains[operation.key]
@@ -141,7 +143,7 @@ def _revise(state: _State, index: int) -> list[Key]:
 
 def _blamed(state: _State, index: int) -> int:
     blamed = 1 << index
-    for key in state.tapes[index].keys:
+    for key in state.expressions[index].keys:
         blamed |= state.reasons.get(key, 0)
     return blamed
 
@@ -152,7 +154,7 @@ def _positions(bits: int) -> tuple[int, ...]:
 
 def _counts(state: _State, old: Domain, new: Domain) -> bool:
     """Whether a change is worth following; series that creep to a limit are cut off."""
-    if state.visits <= FREE_PASSES * len(state.tapes) + 20:
+    if state.visits <= FREE_PASSES * len(state.expressions) + 20:
         return True
     if not isinstance(old, Interval) or not isinstance(new, Interval):
         return True

@@ -1,4 +1,4 @@
-"""Conditional inheritance (§7.3.8.2): what an object is because of the value of a field.
+"""Conditional inheritance (§7.3.8.2): subtypes that an object has because of a field's value.
 
 An object of type `vehicle` whose category is `bus` is of the type `coach inherits vehicle(
 vehicle_category == bus)` by itself: it has its members, and its constraints hold.

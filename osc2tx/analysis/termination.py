@@ -38,7 +38,7 @@ def find_endings(model: SemanticModel) -> Endings:
         for symbol in model.symbols
         if isinstance(symbol, sym.ScenarioSymbol | sym.ActionSymbol)
     ]
-    judge = _Judge(model)
+    judge = _TerminationAnalysis(model)
     for _ in range(MOST_ROUNDS):  # as behaviors invoke each other
         known = len(judge.endless_behaviors)
         for behavior in reversed(behaviors):
@@ -48,7 +48,7 @@ def find_endings(model: SemanticModel) -> Endings:
     return Endings(frozenset(judge.endless), frozenset(judge.endless_behaviors))
 
 
-class _Judge:
+class _TerminationAnalysis:
     def __init__(self, model: SemanticModel) -> None:
         self.model = model
         self.endless: set[ast.BehaviorMember] = set()

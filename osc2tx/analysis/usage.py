@@ -1,4 +1,4 @@
-"""What is used of what the program declares: events, parameters, actors."""
+"""Which declared events, parameters and actors a program uses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way through a build: find jobs, recall or compile, compare with the folder, write."""
+"""The build: finds jobs, loads or compiles results, compares with the folder, writes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from osc2tx.building.plan import (
     find_orphans,
     place_outputs,
 )
-from osc2tx.building.result_cache import Memory
+from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult
 from osc2tx.building.workers import compile_jobs
 from osc2tx.building.write import Update, update_folder
@@ -159,8 +159,8 @@ class _Build:
 
     def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
         """Return the results of all jobs, with texts of all outputs that may be written."""
-        memory = Memory("builds", self.out_dir)
-        recalled = {job: memory.recall(job) for job in jobs}
+        memory = ResultCache("builds", self.out_dir)
+        recalled = {job: memory.load(job) for job in jobs}
         known = {job: result for job, result in recalled.items() if result is not None}
         placed, _ = place_outputs(list(known.values()))
         for planned in placed:
@@ -253,7 +253,7 @@ class _Build:
     def _changes_of_manifest(
         self, placed: Sequence[Planned], states: dict[str, State]
     ) -> list[Change]:
-        """Return the manifest if it does not list what is current; a build that writes mends it."""
+        """Return the manifest if it does not list what is current; a build that writes fixes it."""
         current = [
             planned
             for planned in placed

@@ -1,4 +1,4 @@
-"""Checks files, or recalls what an earlier check of the same texts found."""
+"""Checks files, or loads the results of an earlier check of the same texts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx.building.jobs import Job
-from osc2tx.building.result_cache import Memory
+from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult, check_job
 
 
@@ -19,8 +19,8 @@ def check_jobs(jobs: Sequence[Job], *, remember: bool = True) -> list[FileResult
     """
     if not remember:
         return [check_job(job) for job in jobs]
-    memory = Memory("checks", Path.cwd())
-    known = {job: result for job in jobs if (result := memory.recall(job)) is not None}
+    memory = ResultCache("checks", Path.cwd())
+    known = {job: result for job in jobs if (result := memory.load(job)) is not None}
     made = {job: check_job(job) for job in jobs if job not in known}
     if made:
         memory.keep(made.values())

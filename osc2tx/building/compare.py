@@ -1,4 +1,4 @@
-"""What a change of the sources does to the outputs, whatever else has changed since."""
+"""Differences of outputs that a change of the sources causes."""
 
 from __future__ import annotations
 

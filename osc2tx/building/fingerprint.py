@@ -1,4 +1,4 @@
-"""Digests of texts, and what tells one osc2tx from another: a result holds until either changes."""
+"""Digests of texts, and the stamp that identifies this installation of osc2tx."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from osc2tx.version import __version__
 _PACKAGE = Path(__file__).resolve().parent.parent
 _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
 
-# What else reports and outputs depend on: OpenSCENARIO XML holds sizes, courses and maps of the
-# runtime. Of the others one file tells the version.
-_RUNTIME = "osc2tx_runtime"
+# What else reports and outputs depend on: the rules of calls, and, as OpenSCENARIO XML holds its
+# sizes, courses and maps, the runtime. Of the others one file tells the version.
+_OURS = ("osc2tx_rules", "osc2tx_runtime")
 _LIBRARIES = ("antlr4", "black", "jinja2", "lxml", "pint")
 _STARTED = time.time_ns()
 
@@ -49,11 +49,11 @@ def tool_stamp() -> str | None:
 def _files() -> Iterator[tuple[str, os.stat_result]]:
     """Yield the files that decide what comes out, in a fixed order."""
     folders = [str(_PACKAGE), str(resource_dir("templates"))]
-    for name in (_RUNTIME, *_LIBRARIES):
+    for name in (*_OURS, *_LIBRARIES):
         spec = find_spec(name)
         if spec is None or spec.origin is None:
             continue
-        if name == _RUNTIME:
+        if name in _OURS:
             folders.append(os.path.dirname(spec.origin))
         else:
             yield spec.origin, os.stat(spec.origin)

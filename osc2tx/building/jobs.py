@@ -1,4 +1,4 @@
-"""What there is to compile: a file, its settings, the folders it may import from."""
+"""Jobs: a source file with its settings and import folders."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The manifest: which files of the output folder osc2tx wrote, and what it wrote.
+"""The manifest: files of the output folder that osc2tx wrote, with digests.
 
 It lies in the output folder, belongs into version control with the outputs, and is the same on
 every machine: one line for each source, sorted, so that git merges two changes of different files.

@@ -1,4 +1,4 @@
-"""What a build has to do: outputs that sources make, against what the folder holds."""
+"""Plan of a build: planned outputs compared with the output folder."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.manifest import Manifest, beside
-from osc2tx.building.results import FileResult, Made
+from osc2tx.building.results import FileResult, OutputRecord
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.output_names import (
     LOSS_REPORT,
@@ -51,7 +51,7 @@ class Planned:
 
     path: str
     result: FileResult
-    made: Made
+    made: OutputRecord
 
     @property
     def is_committed(self) -> bool:

@@ -1,4 +1,4 @@
-"""Results of earlier builds and checks, in the user's cache folder.
+"""Cache of results of builds and checks, in the user's cache folder.
 
 There is one file for each output folder, and one for each folder in which somebody checks. A result
 holds as long as the text of the source, the texts of all files that it imports, the places where
@@ -17,7 +17,7 @@ from typing import Any, Literal
 
 from osc2tx.building.fingerprint import digest, tool_stamp
 from osc2tx.building.jobs import Job
-from osc2tx.building.results import Dependency, FileResult, Made
+from osc2tx.building.results import Dependency, FileResult, OutputRecord
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import SourceFile
@@ -28,7 +28,7 @@ MOST_KEPT = 64  # folders that are remembered, of each kind
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
-class Memory:
+class ResultCache:
     """What is remembered of the builds into one output folder, or of the checks in one folder."""
 
     def __init__(self, kind: Literal["builds", "checks"], place: Path) -> None:
@@ -42,7 +42,7 @@ class Memory:
         self._texts: dict[str, bytes | None] = {}
         self._real: dict[str, str] = {}
 
-    def recall(self, job: Job) -> FileResult | None:
+    def load(self, job: Job) -> FileResult | None:
         """Return the result of a job if there is one that holds."""
         record = self._records.get(self._real_path(job.path))
         try:
@@ -120,7 +120,7 @@ class Memory:
             is_complete=record["is_complete"],
             scenarios=tuple(reader.scenario(entry) for entry in record["scenarios"]),
             stem=record["stem"],
-            outputs=tuple(Made(suffix, found, None) for suffix, found in record["outputs"]),
+            outputs=tuple(OutputRecord(suffix, found, None) for suffix, found in record["outputs"]),
             losses=tuple(LossEntry(*entry) for entry in record["losses"]),
             dependencies=dependencies,
         )

@@ -1,4 +1,4 @@
-"""What a compilation gave, as plain data: it travels between processes and lasts."""
+"""Result of compiling one file, as plain data for processes and the cache."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class OutputRecord:
     """An output as far as it is known.
 
     Attributes:
@@ -70,7 +70,7 @@ class FileResult:
     is_complete: bool
     scenarios: tuple[ScenarioEntry, ...]
     stem: str
-    outputs: tuple[Made, ...]
+    outputs: tuple[OutputRecord, ...]
     losses: tuple[LossEntry, ...]
     dependencies: tuple[Dependency, ...] | None
     bug: str = ""
@@ -135,7 +135,8 @@ def _result(
         scenarios=compilation.scenarios,
         stem=compilation.stem if outputs else "",
         outputs=tuple(
-            Made(output.suffix, digest(output.text.encode()), output.text) for output in outputs
+            OutputRecord(output.suffix, digest(output.text.encode()), output.text)
+            for output in outputs
         ),
         losses=losses,
         dependencies=None if bug else _dependencies(compilation),

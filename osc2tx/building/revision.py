@@ -1,4 +1,4 @@
-"""The sources of an earlier revision, in a folder of their own."""
+"""Sources of an earlier revision, checked out to a folder of their own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Diagnostics as plain lists, for `result_cache`; the texts that they point into are read again."""
+"""Diagnostics as plain lists for `result_cache`; source texts are read again."""
 
 from __future__ import annotations
 

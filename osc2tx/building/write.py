@@ -1,4 +1,4 @@
-"""Brings an output folder up to date, so that whatever happens no file is ever half written.
+"""Writes outputs atomically: no file is ever half written.
 
 First the manifest says what is about to be written, then every output is put in place in one step,
 then the manifest says that it is done. A build that is killed in between leaves each output old or

@@ -1,4 +1,4 @@
-"""Generated modules in this process: imported from files, forgotten afterwards."""
+"""Imports generated modules from files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A progress bar on a terminal, and silence where nobody watches."""
+"""Progress bar on a terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a command says at its end: diagnostics in the form asked for, a summary, an exit code.
+"""Output of a command: diagnostics in the requested form, a summary, an exit code.
 
 Text for people goes to stderr and the summary to stdout; with a form for programs, that form alone
 goes to stdout, and all else to stderr.
@@ -17,7 +17,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
-from osc2tx.compilation.file_reports import Reported, settle_all
+from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics.report import Report, make_report
 from osc2tx.version import __version__
 
@@ -71,7 +71,7 @@ class Reporter:
     most_shown: int | None = None
 
     def report(
-        self, compilations: Sequence[Reported], bugs: Sequence[str] = ()
+        self, compilations: Sequence[Reportable], bugs: Sequence[str] = ()
     ) -> tuple[Exit, Report]:
         """Print all diagnostics, and bugs of ours.
 
@@ -81,7 +81,7 @@ class Reporter:
         most = self.most_shown
         if most is None:
             most = MOST_SHOWN if self.form in FORMATS_FOR_READERS else 0
-        settled = settle_all(compilations)
+        settled = apply_suppressions(compilations)
         report = make_report(
             settled.shown,
             files=len(compilations),
@@ -134,7 +134,7 @@ class Reporter:
             click.echo(_document(report, self.form, failed=failed), nl=False)
 
     def _exit_code(
-        self, compilations: Sequence[Reported], report: Report, bugs: Sequence[str]
+        self, compilations: Sequence[Reportable], report: Report, bugs: Sequence[str]
     ) -> Exit:
         if bugs:
             return Exit.BUG

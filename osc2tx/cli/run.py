@@ -1,4 +1,4 @@
-"""`osc2tx run`: the one command that loads the runtime."""
+"""`osc2tx run`: runs scenarios in the embedded world or a simulator."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`osc2tx tree`: loads the runtime, which knows what a scenario becomes."""
+"""`osc2tx tree`: prints the behavior tree of a scenario."""
 
 from __future__ import annotations
 

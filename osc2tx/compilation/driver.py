@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from osc2tx.compilation.file_reports import LossEntry, settle_all
+from osc2tx.compilation.file_reports import LossEntry, apply_suppressions
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
 from osc2tx.compilation.products import Output, files_of_module, files_of_xml
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
@@ -269,7 +269,7 @@ class Compilation:
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """All that was reported and no comment suppresses, in order of place."""
-        return settle_all([self]).shown
+        return apply_suppressions([self]).shown
 
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""

@@ -1,4 +1,4 @@
-"""What there is to report on source files, wherever it comes from: a compilation or a memory.
+"""Diagnostics of source files, from a compilation or from the result cache.
 
 Nothing here loads a stage: a check whose result is remembered needs none.
 """
@@ -11,11 +11,11 @@ from typing import Protocol
 
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx.diagnostics.suppressions import Settled, Suppression, settle
+from osc2tx.diagnostics.suppressions import Suppression, SuppressionResult, settle
 from osc2tx.support.light_dataclass import dataclass
 
 
-class Reported(Protocol):
+class Reportable(Protocol):
     """What there is to report on one source file, wherever it was compiled."""
 
     @property
@@ -54,7 +54,7 @@ class LossEntry:
     summary: str
 
 
-def settle_all(compilations: Sequence[Reported]) -> Settled:
+def apply_suppressions(compilations: Sequence[Reportable]) -> SuppressionResult:
     """Return what was reported on several files, each report once, and what comments suppress.
 
     A report in a file that several others import counts once; a suppression there is used if it

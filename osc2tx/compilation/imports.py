@@ -1,4 +1,4 @@
-"""Finds and parses the files that a source file imports (§7.7.5)."""
+"""Finds and parses imported files (§7.7.5)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the paths of a command line to source files."""
+"""Source files from the paths of a command line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the settings of source files."""
+"""Finds the settings files of source files."""
 
 from __future__ import annotations
 

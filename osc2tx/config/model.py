@@ -1,4 +1,4 @@
-"""What a settings file says."""
+"""Settings as data."""
 
 from __future__ import annotations
 

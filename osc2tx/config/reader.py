@@ -1,4 +1,4 @@
-"""Reads settings files, and takes nothing that it does not know."""
+"""Reads settings files and rejects unknown keys."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds codes by what people write for them: `OSC203`, `osc203` or the slug."""
+"""Finds diagnostic codes by number or slug: `OSC203`, `osc203`."""
 
 from __future__ import annotations
 

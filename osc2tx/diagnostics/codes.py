@@ -35,7 +35,7 @@ class Code:
 
     @property
     def explanation(self) -> Explanation | None:
-        """An example and how to mend it."""
+        """An example and how to fix it."""
         return explanation_of(self.code)
 
     @property

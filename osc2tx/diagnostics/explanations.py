@@ -1,7 +1,7 @@
-"""What there is to say about a code beyond its summary: a faulty text and how to mend it.
+"""Explanations of codes: a faulty text and how to fix it.
 
 The texts are data, one file for each family of codes in `texts/`, and are only read when somebody
-asks. A test compiles all of them: the faulty text shows the code, the mended text does not.
+asks. A test compiles all of them: the faulty text shows the code, the fixed text does not.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class Explanation:
     Attributes:
         remedy: What to do, one or two sentences.
         faulty: A source text with the mistake.
-        mended: The same text without it; empty where the mistake is not in the text.
+        fixed: The same text without it; empty where the mistake is not in the text.
         standard: Version of the standard that the example is about.
         dialect: Its dialect.
         target: What is made of it; some codes are only about one target.
@@ -28,7 +28,7 @@ class Explanation:
 
     remedy: str
     faulty: str
-    mended: str = ""
+    fixed: str = ""
     standard: str = "2.1"
     dialect: str = "asam"
     target: str = "all"

@@ -1,4 +1,4 @@
-"""All that one run has to say, in the order and number in which it is shown."""
+"""Report of a run: its diagnostics in the order and number in which they are shown."""
 
 from __future__ import annotations
 

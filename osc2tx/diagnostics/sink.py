@@ -1,4 +1,4 @@
-"""Where the stages put their diagnostics."""
+"""The sink that collects the diagnostics of all stages."""
 
 from __future__ import annotations
 

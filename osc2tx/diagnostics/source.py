@@ -1,4 +1,4 @@
-"""Source texts and the places in them."""
+"""Source files and spans."""
 
 from __future__ import annotations
 

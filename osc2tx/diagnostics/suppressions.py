@@ -33,7 +33,7 @@ class Suppression:
 
 
 @dataclass(frozen=True, slots=True)
-class Settled:
+class SuppressionResult:
     """Diagnostics after suppression.
 
     Attributes:
@@ -49,7 +49,7 @@ def settle(
     found: Iterable[Diagnostic],
     judged: Mapping[SourceFile, bool],
     find: Callable[[SourceFile], Sequence[Suppression]],
-) -> Settled:
+) -> SuppressionResult:
     """Apply the suppressions of all files that have diagnostics.
 
     Args:
@@ -77,7 +77,7 @@ def settle(
     sink = DiagnosticSink()
     for source, is_complete in judged.items():
         entries_of(source).check(sink, is_complete=is_complete)
-    return Settled(in_order([*shown, *sink.sorted()]), in_order(suppressed))
+    return SuppressionResult(in_order([*shown, *sink.sorted()]), in_order(suppressed))
 
 
 class _Entries:
@@ -126,7 +126,7 @@ class _Entries:
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
         elif code.severity is Severity.ERROR:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
-            sink.report("OSC703", name, message, help="mend what it reports")
+            sink.report("OSC703", name, message, help="fix what it reports")
         elif not code.can_be_suppressed:
             message = f"`{code.code}` is about suppressions and cannot be suppressed"
             sink.report("OSC703", name, message)

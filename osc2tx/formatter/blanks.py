@@ -1,4 +1,4 @@
-"""The whole text: indentation and blank lines around the lines laid out."""
+"""Indentation and blank lines of the whole text."""
 
 from __future__ import annotations
 

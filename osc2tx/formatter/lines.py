@@ -1,4 +1,4 @@
-"""Logical lines: the tokens of one line end to the next, and the comments around them."""
+"""Logical lines: tokens up to the next line end, with comments."""
 
 from __future__ import annotations
 

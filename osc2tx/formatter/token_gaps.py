@@ -1,4 +1,4 @@
-"""The text between two tokens: comments, line ends and nothing else."""
+"""The text between two tokens: comments and line ends."""
 
 from __future__ import annotations
 

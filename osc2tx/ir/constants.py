@@ -1,4 +1,4 @@
-"""Values that are known when a module is written: numbers and quantities in SI units."""
+"""Values known at compile time: numbers and quantities in SI units."""
 
 from __future__ import annotations
 

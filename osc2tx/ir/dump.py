@@ -40,11 +40,11 @@ from osc2tx.ir.nodes import (
     Event,
     FieldValue,
     Module,
-    OwnType,
     Parameter,
     Placement,
     Scenario,
     Struct,
+    UserType,
     Variable,
 )
 
@@ -68,7 +68,7 @@ def _indented(lines: Iterator[str]) -> Iterator[str]:
     return (INDENT + line for line in lines)
 
 
-def _own_type(own: OwnType) -> Iterator[str]:
+def _own_type(own: UserType) -> Iterator[str]:
     base = "" if own.base is None else f" inherits {own.base}"
     yield f"{'actor' if own.is_actor else 'struct'} {own.name}{base} @{own.span.line}"
     for field in own.fields:

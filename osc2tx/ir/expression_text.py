@@ -25,13 +25,13 @@ from osc2tx.ir.expressions import (
     Literal,
     Lookup,
     MethodCall,
-    OwnShape,
     ParameterRef,
     Quantity,
     RangeValue,
     ScenarioSelf,
     TypeTest,
     Unary,
+    UserShape,
 )
 
 
@@ -72,7 +72,7 @@ def show(expression: Expression) -> str:
             return f"{show(base)}[{show(index)}]"
         case Conversion(operand=operand, type=type_) | Downcast(operand=operand, type=type_):
             return f"{show(operand)}.as({type_.name})"
-        case OwnShape(operand=operand):
+        case UserShape(operand=operand):
             return show(operand)
         case Lookup(operand=operand, type=type_):
             return f"{show(operand)}.as({type_.name})"

@@ -230,7 +230,7 @@ class Downcast(ExpressionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OwnShape(ExpressionBase):
+class UserShape(ExpressionBase):
     """A shape with methods of the scenario's own, as the course of what a modifier controls.
 
     Attributes:
@@ -289,5 +289,5 @@ Expression: TypeAlias = (
     | Lookup
     | TypeTest
     | Downcast
-    | OwnShape
+    | UserShape
 )

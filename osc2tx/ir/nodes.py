@@ -248,7 +248,7 @@ class Scenario:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OwnField:
+class UserField:
     """A field of a type that the scenario's files declare; without default it must be given."""
 
     name: str
@@ -259,7 +259,7 @@ class OwnField:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OwnType:
+class UserType:
     """An actor or struct that the scenario's files declare.
 
     Attributes:
@@ -273,7 +273,7 @@ class OwnType:
     span: Span
     base: str | None
     is_actor: bool
-    fields: tuple[OwnField, ...]
+    fields: tuple[UserField, ...]
     comments: tuple[str, ...] = ()
 
 
@@ -292,4 +292,4 @@ class Module:
     one_of: str
     scenarios: tuple[Scenario, ...]
     comments: tuple[str, ...] = ()
-    types: tuple[OwnType, ...] = ()
+    types: tuple[UserType, ...] = ()

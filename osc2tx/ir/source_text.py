@@ -1,4 +1,4 @@
-"""Text of the source as people read it in trees, timelines and traces."""
+"""Source text shortened for trees, timelines and traces."""
 
 from __future__ import annotations
 

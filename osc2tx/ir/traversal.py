@@ -22,13 +22,13 @@ from osc2tx.ir.expressions import (
     Literal,
     Lookup,
     MethodCall,
-    OwnShape,
     ParameterRef,
     Quantity,
     RangeValue,
     ScenarioSelf,
     TypeTest,
     Unary,
+    UserShape,
 )
 
 
@@ -62,7 +62,7 @@ def children(expression: Expression) -> tuple[Expression, ...]:
             | Lookup(operand=operand)
             | TypeTest(operand=operand)
             | Downcast(operand=operand)
-            | OwnShape(operand=operand)
+            | UserShape(operand=operand)
         ):
             return (operand,)
         case Binary(left=left, right=right):

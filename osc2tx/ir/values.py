@@ -1,4 +1,4 @@
-"""What every expression of the IR has: a type, with the unit of physical values."""
+"""Types and units of values in the IR."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The invariants of the IR; a violation is a bug of the compiler, not of the source."""
+"""The verifier: a violated invariant of the IR is a bug of the compiler, not of the source."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ MAP_MODIFIER = "set_map"
 START = "on_path"
 
 # Modifier -> what it says about the piece of road.
-WISHES = {
+SEARCH_CRITERIA = {
     "path_different_dest": "different_dest",
     "path_different_origin": "different_origin",
     "path_length": "min_length",
@@ -65,7 +65,7 @@ def path_members(
 def is_path_member(ctx: LoweringContext, node: ast.ModifierApplication) -> bool:
     """Whether a modifier is one of those."""
     target = node.actor and ctx.model.symbol_of(node.actor)
-    known = node.modifier.text in WISHES or node.modifier.text == MAP_MODIFIER
+    known = node.modifier.text in SEARCH_CRITERIA or node.modifier.text == MAP_MODIFIER
     return known and isinstance(target, sym.FieldSymbol) and is_path(target.type)
 
 
@@ -94,14 +94,14 @@ def path_declarations(
         for modifier in own
         if modifier.name == MAP_MODIFIER
     ]
-    wishes = [modifier for modifier in own if modifier.name in WISHES]
+    wishes = [modifier for modifier in own if modifier.name in SEARCH_CRITERIA]
     road = ir.Struct(
         name=field.name,
         span=field.span,
         comments=comments,
         type=TYPE,
         lineage=(TYPE,),
-        values=tuple(v for m in wishes for v in _values(m, WISHES[m.name], m.comments)),
+        values=tuple(v for m in wishes for v in _values(m, SEARCH_CRITERIA[m.name], m.comments)),
     )
     return (*maps, road)
 

@@ -1,4 +1,4 @@
-"""Behaviors that say what they do: scenarios, and actions with a `do` of their own (§7.3.8.3)."""
+"""Behaviors with a `do` of their own: scenarios and composed actions (§7.3.8.3)."""
 
 from __future__ import annotations
 

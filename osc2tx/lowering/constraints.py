@@ -1,4 +1,4 @@
-"""What constraints leave of the values of a scenario (§7.3.11), as the IR writes it down.
+"""Constraints on the values of a scenario (§7.3.11) as fixed values and domains.
 
 A parameter becomes a constant (what sets it is hard), a value with a default, or a value out of a
 domain. Its domain is written with the bounds of the source where the source has them. A constraint
@@ -14,14 +14,14 @@ from typing import TypeAlias
 from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
 from osc2tx.analysis.collect import Constraint
-from osc2tx.analysis.domains import TRUE, Choice, Domain, hull
+from osc2tx.analysis.domains import TRUE, Choice, Domain, join
 from osc2tx.analysis.operation_list import Key, domain_of_type
 from osc2tx.analysis.solver import values_on
 from osc2tx.lowering.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.equations import solve_for
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, asks_the_map
+from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, reads_map
 from osc2tx.lowering.parameter_domains import DomainWriter, all_values, as_type, written_domain
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -204,7 +204,7 @@ class ConstraintLowering:
         """Return the constraints that relate a parameter to earlier ones."""
         found = []
         for constraint in self.found.by_key.get(key, ()):
-            others = [k for k in constraint.tape.keys if k != key]
+            others = [k for k in constraint.operations.keys if k != key]
             after = isinstance(key[0], ast.Node) or _is_last(key, others)
             if others and after and not constraint.is_default:
                 found.append(constraint)
@@ -225,7 +225,7 @@ class ConstraintLowering:
             others = None if not definition.is_default else whole
             if definition.is_default and domain is not None:
                 others = written_domain(domain, type_, self._hard.get(key, whole))
-            self._written[key] = value if others is None else hull(value, others)
+            self._written[key] = value if others is None else join(value, others)
         elif fixed is not None and single_value(fixed) is not None:
             self._written[key] = fixed
         elif domain is not None:
@@ -235,7 +235,7 @@ class ConstraintLowering:
         """Return an equality between values, solved for the one that is declared last."""
         for constraint in self.found.by_key.get(key, ()):
             node = constraint.node
-            others = [k for k in constraint.tape.keys if k != key]
+            others = [k for k in constraint.operations.keys if k != key]
             if constraint in self._used or constraint.is_default or not others:
                 continue
             if not isinstance(node, ast.KeepConstraint) or not _is_last(key, others):
@@ -247,8 +247,8 @@ class ConstraintLowering:
 
     def _value_of(self, definition: Constraint) -> Domain:
         """Return what the value that a parameter is set to can be."""
-        values = values_on(definition.tape, self._written)
-        root = definition.tape.root
+        values = values_on(definition.operations, self._written)
+        root = definition.operations.root
         return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
 
     def _is_said(
@@ -262,10 +262,10 @@ class ConstraintLowering:
             return True
         if constraint.subject == key and constraint.is_range and domain is not None:
             return True
-        return constraint.tape.keys == {key} and self._holds(constraint)
+        return constraint.operations.keys == {key} and self._holds(constraint)
 
     def _holds(self, constraint: Constraint) -> bool:
-        return values_on(constraint.tape, self._written)[-1] == TRUE
+        return values_on(constraint.operations, self._written)[-1] == TRUE
 
     def _is_left(self, constraint: Constraint) -> bool:
         if constraint.origin == "argument":
@@ -279,9 +279,9 @@ class ConstraintLowering:
             return False
         if self.found.owner is not None and constraint.place.owner is None:
             return False  # what a global parameter says of itself
-        values = (self._written.get(key) for key in constraint.tape.keys)
+        values = (self._written.get(key) for key in constraint.operations.keys)
         is_known = all(value is not None and single_value(value) is not None for value in values)
-        if is_known and all(operation.name != "any" for operation in constraint.tape.operations):
+        if is_known and all(operation.name != "any" for operation in constraint.operations.items):
             return False  # the analysis saw that it holds
         return not self._holds(constraint)
 
@@ -290,8 +290,8 @@ class ConstraintLowering:
 
         Known is what is said of a single member of an object that the invocation names.
         """
-        roots = {key[0] for key in constraint.tape.keys if len(key) > 1}
-        is_relation = len(constraint.tape.keys) > 1
+        roots = {key[0] for key in constraint.operations.keys if len(key) > 1}
+        is_relation = len(constraint.operations.keys) > 1
         return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
 
     def _checks_itself(self, invoked: ast.Invocation) -> bool:
@@ -308,7 +308,7 @@ class ConstraintLowering:
         if expression is None:
             return None
         if ir.is_live(expression):
-            if asks_the_map(expression):
+            if reads_map(expression):
                 what, instead = NOT_SEARCHED_BY, SEARCHED_BY
             else:
                 what = "this constraint depends on the state of the world"
@@ -338,7 +338,7 @@ def _is_known_here(constraint: Constraint, key: Key) -> bool:
     """
     prefix = constraint.place.prefix
     is_inside = bool(prefix) and isinstance(prefix[0], ast.Node)
-    return not is_inside or isinstance(key[0], ast.Node) or constraint.tape.keys == {key}
+    return not is_inside or isinstance(key[0], ast.Node) or constraint.operations.keys == {key}
 
 
 def _is_last(key: Key, others: list[Key]) -> bool:

@@ -1,4 +1,4 @@
-"""What every part of the lowering needs."""
+"""Context of lowering: the program, diagnostics, and what names mean."""
 
 from __future__ import annotations
 

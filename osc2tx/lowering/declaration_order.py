@@ -76,8 +76,10 @@ def _needs(
         for part in ir.walk(pending.pop(0)):
             if isinstance(part, ir.FieldRef):
                 yield part.name
-            is_own = isinstance(part, ir.MethodCall) and isinstance(part.base, ir.ScenarioSelf)
-            if isinstance(part, ir.MethodCall) and is_own and part.method not in called:
+            is_user_defined = isinstance(part, ir.MethodCall) and isinstance(
+                part.base, ir.ScenarioSelf
+            )
+            if isinstance(part, ir.MethodCall) and is_user_defined and part.method not in called:
                 called.add(part.method)
                 body = bodies.get(part.method)
                 pending += [] if body is None else [body]

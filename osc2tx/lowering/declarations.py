@@ -13,7 +13,7 @@ from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.list_constraints import lower_list
-from osc2tx.lowering.map_fields import asks_the_map
+from osc2tx.lowering.map_fields import reads_map
 from osc2tx.lowering.methods import lower_method
 from osc2tx.lowering.objects import ObjectLowering, lineage
 from osc2tx.lowering.parameter_domains import all_values
@@ -302,7 +302,7 @@ def _parameter(
 ) -> ir.Parameter:
     setting = constraints.setting((field,), field.type)
     domain = setting.domain
-    if setting.value is not None and asks_the_map(setting.value):
+    if setting.value is not None and reads_map(setting.value):
         constraints.ctx.unsupported(
             "OSC501",
             setting.value.span,

@@ -1,4 +1,4 @@
-"""Equalities between values, solved for one of them: `a + b == 10m` is `b = 10m - a`."""
+"""Solves equalities for one parameter: `a + b == 10m` is `b = 10m - a`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""External methods (§7.3.7): code of the user, which runs only where it is allowed by name."""
+"""External methods (§7.3.7): user code that runs only if allowed by name."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.modifiers import draw_ranges, is_override
 from osc2tx.lowering.node_names import invocation_name
 from osc2tx.lowering.triggers import lower_until
-from osc2tx.lowering.user_actions import default_arguments, is_own
+from osc2tx.lowering.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
@@ -50,7 +50,7 @@ class InvocationLowering:
             return None
         self._ctx.actions.append(callee)
         arguments = self._arguments(node, actor)
-        if is_own(callee):
+        if is_user_defined(callee):
             arguments += default_arguments(self._ctx, callee, arguments, actor, node)
         written = [member for member in node.with_members if not _is_until(member)]
         invocation = ir.Invoke(
@@ -69,7 +69,7 @@ class InvocationLowering:
             modifiers=self._modifiers(node, actor),
             duration=next((a.value for a in arguments if a.parameter == "duration"), None),
             until=lower_until(self._ctx, node.with_members),
-            is_own=is_own(callee),
+            is_own=is_user_defined(callee),
         )
         return start_on_path(invocation)
 

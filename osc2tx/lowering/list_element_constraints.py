@@ -1,4 +1,4 @@
-"""Elements of lists of an actor that constraints fix by their number: `keep(it.axles[0].… == …)`.
+"""Constraints on elements of an actor's list by index: `keep(it.axles[0].… == …)`.
 
 Such a list has a length of its own: what is not said of it is as the runtime knows it.
 """

@@ -1,4 +1,4 @@
-"""Fields of roads, lanes and lights: a map fills them in before the start of a run.
+"""Fields of roads, lanes and lights that the map fills in before a run.
 
 Scenarios may bound some of them; the runtime then looks for parts of the map that fit.
 """
@@ -9,15 +9,15 @@ from osc2tx import ir
 from osc2tx.semantics import symbols as sym
 
 # Types of what a map fills in: their fields can be read when the scenario is on its map, ...
-OF_THE_MAP = frozenset(
+MAP_FIELDS = frozenset(
     {"compound_lane", "compound_route", "crossing", "crossing_type", "junction", "lane"}
     | {"lane_section", "map", "road", "route", "traffic_light", "traffic_light_group"}
     | {"traffic_light_stop_line"}
 )
 # ... but for those that a scenario itself says.
-SAID_BY_SCENARIOS = frozenset({"group", "map_id", "traffic_light_control", "traffic_light_group"})
+SCENARIO_FIELDS = frozenset({"group", "map_id", "traffic_light_control", "traffic_light_group"})
 # Numbers that a scenario may leave to the map within bounds.
-WISHES = frozenset({"length", "max_lanes", "min_lanes", "width"})
+SEARCH_CRITERIA = frozenset({"length", "max_lanes", "min_lanes", "width"})
 
 NOT_SEARCHED_BY = "this constraint is about what the map fills in, and not one it is searched by"
 SEARCHED_BY = (
@@ -26,18 +26,18 @@ SEARCHED_BY = (
 )
 
 
-def is_wish(field: sym.FieldSymbol) -> bool:
+def is_search_criterion(field: sym.FieldSymbol) -> bool:
     """Whether a range for a field is for the map to fill in, and not for the run to draw from."""
-    return says_the_map(field) and field.name in WISHES
+    return is_given_by_map(field) and field.name in SEARCH_CRITERIA
 
 
-def says_the_map(field: sym.FieldSymbol) -> bool:
+def is_given_by_map(field: sym.FieldSymbol) -> bool:
     """Whether a field of an object is known only when there is a map."""
-    is_part = field.owner is not None and field.owner.name in OF_THE_MAP
-    return is_part and field.name not in SAID_BY_SCENARIOS
+    is_part = field.owner is not None and field.owner.name in MAP_FIELDS
+    return is_part and field.name not in SCENARIO_FIELDS
 
 
-def asks_the_map(expression: ir.Expression) -> bool:
+def reads_map(expression: ir.Expression) -> bool:
     """Whether an expression reads what a map fills in."""
     attributes = (part for part in ir.walk(expression) if isinstance(part, ir.Attribute))
-    return any(part.is_variable and part.owner in OF_THE_MAP for part in attributes)
+    return any(part.is_variable and part.owner in MAP_FIELDS for part in attributes)

@@ -1,4 +1,4 @@
-"""Objects of a scenario, actors and structs: what constraints fix about them."""
+"""Objects of a scenario, actors and structs, with the values that constraints give them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.list_element_constraints import fixed_elements
-from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, asks_the_map, is_wish
+from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, is_search_criterion, reads_map
 from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.references import member_of
 from osc2tx.lowering.user_fields import (
@@ -19,8 +19,8 @@ from osc2tx.lowering.user_fields import (
     class_default,
     is_plain,
     object_default,
-    own_fields,
-    own_lineage,
+    user_fields,
+    user_lineage,
 )
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
@@ -130,11 +130,11 @@ class ObjectLowering:
         for key, setting in self._constraints.members(field):
             value, member = setting.value, key[-1]
             assert isinstance(member, sym.FieldSymbol)
-            if setting.domain is not None and value is None and is_wish(member):
+            if setting.domain is not None and value is None and is_search_criterion(member):
                 value = setting.domain
             elif value is None and setting.domain is not None:
                 value = self._ctx.draw(name_of(key), setting.domain, lower_type(member.type))
-            if value is not None and asks_the_map(value):
+            if value is not None and reads_map(value):
                 self._ctx.unsupported("OSC502", value.span, NOT_SEARCHED_BY, help=SEARCHED_BY)
                 continue
             if value is not None and not self._is_of_class(member, value):
@@ -161,8 +161,8 @@ class ObjectLowering:
         found: dict[Key, ir.FieldValue],
     ) -> None:
         """Give a value to each field of an own type that has none and no default of its class."""
-        for each in reversed(own_lineage(type_)):
-            for member in own_fields(self._ctx, each):
+        for each in reversed(user_lineage(type_)):
+            for member in user_fields(self._ctx, each):
                 inner = (*key, member)
                 if inner in found:
                     continue
@@ -253,7 +253,7 @@ def _default_at(
     """Return the default that the class of an own type has for a member, or one below it."""
     if not path or not isinstance(type_, types.ActorType | types.StructType):
         return None
-    fields = (member for each in own_lineage(type_.symbol) for member in own_fields(ctx, each))
+    fields = (member for each in user_lineage(type_.symbol) for member in user_fields(ctx, each))
     member = next((member for member in fields if member.name == path[0]), None)
     if member is None or path[1:]:
         return None if member is None else _default_at(ctx, member.type, path[1:])

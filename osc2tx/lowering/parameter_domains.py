@@ -1,4 +1,4 @@
-"""Domains of parameters as the IR writes them: with the bounds that the source has."""
+"""Domains of parameters in the IR, with bounds as the source writes them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names and paths: which field, parameter, label or object they stand for."""
+"""Names and paths, resolved to fields, parameters, labels and objects."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.global_names import global_name
-from osc2tx.lowering.map_fields import says_the_map
+from osc2tx.lowering.map_fields import is_given_by_map
 from osc2tx.lowering.value_types import SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
@@ -110,7 +110,7 @@ def member_of(
         base=base,
         owner=field.owner.name if field.owner is not None else "",
         name=field.name,  # not as written: a dialect may know it by another name
-        is_variable=field.is_variable or says_the_map(field),
+        is_variable=field.is_variable or is_given_by_map(field),
     )
 
 

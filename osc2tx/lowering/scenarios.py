@@ -26,12 +26,12 @@ from osc2tx.lowering.method_overriding import object_types
 from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.objects import lineage
 from osc2tx.lowering.override_modifiers import lower_overrides
-from osc2tx.lowering.unsupported_members import report_without_effect
+from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.user_fields import (
     class_default,
     mentioned_fields,
-    own_fields,
-    own_lineage,
+    user_fields,
+    user_lineage,
 )
 from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.user_types import lower_types
@@ -84,7 +84,7 @@ def lower(
         lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)
         pending.extend(ctx.invoked)
         invoked.update(map(id, ctx.invoked))
-    report_without_effect(program, used, actions)
+    report_unsupported_members(program, used, actions)
     scenarios = present(
         [
             scenario and replace(scenario, is_invoked=key in invoked)
@@ -165,7 +165,7 @@ def _own_actor(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Actor, ...]
     span = scenario.node.name.span
     names = lineage(scenario.actor)
     ctx.types.append(scenario.actor)
-    fields = (field for each in own_lineage(scenario.actor) for field in own_fields(ctx, each))
+    fields = (field for each in user_lineage(scenario.actor) for field in user_fields(ctx, each))
     is_given = any(class_default(ctx, field) is None for field in fields)
     return (
         ir.Actor(

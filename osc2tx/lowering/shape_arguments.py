@@ -1,4 +1,4 @@
-"""Shapes with methods of the scenario's own, as arguments of modifiers (§8.9.1.2)."""
+"""User-defined shapes as arguments of modifiers (§8.9.1.2)."""
 
 from __future__ import annotations
 
@@ -55,13 +55,13 @@ def says_start(modifier: ir.ModifierCall) -> bool:
     if modifier.at == "start":
         return True
     courses = [argument for argument in modifier.arguments if argument.parameter in COURSE]
-    computed = all(isinstance(argument.value, ir.OwnShape) for argument in courses)
+    computed = all(isinstance(argument.value, ir.UserShape) for argument in courses)
     return not courses or (computed and modifier.name in VALUES)
 
 
 def first_value(modifier: ir.ModifierCall) -> ir.ModifierCall:
     """Return a modifier with the value that its shape computes for the start."""
-    shape = next((a.value for a in modifier.arguments if isinstance(a.value, ir.OwnShape)), None)
+    shape = next((a.value for a in modifier.arguments if isinstance(a.value, ir.UserShape)), None)
     parameter = VALUES.get(modifier.name)
     if shape is None or parameter is None:
         return modifier
@@ -112,7 +112,7 @@ def _with_methods(ctx: LoweringContext, argument: ir.Argument, node: ast.Express
         if method is not None:
             ctx.methods.setdefault(_name(method), method)
     kinds = (each.name for each in supertypes(type_) if each.origin == "library")
-    own = ir.OwnShape(
+    own = ir.UserShape(
         span=argument.value.span,
         type=argument.value.type,
         operand=argument.value,

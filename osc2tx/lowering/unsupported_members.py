@@ -1,4 +1,4 @@
-"""Members of actors, structs and actions that no module carries out: refused, never dropped.
+"""Reports members of types that modules do not support.
 
 What the members of a type mean is mostly said where they are used: fields and constraints by the
 objects, methods by their calls, events by those who wait for them. The rest has to be looked for.
@@ -15,7 +15,7 @@ from osc2tx.semantics.types import ActorType, StructType
 from osc2tx.syntax import ast
 
 
-def report_without_effect(
+def report_unsupported_members(
     ctx: LoweringContext, used: Iterable[sym.TypeSymbol], actions: Iterable[sym.ActionSymbol]
 ) -> None:
     """Report members of types in use that would have no effect, each of them once.

@@ -18,7 +18,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
 
-def is_own(action: sym.ActionSymbol) -> bool:
+def is_user_defined(action: sym.ActionSymbol) -> bool:
     """Whether an action comes neither from the library nor from the prelude of a dialect."""
     return action.origin == "user"
 

@@ -1,4 +1,4 @@
-"""The fields of actors and structs of the scenario's own files, as their classes have them.
+"""Fields of actors and structs that the scenario's files declare.
 
 A class has the fields that have a default or that some text speaks of. The default is part of the
 class if it needs nothing else; one that reads other fields or globals belongs to each object.
@@ -39,7 +39,7 @@ def mentioned_fields(model: SemanticModel) -> frozenset[sym.FieldSymbol]:
     )
 
 
-def own_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
+def user_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
     """Yield the fields that the class of an own type adds to those of its base."""
     for member in symbol.members.values():
         if not isinstance(member, sym.FieldSymbol) or isinstance(
@@ -50,7 +50,7 @@ def own_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSy
             yield member
 
 
-def own_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:
+def user_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:
     """Return a type and its bases, as far as they are not the library's."""
     found = []
     current: TypeSymbol | None = symbol

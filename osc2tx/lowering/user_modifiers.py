@@ -1,4 +1,4 @@
-"""Modifiers of the user (§7.3.12): where one is applied stands what its body says.
+"""User-defined modifiers (§7.3.12): applications are replaced by their bodies.
 
 Its parameters are known there: from the arguments, the defaults and the constraints. The modifiers
 of its body then belong to the invocation like any others.

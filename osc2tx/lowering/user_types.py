@@ -1,4 +1,4 @@
-"""Actors and structs that the scenario's own files declare, as classes of the module."""
+"""Actors and structs that the scenario's files declare, as classes of the module."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext, statement_comments
-from osc2tx.lowering.user_fields import TypeSymbol, class_default, own_fields, own_lineage
+from osc2tx.lowering.user_fields import TypeSymbol, class_default, user_fields, user_lineage
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
 
 
-def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.OwnType, ...]:
+def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.UserType, ...]:
     """Lower the types of declared objects that are not the library's.
 
     Bases come first, and so do the types of fields, as far as they do not need each other.
@@ -35,10 +35,10 @@ def _add(
     around: tuple[TypeSymbol, ...],
 ) -> None:
     """Add a type below all that it needs."""
-    for each in reversed(own_lineage(symbol)):
+    for each in reversed(user_lineage(symbol)):
         if each in around:
             continue
-        for field in own_fields(ctx, each):
+        for field in user_fields(ctx, each):
             for needed in _object_types(field.type):
                 _add(ctx, needed, symbols, (*around, each))
         if symbols.setdefault(each.name, each) is not each:
@@ -60,15 +60,15 @@ def _object_types(type_: types.Type) -> Iterable[TypeSymbol]:
             return ()
 
 
-def _lower_type(ctx: LoweringContext, symbol: TypeSymbol) -> ir.OwnType:
+def _lower_type(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
     node = next((s for s in _declarations(ctx) if s.name.span == symbol.span), None)
-    return ir.OwnType(
+    return ir.UserType(
         name=symbol.name,
         span=symbol.span,
         comments=() if node is None else statement_comments(node),
         base=None if symbol.base is None else symbol.base.name,
         is_actor=isinstance(symbol, sym.ActorSymbol),
-        fields=tuple(_lower_field(ctx, field) for field in own_fields(ctx, symbol)),
+        fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
     )
 
 
@@ -79,8 +79,8 @@ def _declarations(ctx: LoweringContext) -> Iterable[ast.ActorDeclaration | ast.S
                 yield statement
 
 
-def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.OwnField:
-    return ir.OwnField(
+def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.UserField:
+    return ir.UserField(
         name=field.name,
         span=field.span,
         comments=() if field.node is None else statement_comments(field.node),

@@ -1,4 +1,4 @@
-"""Other names for what the standard has: some dialects read them, all explain them."""
+"""Aliases: names of other tools for items of the standard."""
 
 from __future__ import annotations
 

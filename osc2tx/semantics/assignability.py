@@ -1,4 +1,4 @@
-"""Whether a value fits where it is put: defaults, arguments, conditions (§7.4.2.6)."""
+"""Assignability of values: defaults, arguments, conditions (§7.4.2.6)."""
 
 from __future__ import annotations
 

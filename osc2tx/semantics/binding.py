@@ -1,4 +1,4 @@
-"""Arguments meet parameters (§7.3.5.1.3, §7.3.7)."""
+"""Binds arguments to parameters (§7.3.5.1.3, §7.3.7)."""
 
 from __future__ import annotations
 

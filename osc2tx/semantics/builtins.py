@@ -1,4 +1,4 @@
-"""What every program has without a declaration: life-cycle events, composition arguments."""
+"""Built-in symbols: life-cycle events, arguments of compositions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which types convert into which (§7.4.2.6), and the common type of several values."""
+"""Type conversions (§7.4.2.6), and the common type of several values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `cover` and `record` say: their arguments, and the items that a type has (§7.5)."""
+"""Coverage items: arguments of `cover` and `record`, and the items of a type (§7.5)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each namespace exports (§7.7.4)."""
+"""Exports of namespaces (§7.7.4)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Imports: which files make up a program, and in which order (§7.7.5)."""
+"""Imports: the files of a program, in order (§7.7.5)."""
 
 from __future__ import annotations
 

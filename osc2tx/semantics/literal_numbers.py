@@ -1,4 +1,4 @@
-"""Numbers that stand in the text."""
+"""Numbers written in the text as literals."""
 
 from __future__ import annotations
 

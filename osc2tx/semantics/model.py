@@ -1,4 +1,4 @@
-"""The semantic model: what the resolution pass found out about a program."""
+"""The semantic model: the result of the resolution pass."""
 
 from __future__ import annotations
 

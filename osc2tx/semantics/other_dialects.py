@@ -1,4 +1,4 @@
-"""Names that only the prelude of another dialect declares: what to say about them."""
+"""Names that only the prelude of another dialect declares."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Preludes: they may do to the library what no program may (see stdlib/dialects)."""
+"""Preludes of dialects, which may change declarations of the library."""
 
 from __future__ import annotations
 

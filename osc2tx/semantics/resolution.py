@@ -1,4 +1,4 @@
-"""The state that the functions of the resolution pass share."""
+"""The state shared by the functions of the resolution pass."""
 
 from __future__ import annotations
 

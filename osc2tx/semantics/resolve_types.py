@@ -1,4 +1,4 @@
-"""Type names become types, bases and actors become symbols (§7.2.2.2, §7.3)."""
+"""Resolves type names, bases and actors (§7.2.2.2, §7.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ScenarioRunner takes for granted beyond names: events of its own, texts for speeds."""
+"""Conventions of ScenarioRunner: predefined events, speeds as strings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scopes: the named things of a program, and which of them a place can see (§7.7.3)."""
+"""Scopes: symbol tables, and the names visible at a place (§7.7.3)."""
 
 from __future__ import annotations
 

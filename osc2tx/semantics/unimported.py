@@ -1,4 +1,4 @@
-"""Names of the standard library in a program that does not import it."""
+"""Names of the standard library that the program does not import."""
 
 from __future__ import annotations
 

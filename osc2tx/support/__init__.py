@@ -1,1 +1,1 @@
-"""Support for every stage; imports nothing of ours."""
+"""Support modules for every stage; they import nothing else of osc2tx."""

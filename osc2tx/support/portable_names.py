@@ -1,4 +1,4 @@
-"""Names that files and folders can have on every system."""
+"""Names of files and folders that every operating system accepts."""
 
 from __future__ import annotations
 

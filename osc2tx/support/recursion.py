@@ -1,4 +1,4 @@
-"""Room on the stack for deep programs.
+"""Recursion limit for deeply nested programs.
 
 The token source caps the nesting of a text at 200 levels. A stage that walks such a tree needs
 more frames than Python allows by default, though never more than the limit here.

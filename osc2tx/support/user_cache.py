@@ -1,4 +1,4 @@
-"""Files of osc2tx in the user's cache folder: read only if nobody else can have written them.
+"""Files in the user's cache folder, read only if nobody else can have written them.
 
 What is read there decides what osc2tx makes, so a folder or a file that belongs to somebody else,
 or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor writes any.

@@ -1,4 +1,4 @@
-"""Which characters may form a plain identifier (§7.2.1.5.1)."""
+"""Characters of plain identifiers (§7.2.1.5.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The values of literals (§7.2.1.5.2): escapes, numbers and the limits of their types."""
+"""Values of literals (§7.2.1.5.2): escapes, numbers and the limits of their types."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages for the places where the text leaves the grammar."""
+"""Messages for syntax errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From text to tokens: one pass with a regular expression, blocks by indentation (§7.2.1)."""
+"""The lexer: a regular expression for tokens, indentation for blocks (§7.2.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The token table in the shape that the generated parser asks for."""
+"""The token table as the stream that the generated parser expects."""
 
 from __future__ import annotations
 

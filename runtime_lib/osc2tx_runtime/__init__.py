@@ -1,9 +1,14 @@
 """Runtime of the modules that osc2tx generates: cast, behavior tree, embedded world, verdict.
 
 A generated module needs the names below, `osc2tx_runtime.modifiers` and `osc2tx_runtime.units`.
-In order of control flow: `main` reads the options (`settings`), `runner` makes a `scenario`, its
-tree (`tree`, `action`, `registry`) and its world (`world`, `initializer`), and runs the loop
-of instants (`context`, `slots`); what happens goes into the `trace` and the `report`.
+The floors, from above; each imports only those below it:
+
+* `running`: options, the loop of instants, the verdict; it writes the `report`.
+* `domain`: actors, actions, modifiers, routes: the domain model of the standard.
+* `language`: scenarios, their trees, events and values, the state of a run, the trace.
+* `world`: the embedded world, and what every world offers.
+* `opendrive`: the road map.
+* `errors`, `enums`, `units`, `clock`: leaves.
 """
 
 from __future__ import annotations

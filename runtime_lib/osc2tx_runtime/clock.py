@@ -1,4 +1,4 @@
-"""Scenario time: whole steps. What lasts some seconds ends at the first step at or after them."""
+"""Conversion of seconds to whole steps: the first step at or after a time."""
 
 from __future__ import annotations
 

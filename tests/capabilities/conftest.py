@@ -6,11 +6,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx_runtime import RunSettings, Scenario
 from tests.capabilities.kit import CAPABILITIES, Perform, Performance
-from tests.end_to_end.harness import compile_scenario, run
+from tests.end_to_end.harness import generate, run
 
 Load = Callable[[GeneratedModule], type[Scenario]]
 SETTINGS = RunSettings(max_time=60.0)
@@ -47,7 +46,7 @@ def perform(load: Load) -> Perform:
     def perform_one(name: str, settings: RunSettings = SETTINGS) -> Performance:
         key = name, repr(settings)
         if key not in done:
-            scenario = load(emit(compile_scenario(CAPABILITIES / f"{name}.osc")))
+            scenario = load(generate(CAPABILITIES / f"{name}.osc"))
             done[key] = Performance(run(scenario, settings))
         return done[key]
 

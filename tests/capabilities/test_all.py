@@ -5,12 +5,16 @@ import sys
 
 import pytest
 
-from osc2tx.compilation.driver import Compilation
-from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings
 from tests.capabilities.conftest import SETTINGS, Load
 from tests.capabilities.kit import CAPABILITIES, Line, Perform
-from tests.end_to_end.harness import REPOSITORY, compile_scenario, permuted_module, run
+from tests.end_to_end.harness import (
+    REPOSITORY,
+    compilation_of,
+    compile_scenario,
+    permuted_module,
+    run,
+)
 
 NAMES = sorted(path.stem for path in CAPABILITIES.glob("*.osc"))
 MODULES = sorted((REPOSITORY / "generated" / "capabilities").glob("*.py"))
@@ -29,7 +33,7 @@ CLOSED_FORMS = [
 
 @pytest.mark.parametrize("name", NAMES)
 def test_it_builds_without_a_diagnostic(name: str) -> None:
-    compilation = Compilation(CAPABILITIES / f"{name}.osc", f"{name}.osc", CompileOptions())
+    compilation = compilation_of(CAPABILITIES / f"{name}.osc")
     assert compilation.module is not None
     assert compilation.diagnostics == ()
 

@@ -50,7 +50,7 @@ def heirs(kind: str) -> Sequence[str]:
     return found
 
 
-def items() -> Sequence[Item]:
+def declared_items() -> Sequence[Item]:
     """Return all items, by kind and then in the order of the library."""
     found: dict[tuple[Kind, str], Item] = {}
     for standard in STANDARDS:
@@ -59,6 +59,12 @@ def items() -> Sequence[Item]:
                 known = found.setdefault((kind, item), Item(kind, item, parameters))
                 known.parameters = parameters
                 known.standards.append(standard)
+    return sorted(found.values(), key=lambda item: KINDS.index(item.kind))
+
+
+def items() -> Sequence[Item]:
+    """Return the same, with the scenarios that use them."""
+    found = {(item.kind, item.name): item for item in declared_items()}
     # In a scenario a modifier goes by its own name, without that of the actor.
     by_use = {
         (k, name.rpartition(".")[2] if k == "modifier" else name): (k, name) for k, name in found
@@ -67,7 +73,7 @@ def items() -> Sequence[Item]:
         for use in _used(source):
             if use in by_use:
                 found[by_use[use]].used.append(source)
-    return sorted(found.values(), key=lambda item: KINDS.index(item.kind))
+    return list(found.values())
 
 
 def _items(file: ast.File) -> Iterator[tuple[Kind, str, tuple[str, ...]]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from os.path import relpath
 
+from osc2tx.catalogue import catalogue
 from osc2tx.options import XML_VERSIONS
 from tests.coverage.capabilities import Row, rows
 from tests.coverage.language import CHAPTERS, Construct, constructs
@@ -24,8 +25,8 @@ INTRODUCTION = """\
 What osc2tx can do, computed: rows of capabilities from `scenarios/capabilities/` and the tests of
 the same number, which measure the effect in the recorded trace; constructs from all scenario files
 of the repository and what the compiler makes of them; items of the standard library from its text
-and the table of what the runtime carries out. A code says with which report something is refused,
-before anything runs; `osc2tx explain CODE` says more.
+and the catalogue. A code says with which report something is refused, before anything runs;
+`osc2tx explain CODE` says more.
 """
 
 XML_INTRODUCTION = """\
@@ -36,6 +37,9 @@ means the same, `approximated` nearly the same, which needs `--allow-approx`; a 
 something `not expressible` has no XML. A construct with several grades depends on what is said
 with it.
 """
+
+WITH_XML_FORM = ("action", "modifier")
+"""Kinds that have a form in OpenSCENARIO XML, or a reason why not, by the catalogue."""
 
 HEADINGS = {
     "action": "Actions",
@@ -104,12 +108,14 @@ def library_tables(found: Sequence[Item]) -> str:
                 f"`{item.name}`",
                 " ".join(item.standards),
                 *(target.item(item) for target in TARGETS),
+                *([xml_form(item)] if kind in WITH_XML_FORM else []),
                 _examples([source.place for source in item.used]),
             ]
             for item in own
         ]
         counts = ", ".join(f"{_refusal_count(own, t)} refused by {t.name}" for t in TARGETS)
-        head = [kind, "standard", *(target.name for target in TARGETS), "used in"]
+        xml = ["XML"] if kind in WITH_XML_FORM else []
+        head = [kind, "standard", *(target.name for target in TARGETS), *xml, "used in"]
         heading = f"### {HEADINGS[kind]}: {len(own)}, {counts}"
         parts.append(f"{heading}\n\n{_table(head, body)}")
     return "\n".join(parts)
@@ -130,6 +136,15 @@ def xml_tables(found: Sequence[Row]) -> str:
             f"### Constructs\n\n{constructs}",
         ]
     )
+
+
+def xml_form(item: Item) -> str:
+    """Return whether XML has a form of an item, or the reason why not."""
+    library, name = catalogue(), item.name.rpartition(".")[2]
+    if item.name in library.abstract:
+        return "abstract"
+    entry = library.actions[item.name] if item.kind == "action" else library.modifiers[name]
+    return entry.without_xml or "yes"
 
 
 def _refusal_count(found: Iterable[Item], target: object) -> int:

@@ -51,6 +51,8 @@ class PyTrees:
                 return self._field(item)
 
     def _action(self, item: Item) -> str:
+        if item.name in catalogue().abstract:
+            return "abstract"
         entry = catalogue().actions.get(item.name)
         return "OSC507" if entry is None else _all_but(item, entry.arguments)
 

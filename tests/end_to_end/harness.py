@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 from osc2tx import ir
@@ -33,11 +34,23 @@ class Trace(Run):
         return float(time)
 
 
-def compile_scenario(path: Path) -> ir.Module:
+@cache
+def compilation_of(path: Path) -> Compilation:
+    """Return the compilation of a scenario of the repository, with its settings, made once."""
     options = ConfigFiles().for_source(path).options_for(path, GivenOptions())
-    compilation = Compilation(path, path.name, options)
+    return Compilation(path, path.name, options)
+
+
+def compile_scenario(path: Path) -> ir.Module:
+    compilation = compilation_of(path)
     assert compilation.ir is not None, compilation.diagnostics
     return compilation.ir
+
+
+def generate(path: Path) -> GeneratedModule:
+    compilation = compilation_of(path)
+    assert compilation.module is not None, compilation.diagnostics
+    return compilation.module
 
 
 def run(scenario: type[Scenario], settings: RunSettings | None = None) -> Trace:

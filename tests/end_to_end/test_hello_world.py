@@ -11,7 +11,14 @@ from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.config import ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.running.options import read_options
-from tests.end_to_end.harness import SCENARIOS, Trace, compile_scenario, permuted_module, run
+from tests.end_to_end.harness import (
+    SCENARIOS,
+    Trace,
+    compile_scenario,
+    generate,
+    permuted_module,
+    run,
+)
 
 FILE = SCENARIOS / "hello_world.osc"
 Load = Callable[[GeneratedModule], type[Scenario]]
@@ -27,7 +34,7 @@ def settings(test_data: Path) -> RunSettings:
 
 @pytest.fixture(scope="module")
 def trace(load: Load, settings: RunSettings) -> Trace:
-    return run(load(emit(compile_scenario(FILE))), settings)
+    return run(load(generate(FILE)), settings)
 
 
 def line(number: int) -> str:
@@ -131,7 +138,7 @@ def test_two_runs_and_permuted_branches_give_the_same_bytes(
 @pytest.mark.parametrize("start", [10.0, 25.0, 40.0])
 def test_the_story_holds_from_other_starts(load: Load, settings: RunSettings, start: float) -> None:
     trace = run(
-        load(emit(compile_scenario(FILE))),
+        load(generate(FILE)),
         replace(settings, spawn={"hero": ("16", -3, start)}),
     )
     assert trace.status == "success"

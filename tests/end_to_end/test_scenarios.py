@@ -8,7 +8,14 @@ import pytest
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx_runtime import RunSettings, Scenario
-from tests.end_to_end.harness import SCENARIOS, Trace, compile_scenario, permuted_module, run
+from tests.end_to_end.harness import (
+    SCENARIOS,
+    Trace,
+    compile_scenario,
+    generate,
+    permuted_module,
+    run,
+)
 
 Load = Callable[[GeneratedModule], type[Scenario]]
 OWN = ["cut_in", "cut_in_and_evade", "follow_leader", "pedestrian_crossing"]
@@ -17,7 +24,7 @@ OWN = ["cut_in", "cut_in_and_evade", "follow_leader", "pedestrian_crossing"]
 @pytest.fixture
 def run_named(load: Load) -> Callable[..., Trace]:
     def run_one(name: str, **settings: object) -> Trace:
-        module = emit(compile_scenario(SCENARIOS / f"{name}.osc"))
+        module = generate(SCENARIOS / f"{name}.osc")
         return run(load(module), RunSettings(**settings))  # type: ignore[arg-type]
 
     return run_one

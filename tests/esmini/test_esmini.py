@@ -22,9 +22,8 @@ from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.processes import HANGING
-from tests.unit.backends.xosc.documents import compiled
+from tests.unit.backends.xosc.documents import PLAIN, compiled
 from tests.unit.backends.xosc.played import (
-    PLAIN,
     Played,
     compare,
     spread,

@@ -14,7 +14,7 @@ does not take or that differs the second time, a diagnostic that points nowhere,
 
 Findings go to `--out`, one folder for each kind of failure and place: `input.osc`, the smallest
 text of that kind, cut down line by line, and `report.txt` with options, seed and traceback. The
-process ends with 1 if there are any. What is mended becomes a test: a golden case for the
+process ends with 1 if there are any. What is fixed becomes a test: a golden case for the
 diagnostic or module that should come out, else a case of tests/unit/test_bad_input.py.
 """
 

@@ -17,7 +17,7 @@ from tests.fuzz.oracle import is_built, try_text
 from tests.fuzz.programs import write_program
 
 OPTIONS = st.builds(CompileOptions, st.sampled_from(STANDARDS), st.sampled_from(DIALECTS))
-BOUNDED = settings(max_examples=60, suppress_health_check=[HealthCheck.data_too_large])
+BOUNDED = settings(max_examples=30, suppress_health_check=[HealthCheck.data_too_large])
 SEEDS = seed_texts(Path(__file__).parents[2])
 
 

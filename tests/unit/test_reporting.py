@@ -181,6 +181,6 @@ def test_explain_shows_a_faulty_text_and_how_to_mend_it(shell: Shell) -> None:
         "Faulty:\n\n    scenario top:\n        hero: vehicel\n\n"
         "Spell the type as it was declared, and import the file that declares it. The standard "
         "library needs `import osc.standard.all` and `namespace null use std, stdtypes`.\n\n"
-        "Mended:\n\n    scenario top:\n        hero: vehicle\n"
+        "Fixed:\n\n    scenario top:\n        hero: vehicle\n"
     )
     assert "Faulty (with --dialect carla):" in shell("explain", "OSC601").out

@@ -141,7 +141,7 @@ class CallCheck:
                     argument.span,
                     f"a shape of `{modifier.name}` is an `{wanted}`, not a `{value.type.name}`",
                 )
-            elif wanted == "any_shape" and not isinstance(value, ir.OwnShape):
+            elif wanted == "any_shape" and not isinstance(value, ir.UserShape):
                 self._sink.report(
                     "OSC513",
                     argument.span,
@@ -151,7 +151,7 @@ class CallCheck:
 
     def _kinds(self, shape: ir.Expression) -> tuple[str, ...]:
         """Return the types of a shape, as those of the bases that the library has."""
-        if isinstance(shape, ir.OwnShape):
+        if isinstance(shape, ir.UserShape):
             return (shape.kind,)
         name = shape.name if isinstance(shape, ir.FieldRef) else ""
         lineage = self._lineages.get(name, (shape.type.name,))

@@ -168,7 +168,7 @@ class ExpressionWriter:
                 class_ = self._class_of(type_.name)
                 as_type = self._use_name("as_type")
                 return PyExpr(f"{as_type}({self.write(operand)}, {class_})", Level.ATOM)
-            case ir.OwnShape(operand=operand, compute=compute, duration=duration):
+            case ir.UserShape(operand=operand, compute=compute, duration=duration):
                 object_ = self.write(operand)
                 methods = [name for name in (compute, duration) if name is not None]
                 functions = (self._function(method, object_) for method in methods)

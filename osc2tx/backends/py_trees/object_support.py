@@ -45,7 +45,7 @@ class ObjectCheck:
     """
 
     def __init__(
-        self, own: Mapping[str, ir.OwnType], objects: ObjectTables, sink: DiagnosticSink
+        self, own: Mapping[str, ir.UserType], objects: ObjectTables, sink: DiagnosticSink
     ) -> None:
         """See the class."""
         self._own = own
@@ -93,7 +93,7 @@ class ObjectCheck:
         if kind is not None and classes is STRUCT_CLASSES:
             self._needed(object_, kind)
 
-    def _object_fields(self, lineage: Sequence[str]) -> Iterator[ir.OwnField]:
+    def _object_fields(self, lineage: Sequence[str]) -> Iterator[ir.UserField]:
         for type_ in lineage:
             if type_ in self._own:
                 fields = self._own[type_].fields

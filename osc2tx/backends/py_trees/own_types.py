@@ -16,7 +16,7 @@ from osc2tx.backends.py_trees.view import FieldView, FunctionView, TypeView, sig
 
 
 def write_types(
-    own: Sequence[ir.OwnType], table: TypeTable, methods: TypeMethods, uses: Uses
+    own: Sequence[ir.UserType], table: TypeTable, methods: TypeMethods, uses: Uses
 ) -> tuple[TypeView, ...]:
     """Return the view models of the types, in their order.
 
@@ -38,7 +38,7 @@ class _TypeWriter:
 
     def __init__(
         self,
-        own: ir.OwnType,
+        own: ir.UserType,
         later: frozenset[str],
         table: TypeTable,
         methods: TypeMethods,
@@ -68,7 +68,7 @@ class _TypeWriter:
             methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),
         )
 
-    def _field(self, field: ir.OwnField) -> FieldView:
+    def _field(self, field: ir.UserField) -> FieldView:
         writer = self._writer()
         return FieldView(
             name=self._table.member(self._own.name, field.name),

@@ -32,7 +32,7 @@ def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
 
 class _SupportCheck:
     def __init__(
-        self, scenario: ir.Scenario, own: dict[str, ir.OwnType], sink: DiagnosticSink
+        self, scenario: ir.Scenario, own: dict[str, ir.UserType], sink: DiagnosticSink
     ) -> None:
         self.scenario = scenario
         self.own_fields = {(t.name, f.name) for t in own.values() for f in t.fields}

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from osc2tx import ir
 
-OF_THE_SCENARIO = (ir.FieldRef, ir.InvokedValue, ir.EventArgument, ir.OwnShape)
+OF_THE_SCENARIO = (ir.FieldRef, ir.InvokedValue, ir.EventArgument, ir.UserShape)
 
 
 class TypeMethods:
@@ -24,7 +24,7 @@ class TypeMethods:
     """
 
     def __init__(
-        self, types: Iterable[ir.OwnType] = (), scenarios: Iterable[ir.Scenario] = ()
+        self, types: Iterable[ir.UserType] = (), scenarios: Iterable[ir.Scenario] = ()
     ) -> None:
         """See the class."""
         own = {each.name for each in types}

@@ -36,7 +36,7 @@ class TypeTable:
         uses: What the module has to import.
     """
 
-    def __init__(self, own: Sequence[ir.OwnType], classes: NameTable, uses: Uses) -> None:
+    def __init__(self, own: Sequence[ir.UserType], classes: NameTable, uses: Uses) -> None:
         """See the class."""
         self._own = {each.name: each for each in own}
         self._classes = classes
@@ -54,7 +54,7 @@ class TypeTable:
         """Name a class of the runtime."""
         return self._uses.name(name)
 
-    def base_of(self, own: ir.OwnType) -> PyName | None:
+    def base_of(self, own: ir.UserType) -> PyName | None:
         """Name the base class of an own type; an actor of no special kind is an `Actor`."""
         if own.is_actor and own.base in (None, ROOT):
             return self._uses.name("Actor")
@@ -106,15 +106,15 @@ class TypeTable:
             self._classes.add(key, wanted, "Enum")
         return self._classes[key]
 
-    def field(self, lineage: Sequence[str], name: str) -> ir.OwnField | None:
+    def field(self, lineage: Sequence[str], name: str) -> ir.UserField | None:
         """Return a field that an own type of a lineage declares."""
         return next((field for field in self.fields(lineage) if field.name == name), None)
 
-    def fields(self, lineage: Sequence[str]) -> Iterator[ir.OwnField]:
+    def fields(self, lineage: Sequence[str]) -> Iterator[ir.UserField]:
         """Yield the fields that own types of a lineage declare, those of bases first."""
         return (field for _, field in self.owned_fields(lineage))
 
-    def owned_fields(self, lineage: Sequence[str]) -> Iterator[tuple[str, ir.OwnField]]:
+    def owned_fields(self, lineage: Sequence[str]) -> Iterator[tuple[str, ir.UserField]]:
         """Yield the same, each with the type that declares it."""
         for type_ in reversed(lineage):
             if type_ in self._own:
@@ -128,7 +128,7 @@ class TypeTable:
         return tuple(names)
 
 
-def _seen_by_classes(own: Sequence[ir.OwnType]) -> Iterator[str]:
+def _seen_by_classes(own: Sequence[ir.UserType]) -> Iterator[str]:
     """Yield the names that annotations and defaults in classes of structs use."""
     yield from {*ANNOTATIONS.values(), "list", "dataclass", *CLASSES.values(), "Range"}
     fields = [field for type_ in own for field in type_.fields]

@@ -1,4 +1,4 @@
-"""What all parts of the back end share while one scenario is written down."""
+"""Context of one scenario, shared by all modules of the back end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The document: a scenario from its header to its stop trigger."""
+"""The whole document: header, entities, storyboard, stop trigger."""
 
 from __future__ import annotations
 

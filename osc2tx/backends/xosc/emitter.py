@@ -1,4 +1,4 @@
-"""Entry of the back end."""
+"""Entry of the back end: IR in, documents and loss reports out."""
 
 from __future__ import annotations
 

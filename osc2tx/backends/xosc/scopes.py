@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.values.user_types import OwnTypes
+from osc2tx.backends.xosc.values.user_types import UserTypes
 from osc2tx.backends.xosc.xml.names import Names
 
 
@@ -88,7 +88,7 @@ class _Place(NamedTuple):
 class _Opener:
     def __init__(self, module: ir.Module, chosen: Mapping[str, Constant]) -> None:
         self._by_key = {scenario.key: scenario for scenario in module.scenarios}
-        self._types = OwnTypes(module.types)
+        self._types = UserTypes(module.types)
         self._names = Names()  # `|my car|` and `my_car` are two actors
         self._paths = Names()
         self._chosen = chosen

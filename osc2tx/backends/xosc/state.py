@@ -1,4 +1,4 @@
-"""What is known about an actor while the tree is walked: its speed, its lane, its pose."""
+"""Known state of an actor while the tree is flattened: speed, lane, pose."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What there is to say about a code, as text for people."""
+"""Explanation of a code as text."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ def render_explanation(entry: Code) -> str:
     if explanation is not None:
         options = f" (with {explanation.options})" if explanation.options else ""
         parts += [f"Faulty{options}:", _indented(explanation.faulty), explanation.remedy]
-        if explanation.mended:
-            parts += ["Mended:", _indented(explanation.mended)]
+        if explanation.fixed:
+            parts += ["Fixed:", _indented(explanation.fixed)]
     return "\n\n".join(parts)
 
 

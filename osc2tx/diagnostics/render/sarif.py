@@ -77,8 +77,8 @@ def _markdown_help(entry: Code) -> str:
     explanation = entry.explanation
     if explanation:
         text += f"\n\nFaulty:\n\n{code_block(explanation.faulty)}"
-        if explanation.mended:
-            text += f"\n\nMended:\n\n{code_block(explanation.mended)}"
+        if explanation.fixed:
+            text += f"\n\nMended:\n\n{code_block(explanation.fixed)}"
     return text
 
 

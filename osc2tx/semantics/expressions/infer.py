@@ -1,4 +1,4 @@
-"""The entry to expression typing: one type per node, kept in the side table."""
+"""Entry of type inference: one type for each expression, kept in a side table."""
 
 from __future__ import annotations
 

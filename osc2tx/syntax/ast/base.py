@@ -1,4 +1,4 @@
-"""What all AST nodes have in common."""
+"""Base classes of AST nodes."""
 
 from __future__ import annotations
 

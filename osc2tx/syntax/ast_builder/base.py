@@ -1,4 +1,4 @@
-"""Tools that all parts of the AST builder share: tokens, spans, names, reports."""
+"""Base of the AST builders: tokens, spans, names, reports."""
 
 from __future__ import annotations
 

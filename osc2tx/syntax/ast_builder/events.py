@@ -1,4 +1,4 @@
-"""Event specifications and calls: what stands after `wait`, `until`, `on`, `call`, `emit`."""
+"""Event specifications and calls, behind `wait`, `until`, `on`, `call`, `emit`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Expressions: from the flat row of the grammar to a tree with precedence (§7.4)."""
+"""Expressions: operator precedence over the flat lists of the grammar (§7.4)."""
 
 from __future__ import annotations
 

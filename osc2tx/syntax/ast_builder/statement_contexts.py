@@ -1,4 +1,4 @@
-"""Where which statement may stand (§7.2.2)."""
+"""Contexts in which each statement is allowed (§7.2.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The frame of all statements: blocks, comments, what may stand where."""
+"""Blocks, comments and contexts of statements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What this runtime carries out, as plain data: for the compiler and for the documentation.
+"""Lists the actions, modifiers and objects of this runtime, for the tables of the compiler.
 
 What is not listed is not there; the compiler refuses it before anything runs.
 """

@@ -1,4 +1,4 @@
-"""Tables of what there is to read and to make, by the names of the domain model."""
+"""Tables of the readable fields and methods and of the value classes, by their DSL names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plain values of the domain model that scenarios pass around, SI units."""
+"""Value classes of points, orientations, poses and route points, SI units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The base of generated scenarios: those of the language, with a map."""
+"""The base class of generated scenarios: a scenario of the language with a map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shapes: the course of a quantity over the time of a phase (DSL 8.9.1.2).
+"""Shapes: the value of a quantity over the time of a phase (DSL 8.9.1.2).
 
 A shape gives the course of the value that its modifier names: a speed, or how much faster than
 another one; a distance along the road, or to another actor; a place across the lane. The time

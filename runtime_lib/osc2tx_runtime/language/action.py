@@ -1,4 +1,4 @@
-"""The base of all actions: what an actor does for a while."""
+"""The base class of all actions."""
 
 from __future__ import annotations
 

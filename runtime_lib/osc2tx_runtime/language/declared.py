@@ -1,4 +1,4 @@
-"""What the language needs of the things that a scenario declares: actors, parts of the map."""
+"""Bases of declared actors and objects, as far as the language needs to know them."""
 
 from __future__ import annotations
 

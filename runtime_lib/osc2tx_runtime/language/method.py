@@ -1,4 +1,4 @@
-"""What is known of an action besides its class: name, slots, how it ends."""
+"""Registration data of an action: name, slots, how it ends, needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The base of all modifiers: what says how an action is carried out, or where an actor starts."""
+"""The base class of all modifiers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is stated of a modifier besides its parameters; the compiler reads it as well."""
+"""Registration data of a modifier: rules, slots, needs."""
 
 from __future__ import annotations
 

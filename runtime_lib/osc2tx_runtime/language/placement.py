@@ -1,4 +1,4 @@
-"""Where an actor is to be when the scenario starts."""
+"""The record of one `place` call."""
 
 from __future__ import annotations
 

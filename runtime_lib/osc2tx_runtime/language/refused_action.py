@@ -1,4 +1,4 @@
-"""Actions that cannot be made: they keep their place in the tree, so that their line is named."""
+"""Stand-in for an action that cannot be made; it reports the error at its line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The registry of methods: which class carries out `hero.change_lane(...)`."""
+"""The registry of actions: DSL name to class; makes the nodes of calls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The base of scenarios: what generated classes write, and what they call."""
+"""The base class of scenarios: members that generated classes write and call."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a scenario has declared: names for it, and checks of what is given to it from outside."""
+"""Names of declared members; checks of arguments and settings."""
 
 from __future__ import annotations
 

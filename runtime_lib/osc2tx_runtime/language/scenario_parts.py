@@ -1,4 +1,4 @@
-"""What a scenario consists of: cast, events, placements, what it invokes, and who invokes it."""
+"""State of a scenario: cast, events, placements, invocations, caller."""
 
 from __future__ import annotations
 

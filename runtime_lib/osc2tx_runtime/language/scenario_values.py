@@ -1,4 +1,4 @@
-"""The values of a scenario: parameters, and the constraints between them."""
+"""Parameters of a scenario, their draws and constraints; coverage items."""
 
 from __future__ import annotations
 

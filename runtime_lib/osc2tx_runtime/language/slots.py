@@ -1,4 +1,4 @@
-"""Who controls what: claims on the slots of actors, and changes of state at one instant.
+"""Slots of actors with their owners and commands; effects of one instant.
 
 Both are judged when the instant is settled, so a hand-over from one action to the next is silent
 in whatever order the tree visits them, and two parallel actions on one slot are reported.

@@ -1,4 +1,4 @@
-"""The source map beside a generated module: which line of the scenario each part came from.
+"""Reader of the source map beside a generated module.
 
 It holds numbers only and decides nothing: without it, messages and traces name the file alone.
 """

@@ -1,4 +1,4 @@
-"""The one exception this package raises about map files."""
+"""The exception for map files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From degrees to metres of a map: the projection that `geoReference` names (WGS 84).
+"""Map projections of `geoReference`: WGS 84 to map coordinates.
 
 The transverse Mercator projection is written out: the series of Krüger up to the fourth order of
 the third flattening, which is good to less than a millimetre within 3000 km of the central

@@ -1,4 +1,4 @@
-"""Distances over the lane graph.
+"""Route search: distances over the lane graph.
 
 Lanes that lie side by side and run the same way form a group; moving within a group costs no
 length (OpenSCENARIO DSL 8.7.6.1). A distance is measured along the lane of the one behind and

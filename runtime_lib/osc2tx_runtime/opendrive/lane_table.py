@@ -1,4 +1,4 @@
-"""Finding roads and lanes of a map by their ids, with messages that name the map."""
+"""Lookup of roads and lanes by id, with error messages."""
 
 from __future__ import annotations
 

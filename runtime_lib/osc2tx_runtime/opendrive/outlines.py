@@ -1,4 +1,4 @@
-"""Lists made from whole maps: lane outlines for drawing, default start places."""
+"""Lane outlines for drawing, and default start places."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The public face of a map: poses, lanes, distances."""
+"""The road map: the public class with all queries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where on the lanes signals hold."""
+"""Places on lanes where signals hold."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small conversions of values read from a trace: strict about types, lenient about presence."""
+"""Conversions of JSON values read from a trace."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What changes at instants around the actors: traffic lights, weather, lights of vehicles."""
+"""Changes of traffic lights, weather and vehicle lights over time."""
 
 from __future__ import annotations
 

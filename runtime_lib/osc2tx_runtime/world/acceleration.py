@@ -1,4 +1,4 @@
-"""Longitudinal commands that speak of the acceleration, in closed form."""
+"""Acceleration commands: closed-form speed over time."""
 
 from __future__ import annotations
 

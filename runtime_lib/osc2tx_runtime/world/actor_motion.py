@@ -1,4 +1,4 @@
-"""What one actor is asked for, put to work."""
+"""The commands of one actor, and their execution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One actor over one step."""
+"""The motion of one actor over one step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Speed that brings an actor along a curve in time."""
+"""Schedule of a trajectory: the speed that reaches its points in time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How an actor is tilted: as the road under it, or as it was told (DSL 8.3, 8.14.2).
+"""Pitch and roll of actors: from the road, or as told (DSL 8.3, 8.14.2).
 
 Angles are those of ISO 8855, applied in the order yaw, pitch, roll: a nose that points up has a
 negative pitch, a left side that is raised a positive roll.

@@ -1,4 +1,4 @@
-"""The command to take an attitude at work: heading, pitch and roll of an actor off the lanes."""
+"""Execution of `Turn`: heading, pitch and roll of actors off the lanes."""
 
 from __future__ import annotations
 

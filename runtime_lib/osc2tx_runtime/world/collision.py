@@ -1,4 +1,4 @@
-"""Contacts between bounding boxes, also of thin boxes that pass through each other in one step."""
+"""Collision detection of moving bounding boxes, swept over a step."""
 
 from __future__ import annotations
 

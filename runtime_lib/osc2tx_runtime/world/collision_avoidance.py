@@ -1,4 +1,4 @@
-"""Driving with care: not running into what is ahead, and stopping at red lights.
+"""Collision avoidance (intelligent driver model) and stopping at red lights.
 
 For others ahead: the interaction term of the intelligent-driver model. The acceleration is at most
 a (1 - (g*/g)^2) with the wanted gap g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being

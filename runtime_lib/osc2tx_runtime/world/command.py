@@ -1,4 +1,4 @@
-"""What all commands have in common."""
+"""The base class of commands."""
 
 from __future__ import annotations
 

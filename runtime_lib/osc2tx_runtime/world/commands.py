@@ -1,4 +1,4 @@
-"""What an action asks of a world: frozen values, one per slot.
+"""All commands: frozen values, one per slot.
 
 A world takes a command over at the step it first sees the object and pursues it until another
 one (or None) comes. Worlds that cannot pursue a command say so in `World.capabilities()`.

@@ -1,4 +1,4 @@
-"""Contacts between actors from step to step: each is new once, until both are apart again."""
+"""Contacts between actors over the steps, each reported once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which vehicle tows which trailer, and how trailers come along."""
+"""Couplings of towing vehicles and trailers."""
 
 from __future__ import annotations
 

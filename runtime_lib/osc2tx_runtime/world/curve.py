@@ -1,4 +1,4 @@
-"""Lines through points in the world: where they lead, how long they are.
+"""Curves through points: straight or cubic Hermite pieces, by arc length.
 
 A curve runs over a parameter: metres from point to point for paths, seconds for trajectories.
 Pieces are straight, or cubic (Hermite) with the tangents of the parabola through three points, so

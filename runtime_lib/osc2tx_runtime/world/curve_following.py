@@ -1,4 +1,4 @@
-"""Free courses at work: the pose of an actor that moves along a curve instead of a lane.
+"""Following and replaying curves off the lanes.
 
 `Replay` and `TimedReplay` write the pose as the curve has it. `Follow` steers there as the limits
 allow: a bicycle with its reference point at the rear axle, steered at a point ahead on the curve

@@ -1,4 +1,4 @@
-"""What the embedded world carries out: names of commands, and other features."""
+"""Names of the commands and features of the embedded world."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What wheels can transmit to the road, by the weather.
+"""Tyre-road friction by weather.
 
 The accelerations of a vehicle stay within the friction circle: the sum of the squares of the one
 along its way and of the one across it is at most (mu g)^2.

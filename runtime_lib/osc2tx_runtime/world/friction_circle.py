@@ -1,4 +1,4 @@
-"""The friction circle at work: how much of a wanted speed the wheels of a vehicle follow."""
+"""The friction circle: limits of the speed that a vehicle can follow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Courses that functions of the time give, and changes that begin with a rate of their own.
+"""Profiles given as functions of time, or with an initial rate.
 
 See `profiles` for the closed forms without one.
 """

@@ -1,4 +1,4 @@
-"""Longitudinal commands about places: a distance to another actor, or to be somewhere in time."""
+"""Gap and arrival control: longitudinal commands relative to a place or an actor."""
 
 from __future__ import annotations
 

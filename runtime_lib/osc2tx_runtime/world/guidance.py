@@ -1,4 +1,4 @@
-"""The acceleration that brings something to a place, and to a speed there, after so many steps.
+"""Guidance law: accelerations to a place, and a speed there, in a number of steps.
 
 It is the first of those accelerations, one per step and constant in it, that get there with the
 least sum of squares. Taken anew in each step they fall linearly in time while nothing disturbs

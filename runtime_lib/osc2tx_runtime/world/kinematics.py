@@ -1,4 +1,4 @@
-"""Velocity and acceleration of an actor in its own axes (DSL 8.7.5), from its last three states.
+"""Velocity and acceleration in the axes of the actor (DSL 8.7.5), from its last three states.
 
 How fast it goes, and how this changes, says the state: `v` on the ground and `a`. In which
 direction of its own axes it goes says the way of the last step, seen from the attitude in the

@@ -1,4 +1,4 @@
-"""Lanes beside each other: numbers counted from one edge of the road, neighbours, offsets."""
+"""Neighbouring lanes: numbers, neighbours, offsets between them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way of a vehicle back to a lane, after a course or a turn of its own."""
+"""Return of a vehicle to the nearest lane after moving off the lanes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lateral commands at work: the offset of a lane-bound actor at the next step.
+"""Execution of lateral commands: closed-form offset over time.
 
 A lane change binds the actor to its target lane at once and lets the offset from there run to its
 end value; so curves, widths and section changes on the way need no care. The course is a function

@@ -1,4 +1,4 @@
-"""Commands for the lateral slot."""
+"""Commands of the lateral slot."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lateral commands that run on feedback: beside another actor, or sideways at a constant speed."""
+"""Lateral feedback control: beside another actor, or at a constant lateral speed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far an actor on a lane may turn from it."""
+"""Limits of lateral motion on a lane."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Longitudinal commands at work: the speed of an actor at the next step."""
+"""Execution of longitudinal commands: closed-form speed over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands for the longitudinal slot."""
+"""Commands of the longitudinal slot."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers read from the world.
+"""Numbers read from the world, compared with a tolerance.
 
 A car that is 5 m behind another one and 20 km/h faster is 20 m ahead of it after 4.5 s; summing up
 the steps gives 19.999999999999986 m. So comparisons of what was measured allow for rounding:

@@ -1,4 +1,4 @@
-"""Who is ahead in the way of an actor."""
+"""Search for the next actor ahead on the route."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Longitudinal commands that say where an actor is at any time: along its way, or to another one.
+"""Longitudinal commands that give the position over time.
 
 The place after each step is the one of the course, not what a mean of two speeds would make of it,
 so that no error adds up. What the limits do not allow is made up for as soon as they do.

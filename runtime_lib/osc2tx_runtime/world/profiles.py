@@ -1,4 +1,4 @@
-"""Closed forms of the rate profiles (OpenSCENARIO DSL 8.8.2.18).
+"""Rate profiles in closed form (DSL 8.8.2.18).
 
 A profile shapes the first derivative (the rate) of a controlled quantity: speed, or the lateral
 offset. All forms are evaluated at absolute times since their start, never integrated, so the end

@@ -1,4 +1,4 @@
-"""Where an actor would be if it went on as it does now (DSL 8.9.21, `track: projected`)."""
+"""Projected motion of a reference (DSL 8.9.21, `track: projected`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every world offers: the embedded one, and adapters of simulators."""
+"""The protocol of worlds: the embedded one, and adapters of simulators."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stopping at lights: the constant deceleration v^2 / (2 d) that ends before the line.
+"""Braking for red lights: constant deceleration to the stop line.
 
 It begins at the moment at which it is comfortable. Who sees a light too late for that brakes
 harder; who can no longer stop before the line at all drives on, and at a light that is only about

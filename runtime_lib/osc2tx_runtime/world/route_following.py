@@ -1,4 +1,4 @@
-"""Going along a route of the map: in the lanes, by its branches at forks, until its end."""
+"""Route following over the lane graph: branches at forks, the end of the road."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one can read of an actor at one instant."""
+"""The state of an actor at one instant."""
 
 from __future__ import annotations
 

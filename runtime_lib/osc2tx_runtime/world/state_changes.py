@@ -1,4 +1,4 @@
-"""Changes of a state at once: speed, place, heading, and how an actor is tilted."""
+"""Instant changes of a state: speed, place, heading, tilt."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What commands at work may read of the present step."""
+"""Inputs of commands in a step: states, map, lights, limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lights ahead that ask to stop, and where."""
+"""Search for stop lines ahead whose lights ask to stop."""
 
 from __future__ import annotations
 

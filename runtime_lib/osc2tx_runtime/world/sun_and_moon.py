@@ -1,4 +1,4 @@
-"""Where sun and moon stand over a place on the globe (DSL 8.10.2), as seen from there.
+"""Positions of sun and moon (DSL 8.10.2).
 
 The series are those for low precision of the Astronomical Almanac: good to 0.01 degrees for the sun
 and to 0.3 degrees for the moon between 1950 and 2050. Air bends no light here.

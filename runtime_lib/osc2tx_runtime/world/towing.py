@@ -1,4 +1,4 @@
-"""Trailers: one axle that follows the hitch of the towing vehicle at a fixed distance.
+"""Kinematics of trailers: one axle behind the hitch of the towing vehicle.
 
 Where the scenario does not say otherwise, the hitch is at the rear end of the towing vehicle, and
 the coupler `DRAWBAR` before the box of the trailer. In a step the axle is drawn straight towards

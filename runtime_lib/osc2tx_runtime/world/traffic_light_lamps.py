@@ -1,4 +1,4 @@
-"""Lamps of traffic lights and what they tell drivers, as data (DSL 8.15.2, 8.15.3).
+"""Lamps of traffic light types and their meanings, as data (DSL 8.15.2, 8.15.3).
 
 OpenDRIVE names a box by its type only; `BOXES` says which lamps it has. A scenario may list the
 lamps of a box itself (`traffic_light.bulbs`).

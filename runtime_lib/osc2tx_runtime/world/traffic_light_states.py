@@ -1,4 +1,4 @@
-"""Traffic lights of the map and what they show."""
+"""States of the traffic lights of the map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Weather and light, and what follows from them: the grip of roads, automatic lights."""
+"""Weather, light, and their effects: friction, automatic lights."""
 
 from __future__ import annotations
 

@@ -4,14 +4,13 @@ import math
 from collections.abc import Callable
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 
 NAMES = ("crossing", "curve", "highway", "left_hand", "merge", "urban_crossing")
 Own = Callable[[str], RoadMap]
-quick = settings(max_examples=60)
 
 
 def place(road_map: RoadMap, pick: float, share: float, offset: float) -> LanePosition:
@@ -34,7 +33,6 @@ unit = st.floats(0.0, 1.0)
 places = st.tuples(st.sampled_from(NAMES), unit, unit, st.floats(-1.0, 1.0))
 
 
-@quick
 @given(where=places)
 def test_locate_inverts_pose(own: Own, where: tuple[str, float, float, float]) -> None:
     road_map = own(where[0])
@@ -54,7 +52,6 @@ def test_locate_inverts_pose(own: Own, where: tuple[str, float, float, float]) -
     assert math.hypot(again.x - pose.x, again.y - pose.y) < 1e-6
 
 
-@quick
 @given(where=places, a=st.floats(-80.0, 80.0), b=st.floats(0.0, 1.0))
 def test_advance_is_additive(
     own: Own, where: tuple[str, float, float, float], a: float, b: float
@@ -69,7 +66,6 @@ def test_advance_is_additive(
     assert math.hypot(one.x - two.x, one.y - two.y) < 1e-5
 
 
-@quick
 @given(where=places, a=st.floats(0.0, 200.0))
 def test_advance_length_is_the_distance_walked(
     own: Own, where: tuple[str, float, float, float], a: float
@@ -89,7 +85,6 @@ def test_advance_length_is_the_distance_walked(
     assert walked == pytest.approx(total.travelled, rel=2e-3, abs=1e-6)
 
 
-@quick
 @given(one=places, other=st.tuples(unit, unit))
 def test_route_distance_is_antisymmetric(
     own: Own, one: tuple[str, float, float, float], other: tuple[float, float]
@@ -103,7 +98,6 @@ def test_route_distance_is_antisymmetric(
         assert forth == -back
 
 
-@quick
 @given(where=places, distance=st.floats(0.1, 120.0))
 def test_route_distance_agrees_with_advance(
     own: Own, where: tuple[str, float, float, float], distance: float

@@ -207,6 +207,7 @@ def test_all_actions_on_motion_are_here() -> None:
         for i, (act, tolerance) in enumerate(cases)
     ],
 )
+@pytest.mark.slow
 def test_both_steps_agree(run: Run, act: Act, tolerance: tuple[float, float]) -> None:
     class Acting(Cast):
         def behavior(self) -> Behaviour:

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from osc2tx.analysis.domains import ANY_BOOL, ANY_INT
-from osc2tx.analysis.operation_list import Key, Operation, Tape
-from osc2tx.analysis.order_constraints import disorder
+from osc2tx.analysis.operation_list import Key, Operation, OperationList
+from osc2tx.analysis.order_constraints import find_contradiction
 from osc2tx.analysis.solver import solve
 from osc2tx.diagnostics import SourceFile, Span
 from osc2tx.semantics.symbols import FieldSymbol
@@ -28,17 +28,20 @@ comparisons = st.tuples(
 constraints = st.lists(st.lists(comparisons, min_size=1, max_size=2), min_size=1, max_size=6)
 
 
-def tape_of(constraint: list[Comparison]) -> Tape:
-    tape = Tape()
+def operations_of(constraint: list[Comparison]) -> OperationList:
+    operations = OperationList()
     roots = []
     for left, name, right in constraint:
         operands = tuple(
-            tape.add(Operation("var", "int", ANY_INT, key=KEYS[side])) for side in (left, right)
+            operations.add(Operation("var", "int", ANY_INT, key=KEYS[side]))
+            for side in (left, right)
         )
-        roots.append(tape.add(Operation(name, "bool", ANY_BOOL, operands)))
+        roots.append(operations.add(Operation(name, "bool", ANY_BOOL, operands)))
     while len(roots) > 1:
-        roots.append(tape.add(Operation("and", "bool", ANY_BOOL, (roots.pop(0), roots.pop(0)))))
-    return tape
+        roots.append(
+            operations.add(Operation("and", "bool", ANY_BOOL, (roots.pop(0), roots.pop(0))))
+        )
+    return operations
 
 
 def can_hold(constraint: list[list[Comparison]]) -> bool:
@@ -55,8 +58,8 @@ def can_hold(constraint: list[list[Comparison]]) -> bool:
 
 @given(constraints)
 def test_what_is_called_a_contradiction_is_one(given: list[list[Comparison]]) -> None:
-    tapes = [tape_of(constraint) for constraint in given]
-    conflict = disorder(tapes, range(len(tapes)))
+    expressions = [operations_of(constraint) for constraint in given]
+    conflict = find_contradiction(expressions, range(len(expressions)))
     if conflict:
         assert not can_hold([given[index] for index in conflict])
 
@@ -69,5 +72,5 @@ def test_every_contradiction_is_found(given: list[list[Comparison]]) -> None:
         for constraint in given
     ]
     given = [constraint for constraint in given if constraint]
-    tapes = [tape_of(constraint) for constraint in given]
-    assert bool(solve(tapes, range(len(tapes))).conflict) is not can_hold(given)
+    expressions = [operations_of(constraint) for constraint in given]
+    assert bool(solve(expressions, range(len(expressions))).conflict) is not can_hold(given)

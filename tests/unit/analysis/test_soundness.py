@@ -3,11 +3,10 @@
 import itertools
 import math
 import operator
-import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from osc2tx.analysis.constraints import analyse_constraints
@@ -211,7 +210,6 @@ def is_left(value: float, domain: Domain) -> bool:
     return domain.contains(value) or close(value, domain.lower) or close(value, domain.upper)
 
 
-@settings(max_examples=int(os.environ.get("OSC2TX_EXAMPLES", "80")))
 @given(st.lists(CONDITIONS, min_size=1, max_size=4))
 def test_no_solution_is_excluded(conditions: list[Term]) -> None:
     lines = ["struct s:", *(f"    {name}: {type_}" for name, (type_, _) in GRID.items())]

@@ -142,7 +142,7 @@ def test_without_cache_all_is_compiled(
 
 
 def test_remembered_reports_are_those_of_the_first_time(project: Project) -> None:
-    from osc2tx.compilation.file_reports import settle_all
+    from osc2tx.compilation.file_reports import apply_suppressions
 
     library = "import osc.standard\nscenario base:\n  do serial:\n    wait @gone\n"
     write(project.sources / "lib.osc", library)
@@ -153,7 +153,7 @@ def test_remembered_reports_are_those_of_the_first_time(project: Project) -> Non
 
     def reports() -> list[str]:
         results = project.build(given=given).results
-        settled = settle_all(results)
+        settled = apply_suppressions(results)
         spans = [repr(d.primary) for d in settled.shown]
         entries = [repr(entry) for result in results for entry in result.scenarios]
         return [*map(repr, settled.shown), *map(repr, settled.suppressed), *spans, *entries]

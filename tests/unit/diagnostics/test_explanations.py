@@ -35,7 +35,7 @@ def test_a_code_has_an_example_and_a_remedy(code: str) -> None:
     assert explanation is not None, f"write a section [{code}] in osc2tx/diagnostics/texts"
     assert explanation.remedy.endswith(".")
     assert explanation.faulty.strip()
-    assert explanation.mended.strip() or code in WITHOUT_TEXT
+    assert explanation.fixed.strip() or code in WITHOUT_TEXT
 
 
 EXAMPLES = sorted(set(CODES) - WITHOUT_TEXT)
@@ -48,7 +48,7 @@ def test_the_faulty_text_shows_the_code_and_the_mended_does_not(code: str, tmp_p
     shown = codes_of(explanation, explanation.faulty, tmp_path)
     assert code in shown
     assert errors(shown, code) <= {code}
-    left = codes_of(explanation, explanation.mended, tmp_path)
+    left = codes_of(explanation, explanation.fixed, tmp_path)
     assert code not in left
     assert not errors(left, code)
 

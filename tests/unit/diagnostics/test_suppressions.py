@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.compilation.driver import Compilation
-from osc2tx.compilation.file_reports import settle_all
+from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.diagnostics import Diagnostic
 from osc2tx.options import CompileOptions
 
@@ -54,7 +54,7 @@ def test_a_comment_above_the_statement(tmp_path: Path) -> None:
 
 
 def test_what_is_kept_back_is_counted(tmp_path: Path) -> None:
-    settled = settle_all([compilation(tmp_path, GOOD.format("  #! allow OSC603"))])
+    settled = apply_suppressions([compilation(tmp_path, GOOD.format("  #! allow OSC603"))])
     assert [place(report) for report in settled.suppressed] == ["5:15 OSC603"]
 
 

@@ -79,7 +79,7 @@ def test_long_paths() -> None:
     assert model.types
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(st.data())
 def test_mutated_programs(data: st.DataObject) -> None:
     """Swap words of a valid program for others; nothing may raise."""
@@ -95,7 +95,7 @@ def test_mutated_programs(data: st.DataObject) -> None:
     dump_model(model)
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(st.data())
 def test_dropped_lines(data: st.DataObject) -> None:
     """Leave lines out; nothing may raise."""

@@ -1,5 +1,6 @@
 """The standard library against the tables of the standard, name by name."""
 
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -55,7 +56,6 @@ EXACT = {
     **dict.fromkeys(("mmph", "millimeter_per_hour"), 1 / 3.6e6),
     **dict.fromkeys(("mph", "miph", "mile_per_hour", "miphps", "mile_per_hour_per_sec"), 0.44704),
 }
-COUNTS = {"types": 16, "units": 84, "enums": 42, "actors": 12, "actions": 44 + 4, "modifiers": 31}
 
 
 @pytest.fixture(params=["2.1", "2.2"])
@@ -145,9 +145,8 @@ def with_default(name: str, parameter: Parameter) -> Parameter:
     return Parameter(parameter.name, parameter.type, default, parameter.is_variable)
 
 
-def test_counts(library: Tables, expected: Tables) -> None:
-    for tables in (library, expected):
-        assert {name: len(getattr(tables, name)) for name in COUNTS} == COUNTS
+def test_every_table_of_the_page_is_read(expected: Tables) -> None:
+    assert [part.name for part in fields(expected) if not getattr(expected, part.name)] == []
 
 
 def test_physical_types(library: Tables, expected: Tables) -> None:

@@ -1,1 +1,1 @@
-"""Actions and modifiers: handlers that write them down, and what these share."""
+"""Handlers of actions and modifiers, and the modules that they share."""

@@ -10,11 +10,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.apply_modifiers import modified
+from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
-from osc2tx.backends.xosc.actions.user_shapes import acceleration_by, own_shape
+from osc2tx.backends.xosc.actions.user_shapes import acceleration_by, user_shape
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED, Linear, Quintic, course_of_acceleration
 from osc2tx.backends.xosc.flattening.adjacent_members import follower
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
@@ -43,7 +43,7 @@ def _assign_acceleration(leaf: Leaf) -> Performance:
 def _keep_acceleration(leaf: Leaf) -> Performance:
     if leaf.state.rate is None:
         raise Inexpressible("the present acceleration is only known during the run")
-    return Performance((accelerated(leaf, leaf.state.rate), *modified(leaf)), "open")
+    return Performance((accelerated(leaf, leaf.state.rate), *apply_modifiers(leaf)), "open")
 
 
 @action("change_acceleration")
@@ -57,14 +57,14 @@ def _change_acceleration(leaf: Leaf) -> Performance:
     duration = leaf.duration if peak is None and profile != "asap" else None
     course = course_of_acceleration(leaf.state.rate, target, profile, peak, duration, leaf.limits)
     change = _ramp(leaf, course, course.duration)
-    return Performance((change, *modified(leaf)), "goal")
+    return Performance((change, *apply_modifiers(leaf)), "goal")
 
 
 @modifier("acceleration")
 def _acceleration(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if call.at != "all":
         raise Inexpressible(f"an acceleration at the {call.at} only", call.span)
-    own = own_shape(arguments)
+    own = user_shape(arguments)
     if own is not None:
         return (acceleration_by(leaf, own),)
     profile, peak, target = shape_of(leaf, arguments)

@@ -1,4 +1,4 @@
-"""Modifiers of an invocation, each written down by its handler."""
+"""Applies the modifiers of an invocation by their handlers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from osc2tx.backends.xosc.actions.registry import MODIFIERS, WITHOUT_FORM
 from osc2tx.backends.xosc.report import Inexpressible
 
 
-def modified(leaf: Leaf) -> tuple[Change, ...]:
+def apply_modifiers(leaf: Leaf) -> tuple[Change, ...]:
     """Return what the modifiers of an invocation change."""
     changes: list[Change] = []
     for call in leaf.node.modifiers:

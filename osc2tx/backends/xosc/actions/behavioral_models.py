@@ -1,4 +1,4 @@
-"""Behavioral models (§8.6): the XML has none that stops for others or for red lights by itself."""
+"""Behavioral models (§8.6), which the XML cannot express."""
 
 from __future__ import annotations
 

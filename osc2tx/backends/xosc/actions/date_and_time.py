@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Constant, Made
+from osc2tx.backends.xosc.values.constants import Constant, MethodResult
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 DAY, CLOCK = ("year", "month", "day"), ("hour", "minute", "second")
@@ -39,7 +39,7 @@ def time_of_day(ctx: Context) -> Element | None:
 def _date(given: Constant | None) -> datetime | None:
     """Return the date of a Unix time, or of local numbers (§8.10.2.1)."""
     try:
-        if isinstance(given, Made):
+        if isinstance(given, MethodResult):
             year, month, day = (round(_number(given.get(part))) for part in DAY)
             hours, minutes, seconds = (_number(given.get(part)) for part in CLOCK)
             hours -= _number(given.get("time_zone"))

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.apply_modifiers import modified
+from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import longitudinal
@@ -70,7 +70,7 @@ def _change_gap(leaf: Leaf) -> Performance:
             "an action on a distance takes as long as the tool wants",
             "the distance is reached, but not at that time",
         )
-    return Performance((change, *modified(leaf)), "goal")
+    return Performance((change, *apply_modifiers(leaf)), "goal")
 
 
 @action("keep_space_gap", "keep_time_gap", "keep_space_headway", "keep_time_headway")
@@ -90,7 +90,7 @@ def _keep_gap(leaf: Leaf) -> Performance:
         )
     change = reach(leaf, found, keeps=True)
     leaf.ctx.report.exact(leaf.construct, leaf.node.span, HOW)
-    return Performance((change, *modified(leaf)), "open")
+    return Performance((change, *apply_modifiers(leaf)), "open")
 
 
 def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:

@@ -1,4 +1,4 @@
-"""Changes of the lane and of the place in it (§8.8.3.2, §8.8.3.3)."""
+"""Changes of the lane and of the lateral position in it (§8.8.3.2, §8.8.3.3)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.apply_modifiers import modified
+from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.entities.cast import CastMember
@@ -42,7 +42,7 @@ def _change_lane(leaf: Leaf) -> Performance:
         own_lanes=None if reference is None else lanes_to(leaf, reference, lanes),
         is_absolute=target is not None,
     )
-    return Performance((change, *modified(leaf)), "goal")
+    return Performance((change, *apply_modifiers(leaf)), "goal")
 
 
 def _lanes_to(leaf: Leaf, target: Stretch) -> int:
@@ -209,7 +209,7 @@ def _follow_lane(leaf: Leaf) -> Performance:
     target = stretch_of(leaf.ctx, arguments.get("target"))
     if target is not None and _lanes_to(leaf, target) != 0:
         raise Inexpressible("it is in another lane; a change of the lane has to come before")
-    changes = modified(leaf)
+    changes = apply_modifiers(leaf)
     if leaf.state.offset == known(offset):
         return Performance(changes, "open")
     return Performance((offset_change(leaf, offset, profile, peak), *changes), "open")

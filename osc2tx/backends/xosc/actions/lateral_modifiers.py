@@ -1,4 +1,4 @@
-"""Modifiers of the lane and of the place in it (§8.9.9, §8.9.14 to §8.9.16)."""
+"""Modifiers of lane and lateral position (§8.9.9, §8.9.14 to §8.9.16)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places across the lane (§8.9.8), measured from edges and centres."""
+"""Lateral positions in a lane (§8.9.8), measured from edges and centers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One invocation of an action, as those see it who write it down.
+"""One invocation of an action, as handlers of actions and modifiers see it.
 
 A handler of an action or a modifier takes a `Leaf` and returns what changes: one `Change` for each
 domain (longitudinal, lateral) that it controls.

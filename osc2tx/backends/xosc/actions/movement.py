@@ -6,7 +6,7 @@ and the like add theirs in files of their own (`registry`).
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.apply_modifiers import modified
+from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import change_speed, hold_speed, jump_to
@@ -23,7 +23,7 @@ WAYS = {"along", "along_trajectory"}
 def _drive(leaf: Leaf) -> Performance:
     if leaf.state.pose is not None and leaf.member.walks:
         return _walk(leaf)
-    changes = modified(leaf)
+    changes = apply_modifiers(leaf)
     ends: Ending = "goal" if _has_goal(leaf) else "open"
     return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
 
@@ -34,7 +34,7 @@ def _walk(leaf: Leaf) -> Performance:
         return _drive(leaf)
     names = {call.name for call in leaf.node.modifiers}
     if names & WAYS and names <= WAYS | {"physical_movement", "speed"}:
-        return Performance(modified(leaf), "goal")
+        return Performance(apply_modifiers(leaf), "goal")
     if names == {"keep_position"}:
         leaf.ctx.report.exact("modifier keep_position", leaf.node.modifiers[0].span)
         is_still = leaf.state.speed == known(0.0)
@@ -64,7 +64,7 @@ def _change_speed(leaf: Leaf) -> Performance:
     profile = arguments.member("rate_profile", "none")
     peak = arguments.number("rate_peak")
     change = change_speed(leaf, target, profile, peak, leaf.duration)
-    return Performance((change, *modified(leaf)), "goal")
+    return Performance((change, *apply_modifiers(leaf)), "goal")
 
 
 @action("assign_speed")
@@ -77,7 +77,7 @@ def _assign_speed(leaf: Leaf) -> Performance:
 
 @action("keep_speed")
 def _keep_speed(leaf: Leaf) -> Performance:
-    changes = modified(leaf)
+    changes = apply_modifiers(leaf)
     if any(domain == LONGITUDINAL for domain, _ in leaf.state.unfinished):
         after = leaf.state.finished(LONGITUDINAL)
         held = Change(LONGITUDINAL, (hold_speed(leaf.member.name),), 0.0, after, after)
@@ -88,10 +88,12 @@ def _keep_speed(leaf: Leaf) -> Performance:
 @action("remain_stationary", takes=(LONGITUDINAL,))
 def _remain_stationary(leaf: Leaf) -> Performance:
     if leaf.state.speed == known(0.0):
-        return Performance(modified(leaf), "open")
+        return Performance(apply_modifiers(leaf), "open")
     if leaf.member.walks:
         return Performance((stand(leaf),), "open")
-    return Performance((change_speed(leaf, 0.0, "asap", None, None), *modified(leaf)), "open")
+    return Performance(
+        (change_speed(leaf, 0.0, "asap", None, None), *apply_modifiers(leaf)), "open"
+    )
 
 
 def _has_goal(leaf: Leaf) -> bool:

@@ -8,15 +8,20 @@ from dataclasses import replace
 from itertools import pairwise
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.apply_modifiers import modified
+from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.points_and_lines import Line, line_of, line_of_way, relative_line
+from osc2tx.backends.xosc.actions.points_and_lines import (
+    Line,
+    line_of,
+    line_of_route,
+    relative_line,
+)
 from osc2tx.backends.xosc.actions.registry import action, modifier
 from osc2tx.backends.xosc.actions.routes import assign_route
 from osc2tx.backends.xosc.actions.speed_modifiers import may_jump
 from osc2tx.backends.xosc.actions.xml_positions import at_place
 from osc2tx.backends.xosc.entities.declared_roads import stretch_of
-from osc2tx.backends.xosc.facts.curves import Waypoint, drawn
+from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import Stretch, crossing_of
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
@@ -40,7 +45,7 @@ def _on_line(leaf: Leaf) -> Performance:
         raise Inexpressible("a duration beside that of the way", leaf.node.span)
     is_exact = leaf.node.action.startswith("replay") or may_jump(leaf)
     changes = along_line(leaf, line, offsets, is_exact=is_exact)
-    return Performance((*changes, *modified(leaf)), "goal")
+    return Performance((*changes, *apply_modifiers(leaf)), "goal")
 
 
 @modifier("along_trajectory")
@@ -59,7 +64,7 @@ def _along(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
     stretch = stretch_of(leaf.ctx, route)
     if stretch is not None and crossing_of(stretch) is None:
         return _along_stretch(leaf, stretch, offsets)
-    return along_line(leaf, line_of_way(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
+    return along_line(leaf, line_of_route(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
 
 
 def _along_stretch(
@@ -84,7 +89,9 @@ def along_line(
         if line.frame is not None or any(offsets):
             raise Inexpressible("a trajectory that begins later, from wherever the actor is then")
         points = (_here(leaf), *points)
-    corners = drawn(points, is_timed=line.is_timed, is_smooth=line.is_smooth, offsets=offsets)
+    corners = sample_curve(
+        points, is_timed=line.is_timed, is_smooth=line.is_smooth, offsets=offsets
+    )
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump

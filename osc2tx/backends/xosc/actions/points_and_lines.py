@@ -18,16 +18,16 @@ from osc2tx.backends.xosc.actions.xml_positions import (
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, stretch_of
-from osc2tx.backends.xosc.facts.curves import Waypoint, drawn
+from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import (
     Stretch,
     begin_of,
     crossing_of,
-    way_of_route,
+    points_of_route,
 )
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Constant, Made, Member, Named
+from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
 
 STRAIGHT = 0.01
 """Metres beside the straight line through its neighbours within which a point is left out."""
@@ -74,7 +74,7 @@ def spot_of(ctx: Context, point: Constant | None) -> Spot:
 
 def _on_route(ctx: Context, parts: dict[str, Constant]) -> Spot:
     """Return a place along a route and beside it."""
-    place = start_of_way(ctx, parts.get("route"), number_of(parts.get("s")))
+    place = point_along(ctx, parts.get("route"), number_of(parts.get("s")))
     left = number_of(parts.get("t"))
     if not isinstance(place, LanePosition):
         x, y = place.x - left * math.sin(place.h), place.y + left * math.cos(place.h)
@@ -86,7 +86,7 @@ def _on_route(ctx: Context, parts: dict[str, Constant]) -> Spot:
     return on_road(ctx, {**where, "s": place.s, "t": offset})
 
 
-def start_of_way(ctx: Context, route: Constant | None, offset: float) -> LanePosition | Pose:
+def point_along(ctx: Context, route: Constant | None, offset: float) -> LanePosition | Pose:
     """Return the place so far (m) along a route or a path.
 
     Raises:
@@ -99,8 +99,8 @@ def start_of_way(ctx: Context, route: Constant | None, offset: float) -> LanePos
         if place is None:
             raise Inexpressible(f"the route ends before {offset:g} m")
         return place
-    line = line_of_way(ctx, route)
-    first = drawn(line.points, is_timed=False, is_smooth=False, offsets=(offset, 0.0))[0]
+    line = line_of_route(ctx, route)
+    first = sample_curve(line.points, is_timed=False, is_smooth=False, offsets=(offset, 0.0))[0]
     on = roads.locate(first.x, first.y, first.z)
     if on is not None:
         return on
@@ -108,20 +108,20 @@ def start_of_way(ctx: Context, route: Constant | None, offset: float) -> LanePos
     return Pose(round(first.x, 6), round(first.y, 6), round(first.z, 6), heading)
 
 
-def line_of_way(ctx: Context, route: Constant | None) -> Line:
+def line_of_route(ctx: Context, route: Constant | None) -> Line:
     """Return a path, or the way that a route which is put together leads along."""
     stretch = stretch_of(ctx, route)
     ends = None if stretch is None else crossing_of(stretch)
     if ends is not None:
         return Line(ends, False, False)
-    if not isinstance(route, Made) or route.method != "create_route":
+    if not isinstance(route, MethodResult) or route.method != "create_route":
         return line_of(ctx, route)
     given, connect = route.get("routes"), route.get("connect_points_by")
     if not isinstance(given, tuple):
         raise Inexpressible("the route is only known during the run")
     elements = [_element(ctx, each) for each in given]
     kind = connect.name if isinstance(connect, Member) else "waypoint"
-    points = way_of_route(required_roads(ctx), elements, kind)
+    points = points_of_route(required_roads(ctx), elements, kind)
     return Line(tuple(_thinned(points)), False, False)
 
 
@@ -163,7 +163,7 @@ def line_of(ctx: Context, value: Constant | None) -> Line:
     Raises:
         Inexpressible: It is not known before the run.
     """
-    if isinstance(value, Made):
+    if isinstance(value, MethodResult):
         if value.method.startswith("resolve_relative_"):
             inner = value.get("relative_path") or value.get("relative_trajectory")
             return relative_line(ctx, inner, value.get("transform"), value.get("reference"))
@@ -188,7 +188,7 @@ def relative_line(
     return Line(line.points, line.is_smooth, line.is_timed, frame, name)
 
 
-def _made_line(ctx: Context, made: Made) -> Line:
+def _made_line(ctx: Context, made: MethodResult) -> Line:
     points, times = made.get("points"), made.get("time_stamps")
     smooth = _is_smooth(made.get("interpolation"))
     if made.method in ("create_path", "create_trajectory"):

@@ -1,11 +1,11 @@
-"""Actions that put an actor somewhere or send it there (§8.8.2.4, §8.8.2.5, §8.8.2.11)."""
+"""Actions that assign a position or go to one (§8.8.2.4, §8.8.2.5, §8.8.2.11)."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
 
-from osc2tx.backends.xosc.actions.apply_modifiers import modified
+from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.paths import follow
 from osc2tx.backends.xosc.actions.points_and_lines import spot_of
@@ -183,7 +183,7 @@ def _acquire(leaf: Leaf, spot: Spot) -> Performance:
     )
     leaf.ctx.report.exact(leaf.construct, leaf.node.span, f"it is there within {REACHED:g} m")
     reached = at_place(leaf.ctx, spot.element)
-    return Performance((change, *modified(leaf)), "goal", reached=(leaf.on_me(reached),))
+    return Performance((change, *apply_modifiers(leaf)), "goal", reached=(leaf.on_me(reached),))
 
 
 def _straight_to(leaf: Leaf, spot: Spot) -> Performance:
@@ -207,7 +207,7 @@ def _straight_to(leaf: Leaf, spot: Spot) -> Performance:
     if v == 0.0:
         v = CRUISE
         actions = (speed_action(v, "step", "time", 0.0),)
-    changes = modified(leaf)
+    changes = apply_modifiers(leaf)
     is_timed = time is not None and v is not None and not changes
     length = time / v if time is not None and v is not None else None
     vertices = [(0.0, start), (length or 1.0, goal)]

@@ -1,4 +1,4 @@
-"""Modifiers of the place along the road (§8.9.8, §8.9.12)."""
+"""Modifiers of the position along the road (§8.9.8, §8.9.12)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The forms that actions and modifiers have in XML, and the reasons why some have none.
+"""Registry of the XML handlers of actions and modifiers.
 
 Each action and modifier of the library is stated here or where its form is written, by the
 decorators and by `without_form`; `tools/make_catalogue.py` fails if one is missing.

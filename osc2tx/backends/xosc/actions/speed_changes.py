@@ -1,4 +1,4 @@
-"""Changes of the speed, with the course that the embedded world gives them.
+"""Changes of the speed as `SpeedAction` or `SpeedProfileAction`.
 
 A course that a `SpeedAction` draws exactly becomes one. Others become a `SpeedProfileAction` (1.2),
 which has the limits of acceleration and jerk, or any course through points. Before 1.2, and where

@@ -1,4 +1,4 @@
-"""Modifiers of the speed and of the way (§8.9.4 to §8.9.6, §8.9.13, §8.9.18)."""
+"""Modifiers of speed and path (§8.9.4 to §8.9.6, §8.9.13, §8.9.18)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.actions.speed_changes import (
     longitudinal,
     speed_action,
 )
-from osc2tx.backends.xosc.actions.user_shapes import own_shape, speed_by
+from osc2tx.backends.xosc.actions.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.facts.actors import COMFORT
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
@@ -72,7 +72,7 @@ def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> t
 def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if arguments.member("direction", "longitudinal") != "longitudinal":
         raise Inexpressible("there is no action on a speed across the road", call.span)
-    own = own_shape(arguments)
+    own = user_shape(arguments)
     if own is not None and call.at == "all":
         return (speed_by(leaf, own),)
     profile, peak, target = shape_of(leaf, arguments)

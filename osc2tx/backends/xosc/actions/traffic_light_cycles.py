@@ -1,4 +1,4 @@
-"""Cycles of traffic lights (§8.15.9.7).
+"""Cycles of traffic lights (§8.15.9.7) as traffic signal controllers.
 
 Where a scenario plays them from its start to its end they are controllers of the XML. Where it says
 for how long, and for tools without controllers, they are written out as the switches they make.

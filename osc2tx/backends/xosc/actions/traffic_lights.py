@@ -1,4 +1,4 @@
-"""Traffic lights (§8.15): actions that switch them, cycles, and conditions on what they show.
+"""Traffic lights (§8.15): actions that switch them, and conditions on their states.
 
 The text of a state is up to the tool. Written here: one word for each lamp, in the order of the
 lamps, as in `off;off;on`; ScenarioRunner knows one colour for the whole light.
@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Constant, Made, Member, Named
+from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 WORDS: Mapping[str, str] = {"is_off": "off", "is_on": "on", "is_flashing": "flashing"}
@@ -176,7 +176,7 @@ def _lamp(ctx: Context, bulb: Constant) -> tuple[str, str]:
 
 def states_of(ctx: Context, given: Constant | None, signal: str) -> States:
     """Return the states of the lamps of a light, from a list or from a meaning."""
-    if isinstance(given, Made) and given.method == "semantic_state_to_state":
+    if isinstance(given, MethodResult) and given.method == "semantic_state_to_state":
         meaning = given.get("state")
         name = meaning.name if isinstance(meaning, Member) else ""
         states = _roads(ctx).meaning(signal, name)

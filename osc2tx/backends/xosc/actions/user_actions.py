@@ -1,4 +1,4 @@
-"""Actions that the scenario declares itself: the tool has to know what they are."""
+"""Actions that the scenario declares: commands for the simulator."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element, text_of
 
 
-def own_action(leaf: Leaf) -> Performance:
+def user_action(leaf: Leaf) -> Performance:
     """Return the command that a tool carries out for an action of the scenario's own."""
     leaf.ctx.require_support("CustomCommandAction", leaf.node.span)
     if leaf.duration is None and not leaf.node.until:

@@ -1,4 +1,4 @@
-"""Shapes of the scenario's own (§8.9.1.2): courses of the speed that its methods compute.
+"""User-defined shapes (§8.9.1.2): speeds that methods of the scenario compute.
 
 They are computed before the run and drawn through points, close enough to each other.
 """
@@ -43,19 +43,19 @@ class Computed:
         return self.speed(t)
 
 
-def own_shape(arguments: Arguments) -> ir.OwnShape | None:
+def user_shape(arguments: Arguments) -> ir.UserShape | None:
     """Return the shape of a modifier if it is one of the scenario's own."""
     given = arguments.expression("shape")
-    return given if isinstance(given, ir.OwnShape) else None
+    return given if isinstance(given, ir.UserShape) else None
 
 
-def speed_by(leaf: Leaf, shape: ir.OwnShape) -> Change:
+def speed_by(leaf: Leaf, shape: ir.UserShape) -> Change:
     """Return the change that a shape of the speed makes."""
     length = _length(leaf, shape)
     return _change(leaf, Computed(length, lambda t: _computed(leaf, shape, t)))
 
 
-def acceleration_by(leaf: Leaf, shape: ir.OwnShape) -> Change:
+def acceleration_by(leaf: Leaf, shape: ir.UserShape) -> Change:
     """Return the change that a shape of the acceleration makes."""
     speed = leaf.state.speed
     if speed is None or not speed.is_known:
@@ -112,7 +112,7 @@ def _beside(course: Computed, count: int) -> float:
 # --- methods of the shape -----------------------------------------------------------------------
 
 
-def _length(leaf: Leaf, shape: ir.OwnShape) -> float:
+def _length(leaf: Leaf, shape: ir.UserShape) -> float:
     """Return how long (s) a shape goes on in an invocation."""
     own = inf if shape.duration is None else _number(leaf, shape, shape.duration)
     length = min(own, inf if leaf.duration is None else leaf.duration)
@@ -121,11 +121,11 @@ def _length(leaf: Leaf, shape: ir.OwnShape) -> float:
     return length
 
 
-def _computed(leaf: Leaf, shape: ir.OwnShape, time: float) -> float:
+def _computed(leaf: Leaf, shape: ir.UserShape, time: float) -> float:
     return _number(leaf, shape, shape.compute, time)
 
 
-def _number(leaf: Leaf, shape: ir.OwnShape, name: str, *given: float) -> float:
+def _number(leaf: Leaf, shape: ir.UserShape, name: str, *given: float) -> float:
     """Return what a method of a shape returns."""
     values, scenario = leaf.ctx.values, leaf.ctx.scope.scenario
     method = next(method for method in scenario.methods if method.name == name)

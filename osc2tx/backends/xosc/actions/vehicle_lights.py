@@ -1,4 +1,4 @@
-"""Lights of vehicles, which simulators know as actions of their own."""
+"""Lights of vehicles as commands for the simulator."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Walkers off the lanes: straight on along their heading, as trajectories.
+"""Walkers off the lanes: trajectories straight on.
 
 Tools move a pedestrian along the lane when they are told a speed, whatever its heading; only a
 trajectory takes it across the road.

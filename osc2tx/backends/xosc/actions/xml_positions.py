@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Constant, Made, Named
+from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 REACHED = 1.0
@@ -111,7 +111,7 @@ def on_earth(ctx: Context, parts: dict[str, Constant]) -> Spot:
 
 def parts_of(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Constant]]:
     """Return the kind of a point and its coordinates."""
-    if isinstance(point, Made):
+    if isinstance(point, MethodResult):
         given = dict(point.arguments)
         if point.method in ("create_odr_point", "odr_to_route_point"):
             return "odr_point", given

@@ -1,1 +1,1 @@
-"""Conditions: expressions, and what can be measured, as triggers."""
+"""Expressions and measured quantities as conditions of triggers."""

@@ -1,4 +1,4 @@
-"""A measure of an actor that is compared with a constant."""
+"""Comparison of a measured quantity with a constant."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Distances between actors, as conditions."""
+"""Distances between actors as conditions."""
 
 from __future__ import annotations
 

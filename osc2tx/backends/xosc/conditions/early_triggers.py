@@ -1,4 +1,4 @@
-"""Which triggers are surely looked at before what they wait for can occur.
+"""Triggers that are evaluated before their event can occur.
 
 They may ask whether the event has occurred; the others have to look for the edge, so that they do
 not see an occurrence from before they began. In a tool an edge is lost where both fall into one

@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES, relative_speed
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.event_parameters import carries
+from osc2tx.backends.xosc.flattening.event_parameters import parameter_condition
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
 
@@ -83,7 +83,7 @@ def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge)
         case ir.Binary(operator=operator) if operator in RULES and ir.is_live(expression):
             return _comparison(ctx, expression, OPPOSITE[operator] if negated else operator, edge)
     if isinstance(expression, ir.EventArgument):  # a truth value
-        return Flow(((Test(carries(ctx, expression, "equalTo", not negated), edge),),))
+        return Flow(((Test(parameter_condition(ctx, expression, "equalTo", not negated), edge),),))
     if _is_light(expression) and not negated:
         return Flow((tuple(Test(each, edge) for each in shows(ctx, expression)),))
     if not ir.is_live(expression):
@@ -120,7 +120,7 @@ def _comparison(ctx: Context, expression: ir.Binary, operator: str, edge: Edge) 
     rule = _rule(ctx, operator, expression)
     speeds = _speeds(ctx, left, right)
     if isinstance(left, ir.EventArgument) and not ir.is_live(right):
-        groups: Groups = ((carries(ctx, left, rule, ctx.values.of(right)),),)
+        groups: Groups = ((parameter_condition(ctx, left, rule, ctx.values.of(right)),),)
     elif speeds is not None:
         actor, other, difference = speeds
         groups = relative_speed(ctx, actor, other, rule, difference)

@@ -1,4 +1,4 @@
-"""When something may start: an OR of ANDs of tests, the only form that triggers have.
+"""Flows: start and end conditions as an OR of ANDs of tests, the only form triggers have.
 
 A test that stays true once it is (the state `completeState` of an element, a point in time) is
 latched. Only a latched flow can be waited on for a time, or be joined with others.

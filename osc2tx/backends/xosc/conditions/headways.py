@@ -1,4 +1,4 @@
-"""Times between actors, as conditions."""
+"""Times between actors as conditions: gap, headway, time to collision."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be measured of an actor, as conditions of the XML.
+"""Fields and methods of actors as conditions of the XML.
 
 One entry of `MEASURES` for each field or method of the library. A measure is called with what is
 measured and compared, and returns the condition on entities, or raises `Inexpressible`.

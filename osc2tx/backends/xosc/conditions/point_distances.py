@@ -1,4 +1,4 @@
-"""Distances to points, as conditions."""
+"""Distances to points as conditions."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The cast, and how it starts: `Entities` and `Init`."""
+"""Entities and their start: the elements `Entities` and `Init`."""

@@ -1,4 +1,4 @@
-"""The cast: actors of the scenario as entities of the XML."""
+"""Actors of the scenario as entities of the XML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Roads and lanes that a scenario declares and the map has to have (§8.12)."""
+"""Roads and lanes that a scenario declares, searched on the map (§8.12)."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.map_search import (
     PARTS,
     Between,
-    Plain,
-    Ref,
+    MapQuery,
+    PartReference,
+    QueryValue,
     Stretch,
-    Wanted,
-    found_on,
+    search_map,
 )
 from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Bounds, Constant, Made, Member, Named
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
 
 without_form(
     "modifier",
@@ -77,47 +77,49 @@ def required_roads(ctx: Context) -> Roads:
 def _stretches(ctx: Context) -> dict[str, Stretch]:
     if ctx.stretches is None:
         parts = {
-            each.name: Wanted(each.type, _said(ctx, each))
+            each.name: MapQuery(each.type, _said(ctx, each))
             for each in ctx.scenario.declarations
             if isinstance(each, ir.Struct) and each.type in PARTS and each.value is None
         }
         relations = [
-            Wanted(call.name, {a.parameter: _plain(ctx.values.of(a.value)) for a in call.arguments})
+            MapQuery(
+                call.name, {a.parameter: _plain(ctx.values.of(a.value)) for a in call.arguments}
+            )
             for placement in ctx.scenario.placements
             if is_map(ctx, placement.actor)
             for call in placement.modifiers
             if call.name != "set_map_file" and call.name not in WITHOUT_FORM["modifier"]
         ]
-        ctx.stretches = found_on(required_roads(ctx), parts, relations)
+        ctx.stretches = search_map(required_roads(ctx), parts, relations)
     return ctx.stretches
 
 
-def _said(ctx: Context, part: ir.Struct) -> dict[str, Plain]:
+def _said(ctx: Context, part: ir.Struct) -> dict[str, QueryValue]:
     """Return what constraints fix about a part."""
-    said: dict[str, Plain] = {}
-    inside: dict[str, dict[str, Plain]] = {}
+    properties: dict[str, QueryValue] = {}
+    inside: dict[str, dict[str, QueryValue]] = {}
     for value in part.values:
         plain = _plain(ctx.values.of(value.value))
         match value.path:
             case (name,):
-                said[name] = plain
+                properties[name] = plain
             case ("crossing_type", name):
                 inside.setdefault("crossing_type", {})[name] = plain
             case _:
                 text = ".".join(value.path)
                 raise Inexpressible(f"`{text}` of `{part.name}` cannot be told from the map")
-    return {**said, **{name: Wanted(name, parts) for name, parts in inside.items()}}
+    return {**properties, **{name: MapQuery(name, parts) for name, parts in inside.items()}}
 
 
-def _plain(value: Constant) -> Plain:
+def _plain(value: Constant) -> QueryValue:
     match value:
         case Named(name=name):
-            return Ref(name)
+            return PartReference(name)
         case Member(name=name):
             return name
         case Bounds(lower=low, upper=high):
             return Between(low, high)
-        case Made():
+        case MethodResult():
             raise Inexpressible(f"what `{value.method}` makes is not looked for on the map")
         case tuple():
             return tuple(_plain(each) for each in value)

@@ -1,4 +1,4 @@
-"""Entities: vehicles, pedestrians and other objects with the attributes that the XML asks for."""
+"""Entities: vehicles, pedestrians and other objects with the attributes the XML requires."""
 
 from __future__ import annotations
 

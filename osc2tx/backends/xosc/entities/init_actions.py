@@ -1,4 +1,4 @@
-"""Where and how actors start: `Storyboard/Init/Actions`."""
+"""Initial actions: `Storyboard/Init/Actions`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How actors are turned at the start (§8.9.9, §8.9.10)."""
+"""Orientation of actors at the start (§8.9.9, §8.9.10)."""
 
 from __future__ import annotations
 

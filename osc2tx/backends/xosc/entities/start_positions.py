@@ -1,10 +1,10 @@
-"""Where actors start: positions of `Init`, and what is known about the place."""
+"""Start positions of actors: elements of `Init`, and the lane and pose they mean."""
 
 from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.lateral_offsets import offset_in_lane
 from osc2tx.backends.xosc.actions.leaf import Arguments
-from osc2tx.backends.xosc.actions.points_and_lines import start_of_way
+from osc2tx.backends.xosc.actions.points_and_lines import point_along
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
@@ -104,7 +104,7 @@ def _on_route(ctx: Context, start: Start, along: Arguments) -> tuple[Element, Ac
     offset = along.number("start_offset") or 0.0
     along.number("end_offset")
     offset += 0.0 if position is None else position.number("distance") or 0.0
-    place = start_of_way(ctx, along.get("route"), offset)
+    place = point_along(ctx, along.get("route"), offset)
     if not isinstance(place, LanePosition):
         if lane is not None:
             raise Inexpressible("a lane of a way off the lanes", lane.source.span)

@@ -1,4 +1,4 @@
-"""What a scenario says about the start of each actor."""
+"""Statements of a scenario about the start of each actor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Actors that stand during the whole run: their axes are known when the document is made."""
+"""Actors that stand still during the whole run: their heading is known in advance."""
 
 from __future__ import annotations
 

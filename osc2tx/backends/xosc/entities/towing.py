@@ -1,4 +1,4 @@
-"""Trailers: who tows which from the start, and where they are coupled."""
+"""Trailers: initial couplings and coupling points."""
 
 from __future__ import annotations
 

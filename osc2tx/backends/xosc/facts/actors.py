@@ -1,7 +1,7 @@
-"""What the embedded world knows about actors, and XML has to agree with: sizes, limits, courses.
+"""Sizes, limits and speed courses of actors, from the runtime.
 
-Only this file and `facts_*` of the compiler's back ends import the runtime library: there must be
-one table of sizes, one set of formulas for profiles and one reader of OpenDRIVE.
+Of the compiler's stages only this folder imports the runtime: there must be one table of sizes, one
+set of formulas for profiles and one reader of OpenDRIVE.
 """
 
 from __future__ import annotations

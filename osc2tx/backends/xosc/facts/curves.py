@@ -1,4 +1,4 @@
-"""Ways through points, as the embedded world draws them."""
+"""Curves through points, sampled as the runtime draws them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 
-__all__ = ["Waypoint", "drawn"]
+__all__ = ["Waypoint", "sample_curve"]
 
 
 class Waypoint(NamedTuple):
@@ -37,7 +37,7 @@ SAMPLES = 12
 """Pieces into which a stretch of a smooth way is cut."""
 
 
-def drawn(
+def sample_curve(
     points: Sequence[Waypoint],
     *,
     is_timed: bool,

@@ -1,4 +1,4 @@
-"""Roads and lanes that scenarios declare, found on the map as the embedded world finds them."""
+"""Search of declared roads and lanes on the map, by the runtime's map solver."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ from osc2tx_runtime.language.tree.parameters import Range
 __all__ = [
     "PARTS",
     "Between",
-    "Plain",
-    "Ref",
+    "MapQuery",
+    "PartReference",
+    "QueryValue",
     "Stretch",
-    "Wanted",
     "begin_of",
     "crossing_of",
     "end_of",
-    "found_on",
-    "way_of_route",
+    "points_of_route",
+    "search_map",
 ]
 
 PARTS: Mapping[str, type[RoadPart]] = {
@@ -58,7 +58,7 @@ PARTS: Mapping[str, type[RoadPart]] = {
 """Type of the library (§8.12) -> what is looked for."""
 
 
-class Ref(NamedTuple):
+class PartReference(NamedTuple):
     """Another part, by its name."""
 
     name: str
@@ -71,18 +71,20 @@ class Between(NamedTuple):
     upper: float
 
 
-Plain: TypeAlias = "Between | bool | int | float | str | Ref | Wanted | tuple[Plain, ...]"
+QueryValue: TypeAlias = (
+    "Between | bool | int | float | str | PartReference | MapQuery | tuple[QueryValue, ...]"
+)
 
 
-class Wanted(NamedTuple):
+class MapQuery(NamedTuple):
     """A part, or a modifier of the map: its type or name, and what is said about it."""
 
     kind: str
-    said: Mapping[str, Plain]
+    properties: Mapping[str, QueryValue]
 
 
-def found_on(
-    roads: Roads, parts: Mapping[str, Wanted], relations: Sequence[Wanted]
+def search_map(
+    roads: Roads, parts: Mapping[str, MapQuery], relations: Sequence[MapQuery]
 ) -> dict[str, Stretch]:
     """Return the stretch of the map for each part.
 
@@ -96,10 +98,10 @@ def found_on(
     """
     made: dict[str, RoadPart] = {}
     try:
-        for name, wanted in parts.items():
-            made[name] = _made(PARTS[wanted.kind], wanted, made)
+        for name, query in parts.items():
+            made[name] = _build(PARTS[query.kind], query, made)
         kinds = {n: each for n, each in MODIFIERS.items() if issubclass(each, MapModifier)}
-        modifiers = [_made(kinds[wanted.kind], wanted, made) for wanted in relations]
+        modifiers = [_build(kinds[query.kind], query, made) for query in relations]
         solver = MapSolver(roads.map, list(made.values()), [Relation(m, None) for m in modifiers])
         solver.solve()
     except (ScenarioError, UnsupportedError) as error:
@@ -107,26 +109,26 @@ def found_on(
     return {name: part.found for name, part in made.items()}
 
 
-MadeT = TypeVar("MadeT", RoadPart, MapModifier, CrossingType)
+BuiltT = TypeVar("BuiltT", RoadPart, MapModifier, CrossingType)
 
 
-def _made(cls: type[MadeT], wanted: Wanted, made: Mapping[str, RoadPart]) -> MadeT:
+def _build(cls: type[BuiltT], query: MapQuery, made: Mapping[str, RoadPart]) -> BuiltT:
     """Return an object of the embedded world."""
     known = inspect.signature(cls).parameters
-    unknown = [name for name in wanted.said if name not in known]
+    unknown = [name for name in query.properties if name not in known]
     if unknown:
-        raise Inexpressible(f"`{unknown[0]}` of a {wanted.kind} cannot be told from the map")
-    arguments: dict[str, Any] = {n: _resolved(value, made) for n, value in wanted.said.items()}
+        raise Inexpressible(f"`{unknown[0]}` of a {query.kind} cannot be told from the map")
+    arguments: dict[str, Any] = {n: _resolved(value, made) for n, value in query.properties.items()}
     return cls(**arguments)
 
 
-def _resolved(value: Plain, made: Mapping[str, RoadPart]) -> object:
-    if isinstance(value, Ref):
+def _resolved(value: QueryValue, made: Mapping[str, RoadPart]) -> object:
+    if isinstance(value, PartReference):
         if value.name not in made:
             raise Inexpressible(f"`{value.name}` is used before it is declared")
         return made[value.name]
-    if isinstance(value, Wanted):
-        return _made(CrossingType, value, made)
+    if isinstance(value, MapQuery):
+        return _build(CrossingType, value, made)
     if isinstance(value, Between):
         return Range(value.lower, value.upper)
     if isinstance(value, tuple):
@@ -156,7 +158,7 @@ def end_of(roads: Roads, stretch: Stretch) -> LanePosition:
     return graph_of(roads.map).end(stretch)
 
 
-def way_of_route(
+def points_of_route(
     roads: Roads,
     elements: Sequence[LanePosition | Pose | Stretch | Sequence[Waypoint]],
     connect_by: str,

@@ -1,4 +1,4 @@
-"""Maps, as the embedded world reads them."""
+"""Maps, read by the runtime."""
 
 from __future__ import annotations
 

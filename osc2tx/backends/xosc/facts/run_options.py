@@ -1,4 +1,4 @@
-"""What is given or planned for a run: options of `osc2tx run`, starts of parallel members."""
+"""Options of `osc2tx run` and starts of parallel members, computed by the runtime."""
 
 from __future__ import annotations
 

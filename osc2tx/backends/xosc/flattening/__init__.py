@@ -1,1 +1,1 @@
-"""The tree of a scenario as acts and events."""
+"""Flattening: the tree of a scenario as acts and events."""

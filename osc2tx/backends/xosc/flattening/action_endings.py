@@ -1,4 +1,4 @@
-"""What goes on when an action ends: a change that is not over is ended where it is.
+"""Ends of actions: changes that are not complete are stopped.
 
 In the DSL an actor keeps its speed and its lane when no action controls them. In the XML an action
 runs on until it is done, or another one takes over.
@@ -12,7 +12,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed_changes import hold_speed
 from osc2tx.backends.xosc.conditions.flow import Flow
-from osc2tx.backends.xosc.flattening.storyboard_builder import Loom
+from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -22,16 +22,20 @@ BACK_TO_CENTRE = 1.5
 Claims = frozenset[tuple[str, str]]
 
 
-def take(loom: Loom, leaf: Leaf, change: Change, *, is_over: bool) -> None:
+def record_end_state(
+    builder: StoryboardBuilder, leaf: Leaf, change: Change, *, is_over: bool
+) -> None:
     """Note what is known about the actor when an action has ended."""
-    before = loom.ctx.states[leaf.member.name]
+    before = builder.ctx.states[leaf.member.name]
     state = _merged(before, change.after if is_over else change.during, change.domain)
     state = replace(state.finished(change.domain), rate=state.rate)
     if not is_over:
         state = state.with_unfinished(change.domain, leaf.event)
-    loom.ctx.states[leaf.member.name] = state
+    builder.ctx.states[leaf.member.name] = state
     for noted in (change.during, change.after):
-        loom.note(leaf.member.name, replace(_merged(before, noted, change.domain), unfinished=()))
+        builder.note(
+            leaf.member.name, replace(_merged(before, noted, change.domain), unfinished=())
+        )
 
 
 def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
@@ -43,11 +47,13 @@ def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
     return replace(now, unfinished=before.unfinished)
 
 
-def settle(loom: Loom, flow: Flow, member: ir.Behavior, taken: Claims) -> Flow:
+def end_open_actions(
+    builder: StoryboardBuilder, flow: Flow, member: ir.Behavior, taken: Claims
+) -> Flow:
     """End what is still changing when a member has ended, unless the next one takes over.
 
     Args:
-        loom: The acts.
+        builder: The storyboard.
         flow: When the member ends.
         member: The member.
         taken: Entities and domains that the next member takes over.
@@ -55,9 +61,9 @@ def settle(loom: Loom, flow: Flow, member: ir.Behavior, taken: Claims) -> Flow:
     Returns:
         When the member ends, as a flow that stays true if something had to be ended.
     """
-    ctx = loom.ctx
+    ctx = builder.ctx
     ended = flow
-    for actor in loom.acting(member):
+    for actor in builder.acting(member):
         state = ctx.states[actor]
         left = [
             (domain, event)
@@ -69,18 +75,18 @@ def settle(loom: Loom, flow: Flow, member: ir.Behavior, taken: Claims) -> Flow:
         for domain, _ in left:
             state = state.finished(domain)
         ctx.states[actor] = state
-        actions = tuple(_ending(loom, actor, domain, member) for domain, _ in left)
+        actions = tuple(_ending(builder, actor, domain, member) for domain, _ in left)
         name = ctx.names.new(f"hold_{actor}")
-        ended = loom.latched(ended, name)
-        loom.add(name, actions, ended, actor=actor)
+        ended = builder.latched(ended, name)
+        builder.add(name, actions, ended, actor=actor)
     return ended
 
 
-def _ending(loom: Loom, actor: str, domain: str, member: ir.Behavior) -> Element:
+def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Behavior) -> Element:
     if domain == LONGITUDINAL:
         return hold_speed(actor)
     note = f"it returns to the centre of the lane that it is in, within {BACK_TO_CENTRE:g} s"
-    loom.ctx.report.exact("a change of lane that is cut short", member.span, note)
+    builder.ctx.report.exact("a change of lane that is cut short", member.span, note)
     return element(
         "PrivateAction",
         element(

@@ -1,4 +1,4 @@
-"""What stands before and behind an invocation in its `serial`."""
+"""Members before, behind and beside an invocation."""
 
 from __future__ import annotations
 

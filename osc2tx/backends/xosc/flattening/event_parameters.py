@@ -1,4 +1,4 @@
-"""What events carry: a variable for each of their parameters, set when they are emitted."""
+"""Parameters of events: a variable for each, set when the event is emitted."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ORDERLESS = frozenset({"equalTo", "notEqualTo"})
 """Rules for what is no number."""
 
 
-def carried(ctx: Context, emission: ir.Emit) -> tuple[Element, ...]:
+def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[Element, ...]:
     """Return the actions that set what an emission hands over.
 
     Raises:
@@ -27,7 +27,9 @@ def carried(ctx: Context, emission: ir.Emit) -> tuple[Element, ...]:
     return tuple(found)
 
 
-def carries(ctx: Context, argument: ir.EventArgument, rule: str, value: Constant) -> Element:
+def parameter_condition(
+    ctx: Context, argument: ir.EventArgument, rule: str, value: Constant
+) -> Element:
     """Return the condition on what an event has handed over.
 
     Raises:

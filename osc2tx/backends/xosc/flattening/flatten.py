@@ -14,14 +14,18 @@ from typing import assert_never
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, chosen, single, state_of
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.action_endings import settle
+from osc2tx.backends.xosc.flattening.action_endings import end_open_actions
 from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
-from osc2tx.backends.xosc.flattening.durations import Role, over
+from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.leaves import invoke
 from osc2tx.backends.xosc.flattening.overridden_members import unless_active
 from osc2tx.backends.xosc.flattening.parallel_overlaps import starts_of
 from osc2tx.backends.xosc.flattening.storyboard import Act
-from osc2tx.backends.xosc.flattening.storyboard_builder import RUN_START, Loom, construct_of
+from osc2tx.backends.xosc.flattening.storyboard_builder import (
+    RUN_START,
+    StoryboardBuilder,
+    construct_of,
+)
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant, is_single, is_timed
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
@@ -35,34 +39,34 @@ class Flattener:
     def __init__(self, ctx: Context) -> None:
         """Take the scenario; the states of its actors are those after the placement."""
         self._ctx = ctx
-        self._loom = Loom(ctx)
+        self._builder = StoryboardBuilder(ctx)
         self._entrants: set[Span] = set()  # members of races that have an act of their own
         self._is_racing = False  # the present place is inside a member of a race
 
     @property
     def acts(self) -> Sequence[Act]:
         """Those made so far."""
-        return self._loom.acts
+        return self._builder.acts
 
     def run(self) -> Flow:
         """Flatten the tree; return when it ends."""
-        self._loom.add_signals()
+        self._builder.add_signals()
         end = self._member(self._ctx.scenario.body, RUN_START)
-        self._loom.finish_acts()
-        return end | self._loom.finished
+        self._builder.finish_acts()
+        return end | self._builder.finished
 
     def _member(self, node: ir.Behavior, start: Flow) -> Flow:
         """Flatten a member that starts with a flow; return when it ends, `NEVER` if it does not."""
-        outer, self._loom.place = self._loom.place, node.span
+        outer, self._builder.place = self._builder.place, node.span
         try:
-            start, skipped = unless_active(self._loom, node, start)
-            return self._flatten(node, self._loom.begun(node, start)) | skipped
+            start, skipped = unless_active(self._builder, node, start)
+            return self._flatten(node, self._builder.mark_start(node, start)) | skipped
         except Inexpressible as error:
             span = error.span or node.span
             self._ctx.report.cannot(construct_of(node), span, error.reason, error.remedy)
             return start
         finally:
-            self._loom.place = outer
+            self._builder.place = outer
 
     def _flatten(self, node: ir.Behavior, start: Flow) -> Flow:
         match node:
@@ -75,19 +79,19 @@ class Flattener:
             case ir.InvokeScenario():
                 return self._bounded(node, start, lambda at: self._scenario(node, at))
             case ir.Invoke():
-                return invoke(self._loom, node, start)
+                return invoke(self._builder, node, start)
             case ir.Wait():
-                end = self._loom.after(node.trigger, self._loom.latched(start, node.name))
+                end = self._builder.after(node.trigger, self._builder.latched(start, node.name))
                 self._ctx.report.exact("wait", node.span)
-                return self._loom.ended(node, end)
+                return self._builder.mark_end(node, end)
             case ir.Emit():
-                return emit(self._loom, node, start)
+                return emit(self._builder, node, start)
             case ir.Finish():
-                return finish(self._loom, node, start)
+                return finish(self._builder, node, start)
             case ir.On():
-                return react(self._loom, node, start)
+                return react(self._builder, node, start)
             case ir.Call():
-                return call(self._loom, node, start)
+                return call(self._builder, node, start)
             case _:
                 assert_never(node)
 
@@ -100,24 +104,24 @@ class Flattener:
             if flow.is_never:
                 break
             if index + 1 < len(node.members):
-                following = self._loom.claimed(node.members[index + 1])
-                flow = settle(self._loom, flow, member, following)
+                following = self._builder.claimed(node.members[index + 1])
+                flow = end_open_actions(self._builder, flow, member, following)
         self._ctx.report.exact("serial", node.span)
         return flow
 
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
         if len(node.members) > 1:
-            start = self._loom.latched(start, node.name)
+            start = self._builder.latched(start, node.name)
         ends: list[tuple[ir.Behavior, Flow]] = []
-        voice = self._loom.voice
+        mark_actor = self._builder.mark_actor
         for member, offset in zip(node.members, starts_of(self._ctx, node), strict=True):
             at = ends[0][1] if offset is None else start.later(offset)
-            self._loom.voice = next(iter(self._loom.acting(member)), voice)
+            self._builder.mark_actor = next(iter(self._builder.acting(member)), mark_actor)
             end = self._member(member, at)
             if not end.is_never:
-                end = settle(self._loom, end, member, frozenset())
+                end = end_open_actions(self._builder, end, member, frozenset())
             ends.append((member, end))
-        self._loom.voice = voice
+        self._builder.mark_actor = mark_actor
         self._ctx.report.exact("parallel", node.span)
         return self._joined(ends)
 
@@ -129,7 +133,7 @@ class Flattener:
             return NEVER
         if len(bounding) == 1:
             return bounding[0][1]
-        joined, *others = (self._loom.latched(end, member.name) for member, end in bounding)
+        joined, *others = (self._builder.latched(end, member.name) for member, end in bounding)
         for other in others:
             joined = joined & other
         return joined
@@ -142,30 +146,30 @@ class Flattener:
         if policy == "seeded":
             return self._choice(node, start)
         if len(node.members) > 1:
-            start = self._loom.latched(start, node.name)
+            start = self._builder.latched(start, node.name)
         is_race = len(node.members) > 1
         single = [
             is_single(member) and not (is_race and is_timed(member)) for member in node.members
         ]
         races = not all(single)
-        before, after, voice = dict(self._ctx.states), None, self._loom.voice
+        before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
         acts: list[Act] = []
         ends: dict[str, Flow] = {}
         for member, is_leaf in zip(node.members, single, strict=True):
             self._ctx.states = dict(before)
-            self._loom.voice = next(iter(self._loom.acting(member)), voice)
+            self._builder.mark_actor = next(iter(self._builder.acting(member)), mark_actor)
             if not is_leaf:
                 act, mark = self._region(member, start, partial(self._entrant, member, is_race))
                 acts.append(act)
                 if mark is not None:
-                    ends[mark] = self._loom.is_set(mark)
+                    ends[mark] = self._builder.is_set(mark)
             elif not (end := self._racer(member, start, is_race)).is_never:
                 mark = self._ctx.names.new(f"end_of_{plain(member.name)}")
-                ends[mark] = self._loom.keep(mark, end) if races else end
+                ends[mark] = self._builder.keep(mark, end) if races else end
             states = self._ctx.states
             after = dict(states) if after is None else either(after, states)
         self._ctx.states = after or before
-        self._loom.voice = voice
+        self._builder.mark_actor = mark_actor
         for act in acts:  # whoever is first stops the others
             act.stops.extend(mark for mark in ends if mark not in act.stops)
         end = NEVER
@@ -179,17 +183,17 @@ class Flattener:
         branch = self._ctx.choosing.branch(self._ctx.scope, node)
         if branch is None:
             return self._member(node.members[0], start)
-        start = self._loom.latched(start, node.name)
-        before, after, voice = dict(self._ctx.states), None, self._loom.voice
+        start = self._builder.latched(start, node.name)
+        before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
         end = NEVER
         for member, choice in zip(node.members, branch.choices, strict=True):
             self._ctx.states = dict(before)
-            self._loom.voice = next(iter(self._loom.acting(member)), voice)
+            self._builder.mark_actor = next(iter(self._builder.acting(member)), mark_actor)
             end = end | self._member(member, start & chosen(branch.name, str(choice)))
             states = self._ctx.states
             after = dict(states) if after is None else either(after, states)
         self._ctx.states = after or before
-        self._loom.voice = voice
+        self._builder.mark_actor = mark_actor
         self._ctx.report.exact("one_of", node.span, f"the parameter {branch.name} chooses")
         return end
 
@@ -204,11 +208,11 @@ class Flattener:
 
     def _racer(self, member: ir.Behavior, start: Flow, is_race: bool) -> Flow:
         """Flatten a member of a race that is no act of its own."""
-        loom = self._loom
-        outer = loom.is_race, self._is_racing
-        loom.is_race, self._is_racing = is_race or loom.is_race, is_race or self._is_racing
+        builder = self._builder
+        outer = builder.is_race, self._is_racing
+        builder.is_race, self._is_racing = is_race or builder.is_race, is_race or self._is_racing
         end = self._member(member, start)
-        loom.is_race, self._is_racing = outer
+        builder.is_race, self._is_racing = outer
         return end
 
     def _scenario(self, node: ir.InvokeScenario, start: Flow) -> Flow:
@@ -225,20 +229,24 @@ class Flattener:
         self, node: ir.Composition | ir.InvokeScenario, start: Flow, body: Callable[[Flow], Flow]
     ) -> Flow:
         """Flatten a composition with its `until`, its duration and what overrides it."""
-        loom = self._loom
-        if not node.until and node.duration is None and not loom.overriding(node):
-            return loom.ended(node, body(start))
-        start = loom.latched(start, node.name)
+        builder = self._builder
+        if not node.until and node.duration is None and not builder.overriding(node):
+            return builder.mark_end(node, body(start))
+        start = builder.latched(start, node.name)
         if node.span in self._entrants:  # the act is its own already
-            return loom.ended(node, over(loom, node, start, body(start), "racer"))
+            return builder.mark_end(
+                node, end_within_duration(builder, node, start, body(start), "racer")
+            )
         role: Role = "in a race" if self._is_racing else "alone"
         if is_single(node):
-            outer, loom.is_race = loom.is_race, True
-            end = over(loom, node, start, body(start), role)
-            loom.is_race = outer
-            return loom.ended(node, end)
-        _, mark = self._region(node, start, lambda at: over(loom, node, at, body(at), role))
-        return loom.ended(node, NEVER if mark is None else loom.is_set(mark))
+            outer, builder.is_race = builder.is_race, True
+            end = end_within_duration(builder, node, start, body(start), role)
+            builder.is_race = outer
+            return builder.mark_end(node, end)
+        _, mark = self._region(
+            node, start, lambda at: end_within_duration(builder, node, at, body(at), role)
+        )
+        return builder.mark_end(node, NEVER if mark is None else builder.is_set(mark))
 
     def _region(
         self, node: ir.Behavior, start: Flow, body: Callable[[Flow], Flow]
@@ -248,17 +256,17 @@ class Flattener:
         The mark is needed, for an act is also complete when its events are, though what they stand
         for goes on.
         """
-        ctx, loom = self._ctx, self._loom
+        ctx, builder = self._ctx, self._builder
         if not ctx.profile.has_act_stop:
             reason = f"{ctx.profile.name} does not stop acts"
             raise Inexpressible(reason, node.span, Remedy(profile="generic"))
         name = f"act_{plain(node.label or node.name)}"
-        act = loom.open_act(name, start)
+        act = builder.open_act(name, start)
         end = body(single(state_of("act", act.name, "runningState")))
         mark = None
         if not end.is_never:
             mark = ctx.names.new(f"end_{act.name}")
-            loom.keep(mark, end)
+            builder.keep(mark, end)
             act.stops.append(mark)
-        loom.close_act()
+        builder.close_act()
         return act, mark

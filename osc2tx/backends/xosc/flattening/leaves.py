@@ -8,14 +8,14 @@ from math import inf
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
-from osc2tx.backends.xosc.actions.user_actions import own_action
+from osc2tx.backends.xosc.actions.user_actions import user_action
 from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
-from osc2tx.backends.xosc.flattening.action_endings import take
+from osc2tx.backends.xosc.flattening.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.adjacent_members import is_first
 from osc2tx.backends.xosc.flattening.storyboard_builder import (
     RUN_START,
-    Loom,
+    StoryboardBuilder,
     construct_of,
 )
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of
@@ -24,23 +24,23 @@ from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element
 
 
-def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
+def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an invocation that starts with a flow; return when it ends."""
     if node.action in GLOBAL_ACTIONS:
-        return _invoke_global(loom, node, start)
-    ctx = loom.ctx
+        return _invoke_global(builder, node, start)
+    ctx = builder.ctx
     is_known = entry_of(node) is not None
-    leaf_handler = ACTIONS.get(node.action) if is_known else own_action
+    leaf_handler = ACTIONS.get(node.action) if is_known else user_action
     if leaf_handler is None:
         raise Inexpressible(WITHOUT_FORM["action"][node.action])
     member = ctx.cast.get(ctx.values.actor(node.actor))
     if member is None:
         raise Inexpressible(f"`{node.actor.span.text}` is no entity of the XML")
-    loom.voice = member.name
-    overriding = loom.overriding(node)
+    builder.mark_actor = member.name
+    overriding = builder.overriding(node)
     is_measured = any(call.name == "distance" for call in node.modifiers)
     if node.until or overriding or node.duration is not None or is_measured:
-        start = loom.latched(start, node.name)
+        start = builder.latched(start, node.name)
     name = ctx.names.new(node.label or f"{member.name}_{node.action}")
     is_start = start == RUN_START or is_first(ctx.scenario.body, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start)
@@ -54,46 +54,52 @@ def invoke(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     if actions:
-        goal = loom.add(name, actions, start, actor=member.name)
+        goal = builder.add(name, actions, start, actor=member.name)
         for other, action, word in leaf.others:
             follows = ctx.names.new(f"{other.name}_{word}")
-            loom.add(follows, (action,), goal, actor=other.name)
+            builder.add(follows, (action,), goal, actor=other.name)
             state = replace(ctx.states[other.name], speed=None)
             ctx.states[other.name] = state.finished(LONGITUDINAL)
-    ends = _ends(loom, node, start, goal, performance)
-    lasting = _least_length(loom, node, performance)
-    successors = loom.claimed_by(overriding)
+    ends = _ends(builder, node, start, goal, performance)
+    lasting = _least_length(builder, node, performance)
+    successors = builder.claimed_by(overriding)
     for change in performance.changes:
-        take(loom, leaf, change, is_over=not overriding and _is_over(change, lasting))
+        record_end_state(
+            builder, leaf, change, is_over=not overriding and _is_over(change, lasting)
+        )
         if (member.name, change.domain) in successors:
             ctx.states[member.name] = ctx.states[member.name].finished(change.domain)
-    return loom.ended(node, ends)
+    return builder.mark_end(node, ends)
 
 
-def _ends(loom: Loom, node: ir.Invoke, start: Flow, goal: Flow, performance: Performance) -> Flow:
+def _ends(
+    builder: StoryboardBuilder, node: ir.Invoke, start: Flow, goal: Flow, performance: Performance
+) -> Flow:
     """Return when an action is over: at its goal, or when others end it."""
     if performance.reached:
         at_place = Flow(tuple((Test(condition),) for condition in performance.reached))
-        return goal & at_place | loom.until(node, start)
+        return goal & at_place | builder.until(node, start)
     if performance.lasts is not None:
-        return start.later(performance.lasts) | loom.until(node, start)
+        return start.later(performance.lasts) | builder.until(node, start)
     if performance.ends == "open":
-        return loom.limit(node, start)
-    return goal | loom.until(node, start)
+        return builder.limit(node, start)
+    return goal | builder.until(node, start)
 
 
-def _least_length(loom: Loom, node: ir.Invoke, performance: Performance) -> float | None:
+def _least_length(
+    builder: StoryboardBuilder, node: ir.Invoke, performance: Performance
+) -> float | None:
     """Return how long (s) an action surely lasts; infinite if only its goal ends it."""
-    if loom.is_race:
+    if builder.is_race:
         return None
     lengths = [] if performance.lasts is None else [performance.lasts]
     if performance.ends == "open" and performance.lasts is None:
-        lasting = loom.length_of(node)
+        lasting = builder.length_of(node)
         lengths += [] if lasting is None else [lasting]
     for trigger in node.until:
         match trigger:
             case ir.Trigger(event=None, condition=ir.Elapsed(duration=duration)):
-                lengths.append(loom.ctx.values.number(duration))
+                lengths.append(builder.ctx.values.number(duration))
             case _:
                 return None
     if performance.ends == "open" and not lengths:
@@ -108,9 +114,9 @@ def _is_over(change: Change, lasting: float | None) -> bool:
     return lasting is not None and change.time is not None and change.time <= lasting
 
 
-def _invoke_global(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
+def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
-    ctx = loom.ctx
+    ctx = builder.ctx
     actions: tuple[Element | Later, ...] = ()
     with ctx.report_as(construct_of(node), node.span):
         arguments = Arguments(ctx, node.arguments, node)
@@ -119,22 +125,22 @@ def _invoke_global(loom: Loom, node: ir.Invoke, start: Flow) -> Flow:
     entry = entry_of(node)
     lasts = entry is not None and entry.ends == "open"
     if lasts:
-        start = loom.latched(start, node.name)
+        start = builder.latched(start, node.name)
     if node.modifiers or (not lasts and (node.until or node.duration is not None)):
         raise Inexpressible("it takes no time, so it has no duration and no modifiers")
-    goal = _act_globally(loom, node, actions, start)
+    goal = _act_globally(builder, node, actions, start)
     for name, lights in followed_lights(ctx).items():
-        loom.add(ctx.names.new(f"{name}_lights"), lights, start, actor=name)
+        builder.add(ctx.names.new(f"{name}_lights"), lights, start, actor=name)
     if not lasts:
-        return loom.ended(node, goal)
-    return loom.ended(node, loom.limit(node, start))
+        return builder.mark_end(node, goal)
+    return builder.mark_end(node, builder.limit(node, start))
 
 
 def _act_globally(
-    loom: Loom, node: ir.Invoke, actions: tuple[Element | Later, ...], start: Flow
+    builder: StoryboardBuilder, node: ir.Invoke, actions: tuple[Element | Later, ...], start: Flow
 ) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
-    ctx = loom.ctx
+    ctx = builder.ctx
     name = node.label or node.action
     at_once = tuple(action for action in actions if isinstance(action, Element))
     later: dict[float, list[Element]] = {}
@@ -142,10 +148,10 @@ def _act_globally(
         if isinstance(action, Later):
             later.setdefault(action.seconds, []).append(action.action)
     done = start
-    if start == RUN_START and loom.is_outermost:
+    if start == RUN_START and builder.is_outermost:
         ctx.init_globals.extend(at_once)
     elif at_once:
-        done = loom.add(ctx.names.new(name), at_once, start)
+        done = builder.add(ctx.names.new(name), at_once, start)
     for seconds, switches in later.items():
-        loom.add(ctx.names.new(name), tuple(switches), start.later(seconds))
+        builder.add(ctx.names.new(name), tuple(switches), start.later(seconds))
     return done

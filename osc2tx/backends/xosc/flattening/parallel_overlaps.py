@@ -1,4 +1,4 @@
-"""When the members of a `parallel` start (§7.3.13.2), where that is known before the run."""
+"""Start times of the members of a `parallel` (§7.3.13.2) that are known before the run."""
 
 from __future__ import annotations
 

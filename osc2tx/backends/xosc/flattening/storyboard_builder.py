@@ -1,4 +1,4 @@
-"""What everybody needs who weaves events into acts: the present act, marks, triggers."""
+"""Storyboard builder: the current act, marks, and triggers as flows."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.xml.tree import Element
 RUN_START = single(run_start())
 
 
-class Loom:
+class StoryboardBuilder:
     """The acts of one scenario while they are made.
 
     A mark is an event that only sets a variable: it keeps that a flow has come true.
@@ -28,7 +28,7 @@ class Loom:
     Attributes:
         ctx: The scenario.
         act: The one that events go to.
-        voice: The actor whose maneuver holds marks and emissions.
+        mark_actor: The actor whose maneuver holds marks and emissions.
         finished: When the scenario ends before its tree does.
         is_race: The action that is written down now may lose a race before it is done.
         place: Where the member stands that is written down now.
@@ -38,14 +38,14 @@ class Loom:
         """Begin with one act for all."""
         self.ctx = ctx
         self.act = Act(ctx.names.new("act"), RUN_START)
-        self.voice: str | None = None
+        self.mark_actor: str | None = None
         self.finished = NEVER
         self.is_race = False
         self.place = ctx.scenario.span
         self._outermost = self.act
         self._closed: list[Act] = []
         self._around: list[Act] = []
-        self._hulls: list[dict[str, ActorState]] = []
+        self._stop_states: list[dict[str, ActorState]] = []
         self._tables = {id(scope): EventTable(ctx, scope) for scope in ctx.scope.all()}
 
     @property
@@ -88,7 +88,7 @@ class Loom:
         """Let events go to a new act."""
         act = Act(self.ctx.names.new(name), start, around=self.act)
         self._around.append(self.act)
-        self._hulls.append(
+        self._stop_states.append(
             {name: replace(state, unfinished=()) for name, state in self.ctx.states.items()}
         )
         self.act = act
@@ -97,7 +97,7 @@ class Loom:
     def close_act(self) -> None:
         """Let events go to the act around; what was going on may have been stopped anywhere."""
         self._closed.append(self.act)
-        for name, state in self._hulls.pop().items():
+        for name, state in self._stop_states.pop().items():
             is_aside = state.offset is None and self.ctx.states[name].offset is not None
             left = ((LATERAL, self.act.name),) if is_aside else ()
             self.ctx.states[name] = replace(state, unfinished=left)
@@ -105,8 +105,8 @@ class Loom:
 
     def note(self, entity: str, state: ActorState) -> None:
         """Note a state in which an act that is open now may be stopped."""
-        for hull in self._hulls:
-            hull[entity] = merged(hull[entity], state)
+        for states in self._stop_states:
+            states[entity] = merged(states[entity], state)
 
     def finish_acts(self) -> None:
         """Give acts without events one, as the schema asks for it, and pass stops on inwards."""
@@ -135,7 +135,7 @@ class Loom:
 
     def keep(self, mark: str, flow: Flow) -> Flow:
         """Add a mark; return when it is set."""
-        self.add(mark, (self.ctx.mark(mark),), flow, actor=self.voice)
+        self.add(mark, (self.ctx.mark(mark),), flow, actor=self.mark_actor)
         return self.is_set(mark)
 
     def is_set(self, variable: str) -> Flow:
@@ -143,7 +143,7 @@ class Loom:
         condition = self.ctx.variable_is(variable, "equalTo", "true")
         return single(Test(condition, latched=True))
 
-    def begun(self, node: ir.Behavior, start: Flow) -> Flow:
+    def mark_start(self, node: ir.Behavior, start: Flow) -> Flow:
         """Keep the start of a member whose label is waited for; return when it starts."""
         mark = self.events.mark(node, ir.Moment.START)
         if mark is None:
@@ -151,7 +151,7 @@ class Loom:
         kept = self.keep(mark, start)
         return start if start.is_latched else kept
 
-    def ended(self, node: ir.Behavior, end: Flow) -> Flow:
+    def mark_end(self, node: ir.Behavior, end: Flow) -> Flow:
         """Keep the end of a member whose label is waited for; return when it ends."""
         mark = self.events.mark(node, ir.Moment.END)
         return end if mark is None or end.is_never else self.keep(mark, end)

@@ -1,4 +1,4 @@
-"""What can be said about a tree before it is flattened."""
+"""Properties of members of a tree: instant, timed, the domains they control."""
 
 from __future__ import annotations
 

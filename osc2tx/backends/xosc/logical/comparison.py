@@ -70,7 +70,7 @@ def _unlike(a: Element, b: Element, shown: Shown, path: tuple[int, ...]) -> Iter
 
 def is_name(attribute: str) -> bool:
     """Whether an attribute names an element, so that tools need it when they load a document."""
-    return attribute == "name" or attribute.endswith("Ref")
+    return attribute == "name" or attribute.endswith("PartReference")
 
 
 def _is_same(a: str, b: str, shown: Shown) -> bool:

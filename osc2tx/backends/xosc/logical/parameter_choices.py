@@ -1,4 +1,4 @@
-"""How open parameters are chosen for one document."""
+"""Values of open parameters that are chosen for one document."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the report says about open parameters."""
+"""Entries of the loss report about open parameters."""
 
 from __future__ import annotations
 

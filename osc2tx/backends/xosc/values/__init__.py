@@ -1,1 +1,1 @@
-"""Values that do not change during a run: constants, what is computed of them, open parameters."""
+"""Constants, constant folding, and symbolic numbers of open parameters."""

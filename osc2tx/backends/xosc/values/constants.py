@@ -1,4 +1,4 @@
-"""What expressions are worth that do not change during a run."""
+"""Values of expressions that do not change during a run."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Bounds:
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class MethodResult:
     """What a method of the library makes of constants: a point, a path, states of lamps.
 
     Attributes:
@@ -50,5 +50,5 @@ class Made:
 
 
 Constant: TypeAlias = (
-    "bool | int | float | str | Member | Named | Bounds | Made | tuple[Constant, ...]"
+    "bool | int | float | str | Member | Named | Bounds | MethodResult | tuple[Constant, ...]"
 )

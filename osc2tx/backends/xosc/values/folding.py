@@ -1,4 +1,4 @@
-"""Values of expressions that do not change during a run.
+"""Constant folding: the values of expressions that do not change during a run.
 
 Constants and the values of parameters are folded. A parameter that may be anything in a range is
 what is given for it, a number or a `Symbol`, else the middle.
@@ -12,9 +12,9 @@ from copy import copy
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Bounds, Constant, Made, Member, Named
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
-from osc2tx.backends.xosc.values.user_types import OwnTypes
+from osc2tx.backends.xosc.values.user_types import UserTypes
 
 MAKERS = frozenset(
     {
@@ -68,12 +68,12 @@ class Values:
         self,
         scenario: ir.Scenario,
         given: Mapping[str, Constant] | None = None,
-        types: OwnTypes | None = None,
+        types: UserTypes | None = None,
     ) -> None:
         self._declared = {d.name: d for d in scenario.declarations}
         self._methods = {m.name: m for m in scenario.methods}
         self._given = dict(given or {})
-        self._types = types or OwnTypes()
+        self._types = types or UserTypes()
         self._arguments: dict[str, Constant] = {}  # of the method that is looked into
         self._depth = 0
         self._hidden: dict[str, Inexpressible] = {}
@@ -183,7 +183,7 @@ class Values:
                 return self._converted(expression, operand)
             case ir.MethodCall(base=ir.FieldRef(name=owner), method=method) if method in MAKERS:
                 given = ((each.parameter, self.of(each.value)) for each in expression.arguments)
-                return Made(method, owner, tuple(given))
+                return MethodResult(method, owner, tuple(given))
             case ir.MethodCall(base=ir.ScenarioSelf(), method=method) if method in self._methods:
                 return self._result(expression, self._methods[method])
         raise Inexpressible(

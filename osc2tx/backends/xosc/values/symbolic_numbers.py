@@ -1,4 +1,4 @@
-"""Numbers that stay parameters of the document.
+"""Symbolic numbers: arithmetic on open parameters as expressions of the document.
 
 A `Symbol` is a number, the nominal value of an open parameter or what is computed from it, that
 remembers how: sums, differences, products and quotients of symbols are symbols. Whatever else is

@@ -1,4 +1,4 @@
-"""Values that the scenario's own types give: defaults of fields."""
+"""Default values of fields of the scenario's own types."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator
 from osc2tx import ir
 
 
-class OwnTypes:
+class UserTypes:
     """The actors and structs that the files of a module declare.
 
     Args:
         types: Those types.
     """
 
-    def __init__(self, types: Iterable[ir.OwnType] = ()) -> None:
+    def __init__(self, types: Iterable[ir.UserType] = ()) -> None:
         self._types = {own.name: own for own in types}
 
     def default(self, type_name: str, path: tuple[str, ...]) -> ir.Expression | None:
@@ -29,11 +29,11 @@ class OwnTypes:
             return None if field is None else field.default
         return self.default(field.type.name, path[1:])
 
-    def _field(self, type_name: str, name: str) -> ir.OwnField | None:
+    def _field(self, type_name: str, name: str) -> ir.UserField | None:
         fields = (field for own in self._lineage(type_name) for field in own.fields)
         return next((field for field in fields if field.name == name), None)
 
-    def _lineage(self, type_name: str | None) -> Iterator[ir.OwnType]:
+    def _lineage(self, type_name: str | None) -> Iterator[ir.UserType]:
         while type_name in self._types:
             yield self._types[type_name]
             type_name = self._types[type_name].base

@@ -1,1 +1,1 @@
-"""The language of documents: elements and versions, names, and what tools make of them."""
+"""Elements, schema, names, and the profiles of tools that read documents."""

@@ -1,4 +1,4 @@
-"""Names of elements: unique in the whole document, and what a reader of the source expects."""
+"""Names of elements, unique in the document and close to the source."""
 
 from __future__ import annotations
 

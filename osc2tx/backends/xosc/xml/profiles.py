@@ -1,4 +1,4 @@
-"""What tools that read OpenSCENARIO XML can and cannot do, as data."""
+"""Profiles of tools that read OpenSCENARIO XML: what each supports."""
 
 from __future__ import annotations
 

@@ -80,6 +80,33 @@ def has_child(type_name: str, child: str, version: XmlVersion) -> bool:
     return part is not None and part.is_in(version)
 
 
+@cache
+def required_attributes(type_name: str, version: XmlVersion) -> tuple[str, ...]:
+    """Return the attributes that elements of a type must have in a version."""
+    parts = element_type(type_name).attributes
+    return tuple(name for name, part in parts.items() if version in part.required)
+
+
+@cache
+def required_children(type_name: str, version: XmlVersion) -> tuple[str, ...]:
+    """Return the children that elements of a type must have in a version."""
+    parts = element_type(type_name).children
+    return tuple(name for name, part in parts.items() if version in part.required)
+
+
+@cache
+def attribute_order(type_name: str) -> tuple[str, ...]:
+    """Return the attributes of a type: `name` first, for people, the rest as in the schema."""
+    return tuple(sorted(element_type(type_name).attributes, key=lambda name: name != "name"))
+
+
+@cache
+def child_order(type_name: str) -> Mapping[str, int]:
+    """Return the place of each child of a type among the others."""
+    return {name: place for place, name in enumerate(element_type(type_name).children)}
+
+
+@cache
 def literals(type_name: str, version: XmlVersion) -> frozenset[str] | None:
     """Return the literals that an enumeration has in a version; `None` for other types."""
     enum = _tables().enums.get(type_name)

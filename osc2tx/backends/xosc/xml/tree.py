@@ -15,7 +15,15 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
 from osc2tx.backends.xosc.xml.layout import lay_out
 from osc2tx.backends.xosc.xml.numbers import number_text
-from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, ElementType, element_type, literals
+from osc2tx.backends.xosc.xml.schema import (
+    ROOT_TYPE,
+    attribute_order,
+    child_order,
+    element_type,
+    literals,
+    required_attributes,
+    required_children,
+)
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion
 from osc2tx.support.light_dataclass import dataclass
@@ -97,38 +105,34 @@ def _build(node: Element, parent_type: str, version: XmlVersion) -> etree._Eleme
     part = element_type(parent_type).children.get(node.name)
     if part is None or not part.is_in(version):
         raise _impossible(f"<{node.name}> below {parent_type or 'the document'}", version)
-    type_ = element_type(part.type)
     made = etree.Element(node.name)
     made.text = node.text
-    for name, text in _ordered_attributes(node, type_, version):
+    for name, text in _ordered_attributes(node, part.type, version):
         made.set(name, text)
-    order = {name: index for index, name in enumerate(type_.children)}
     present = {child.name for child in node.children}
-    for name, child_part in type_.children.items():
-        if version in child_part.required and name not in present:
+    for name in required_children(part.type, version):
+        if name not in present:
             raise _impossible(f"<{node.name}> without <{name}>", version)
+    order = child_order(part.type)
     for child in sorted(node.children, key=lambda c: order.get(c.name, 0)):
         made.append(_build(child, part.type, version))
     return made
 
 
-def _ordered_attributes(
-    node: Element, type_: ElementType, version: XmlVersion
-) -> list[tuple[str, str]]:
+def _ordered_attributes(node: Element, type_: str, version: XmlVersion) -> list[tuple[str, str]]:
     given = dict(node.attributes)
+    known_parts = element_type(type_).attributes
     for name, text in given.items():
-        part = type_.attributes.get(name)
+        part = known_parts.get(name)
         if part is None or not part.is_in(version):
             raise _impossible(f"{name} of <{node.name}>", version)
         known = literals(part.type, version)
         if known is not None and text not in known and not text.startswith("$"):
             raise _impossible(f"{name}={text!r} of <{node.name}>", version)
-    for name, part in type_.attributes.items():
-        if version in part.required and name not in given:
+    for name in required_attributes(type_, version):
+        if name not in given:
             raise _impossible(f"<{node.name}> without {name}", version)
-    # `name` goes first, for people; the rest in the order of the schema.
-    names = sorted(type_.attributes, key=lambda name: name != "name")
-    return [(name, given[name]) for name in names if name in given]
+    return [(name, given[name]) for name in attribute_order(type_) if name in given]
 
 
 def _impossible(what: str, version: str) -> InternalCompilerError:

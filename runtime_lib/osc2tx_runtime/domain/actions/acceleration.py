@@ -1,4 +1,4 @@
-"""Actions on the acceleration (DSL 8.8.2.7, 8.8.2.14, 8.8.2.15).
+"""Acceleration actions: assign, keep and change it (DSL 8.8.2.7, 8.8.2.14, 8.8.2.15).
 
 A released speed slot holds the speed, so an acceleration lasts only as long as an action keeps it:
 `assign_acceleration`, then `keep_acceleration`.

@@ -1,4 +1,4 @@
-"""Actions that put an actor somewhere at once (DSL 8.8.2.4, 8.8.2.5)."""
+"""Actions that set position or orientation at once (DSL 8.8.2.4, 8.8.2.5)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Going to a place along a generated path (DSL 8.8.2.11)."""
+"""The action `change_position`: a generated path to a place (DSL 8.8.2.11)."""
 
 from __future__ import annotations
 

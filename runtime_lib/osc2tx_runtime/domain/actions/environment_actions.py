@@ -1,4 +1,4 @@
-"""Actions of the environment (DSL 8.11): state that lasts until it is changed again.
+"""Environment actions: weather and light that last until changed again (DSL 8.11).
 
 The standard lets them end "when the same type is invoked again", which would block a serial for
 ever; here they take no time and their effect stays.

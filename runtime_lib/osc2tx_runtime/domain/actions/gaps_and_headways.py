@@ -1,4 +1,4 @@
-"""Gaps and headways to another actor (DSL 8.8.3.4 to 8.8.3.11).
+"""Gap and headway actions, relative to another actor (DSL 8.8.3.4 to 8.8.3.11).
 
 Gaps along the road count from end to end, across it from side to side; headways from front to
 front. A gap in time across the road is the gap over the lateral speed towards the reference.

@@ -1,4 +1,4 @@
-"""Actions on the lane alone (DSL 8.8.3)."""
+"""Lane actions: change and follow a lane (DSL 8.8.3)."""
 
 from __future__ import annotations
 

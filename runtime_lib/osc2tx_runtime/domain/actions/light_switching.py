@@ -1,4 +1,4 @@
-"""What the actions of traffic light controllers share: finding boxes, switching their lamps."""
+"""Base classes of the traffic light actions: find the boxes, switch their lamps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lights of vehicles."""
+"""The action that sets the lights of a vehicle."""
 
 from __future__ import annotations
 

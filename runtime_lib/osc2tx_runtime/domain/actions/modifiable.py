@@ -1,4 +1,4 @@
-"""Actions that control one side of the motion and leave the other to modifiers (DSL 8.9.1).
+"""The base of actions whose motion modifiers complete (DSL 8.9.1).
 
 `ego.follow_path(way) with: speed(30kph)`: the action controls the pose, the modifier the speed.
 `at: all` holds (or is approached and then held) from the start of the action on; `at: end` is

@@ -1,4 +1,4 @@
-"""Which modifiers go together, checked before anything runs."""
+"""Checks that the modifiers of an action can be combined, before the run."""
 
 from __future__ import annotations
 

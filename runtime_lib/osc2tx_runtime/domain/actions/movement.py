@@ -1,4 +1,4 @@
-"""Generic movement: `drive`, `walk`, `move`, shaped by modifiers only (DSL 8.8.2.3, 8.8.3.1)."""
+"""The generic actions `drive`, `walk` and `move` (DSL 8.8.2.3, 8.8.3.1)."""
 
 from __future__ import annotations
 

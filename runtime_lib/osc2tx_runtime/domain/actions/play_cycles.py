@@ -1,4 +1,4 @@
-"""Playing the cycles of traffic lights (DSL 8.15.9.7)."""
+"""The action that plays traffic light cycles (DSL 8.15.9.7)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What actions have in common that change a quantity with a profile and a peak of its rate."""
+"""The base of actions that change a quantity with a rate profile and a peak rate."""
 
 from __future__ import annotations
 

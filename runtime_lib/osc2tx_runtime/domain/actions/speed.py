@@ -1,4 +1,4 @@
-"""Actions on the speed alone (DSL 8.8.2)."""
+"""Speed actions: change, keep and assign it; remain stationary (DSL 8.8.2)."""
 
 from __future__ import annotations
 

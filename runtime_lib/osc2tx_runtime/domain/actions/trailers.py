@@ -1,4 +1,4 @@
-"""Coupling trailers (DSL 8.8.3.12, 8.8.3.13)."""
+"""Trailer actions: connect and disconnect (DSL 8.8.3.12, 8.8.3.13)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all actors have (DSL 8.7.2)."""
+"""The base class of all actors of the domain model (DSL 8.7.2)."""
 
 from __future__ import annotations
 

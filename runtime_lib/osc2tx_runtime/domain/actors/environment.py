@@ -1,4 +1,4 @@
-"""The environment (DSL 8.10.2)."""
+"""The environment actor (DSL 8.10.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The road network as an actor (DSL 8.12.2)."""
+"""The map actor: the road network (DSL 8.12.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is known of an actor that its scenario does not say: by its category, kind and model.
+"""Defaults for parts of actors that a scenario leaves open, by category, kind and model.
 
 Axles and hitches are typical ones; nobody publishes them for a category. They are as wide as the
 box allows, at the places that the shape of the vehicle has them.

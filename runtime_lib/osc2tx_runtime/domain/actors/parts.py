@@ -1,4 +1,4 @@
-"""Parts of physical objects (DSL 8.6, 8.7.11 to 8.7.14) as values.
+"""Value classes for parts of physical objects (DSL 8.6, 8.7.11 to 8.7.14).
 
 A scenario may say a part as a whole or some members of it. What it leaves open is `UNSAID` in the
 value, and the actor that the part belongs to fills it in from the catalogue.

@@ -1,4 +1,4 @@
-"""Methods of the map that scenarios call in expressions (DSL 8.12.2.1)."""
+"""Methods of the map actor: routes, paths, trajectories and points (DSL 8.12.2.1)."""
 
 from __future__ import annotations
 

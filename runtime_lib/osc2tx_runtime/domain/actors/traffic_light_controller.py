@@ -1,4 +1,4 @@
-"""Who switches traffic lights (DSL 8.15.8)."""
+"""The traffic light controller actor (DSL 8.15.8)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Live fields and measuring methods of physical objects."""
+"""Readable fields and measuring methods of physical objects."""
 
 from __future__ import annotations
 

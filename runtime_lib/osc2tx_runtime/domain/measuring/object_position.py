@@ -1,4 +1,4 @@
-"""Where an object is, and how that lies to other objects along the road."""
+"""State of an object, and its distances to others along and across the road."""
 
 from __future__ import annotations
 

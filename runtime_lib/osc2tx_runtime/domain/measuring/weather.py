@@ -1,4 +1,4 @@
-"""The weather as scenarios read it (DSL 8.10): values of the present step, SI units.
+"""Weather values that expressions read (DSL 8.10), SI units.
 
 What no action has set is not known: it is nan, so no comparison with it holds. Only rain and snow
 do not fall then, and fog hides nothing.

@@ -7,6 +7,9 @@ the DSL; `osc2tx_runtime.modifiers` has them by these names, as scenarios import
 
 from __future__ import annotations
 
+from importlib import import_module
+from pkgutil import iter_modules
+
 from .base import Modifier as Modifier
 from .base import MovementModifier as MovementModifier
 from .base import Value as Value
@@ -22,3 +25,6 @@ from .orientation import *  # noqa: F403
 from .position import *  # noqa: F403
 from .registry import MODIFIERS as MODIFIERS
 from .speed import *  # noqa: F403
+
+for _module in iter_modules(__path__):  # noqa: F405 (they register their modifiers)
+    import_module(f"{__name__}.{_module.name}")

@@ -1,4 +1,4 @@
-"""What all modifiers share: the base classes, numbers and ranges that may be read late, checks."""
+"""Base class of movement modifiers; evaluation of values, ranges and shapes."""
 
 from __future__ import annotations
 

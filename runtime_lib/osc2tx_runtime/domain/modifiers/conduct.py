@@ -1,4 +1,4 @@
-"""Modifiers of what to move along and of how to behave (DSL 8.9.11, 8.9.12, 8.9.17, 8.9.18)."""
+"""Modifiers of routes to follow and of conduct (DSL 8.9.11, 8.9.12, 8.9.17, 8.9.18)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Groups of modifiers: what actions take beside the side of the motion that they control."""
+"""Groups of modifier classes: along the road, across it, orientation, paths."""
 
 from __future__ import annotations
 

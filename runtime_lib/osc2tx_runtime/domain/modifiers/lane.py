@@ -1,4 +1,4 @@
-"""Modifiers of the lane and of the place across it (DSL 8.9.8, 8.9.14 to 8.9.16)."""
+"""Modifiers of the lane and of the lateral position (DSL 8.9.8, 8.9.14 to 8.9.16)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What parts of a road network consist of, where a scenario lists it: `keep(it.lanes == [...])`."""
+"""Constraints on the members of roads and lanes: `keep(it.lanes == [...])`."""
 
 from __future__ import annotations
 

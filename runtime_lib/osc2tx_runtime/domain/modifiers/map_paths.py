@@ -1,4 +1,4 @@
-"""What paths ask of each other: to begin or to end elsewhere."""
+"""Constraints that paths begin or end in different places."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Map modifiers about routes: what follows, overlaps or runs against what (DSL 8.12.2.2)."""
+"""Map modifiers: routes in sequence, overlapping, opposite (DSL 8.12.2.2)."""
 
 from __future__ import annotations
 

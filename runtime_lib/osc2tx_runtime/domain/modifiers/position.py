@@ -1,4 +1,4 @@
-"""Modifiers of the place along the road and in the world (DSL 8.9.2, 8.9.3, 8.9.13, 8.7.4.1)."""
+"""Modifiers of the position (DSL 8.9.2, 8.9.3, 8.9.13, 8.7.4.1)."""
 
 from __future__ import annotations
 

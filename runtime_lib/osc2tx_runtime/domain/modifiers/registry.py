@@ -1,4 +1,4 @@
-"""The registry of modifiers: which class a name of the DSL stands for, and what is stated of it."""
+"""The registry of modifiers: DSL name to class, with the facts stated at registration."""
 
 from __future__ import annotations
 

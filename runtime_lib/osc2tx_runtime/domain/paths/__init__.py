@@ -1,1 +1,1 @@
-"""Paths and trajectories: points of a scenario, curves in the world."""
+"""Paths and trajectories: `path_values` of a scenario, `path_curves`, `relative_paths`."""

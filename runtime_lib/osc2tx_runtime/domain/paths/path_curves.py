@@ -1,4 +1,4 @@
-"""Curves through the poses of paths and trajectories, and the part of a curve between offsets."""
+"""Curves through the poses of paths and trajectories; the part between two offsets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Paths, trajectories and routes that scenarios pass around (DSL 8.12), SI units."""
+"""Value classes of paths and trajectories (DSL 8.12), SI units."""
 
 from __future__ import annotations
 

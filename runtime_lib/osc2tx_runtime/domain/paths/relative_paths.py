@@ -1,4 +1,4 @@
-"""Relative points become poses in the world when an action starts, in a frame of the reference.
+"""Conversion of relative path points to poses in the world, in a frame of the reference.
 
 - `world_relative`: axes of the world, from its reference point; not for points in s and t;
 - `object_relative`: its own axes, from its reference point; s and t

@@ -1,4 +1,4 @@
-"""Start places of actors that do not depend on others: given by the settings, or by default."""
+"""Start places without a reference: from the settings, or by default."""
 
 from __future__ import annotations
 

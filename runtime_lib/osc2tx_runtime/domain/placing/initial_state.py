@@ -1,4 +1,4 @@
-"""How an actor is when it is put somewhere: its speeds, its heading, how it is tilted."""
+"""Initial speed, heading and tilt of a placed actor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Puts the cast on the map before step 0."""
+"""Initializes the run: chooses roads, places the cast, couples trailers, sets routes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chooses a stretch of the map for each road and lane that a scenario declares.
+"""Constraint solver: a segment of the map for each declared road and lane.
 
 The first choice in the order of the map for which everything holds, so that the same scenario on
 the same map always gets the same one: a search with backtracking over the parts in the order of

@@ -1,4 +1,4 @@
-"""Where modifiers put an actor: on the map, beside or before another actor, at a point."""
+"""Start places from modifiers: on the map, relative to another actor, at a point."""
 
 from __future__ import annotations
 

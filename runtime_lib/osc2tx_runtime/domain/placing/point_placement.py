@@ -1,4 +1,4 @@
-"""Places of actors that a point in the world decides."""
+"""Start places given as a point in the world."""
 
 from __future__ import annotations
 

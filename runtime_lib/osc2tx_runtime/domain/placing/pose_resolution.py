@@ -1,4 +1,4 @@
-"""Small steps of placing: a modifier's pose, its heading, the begin of a lane on its road."""
+"""Poses, headings and tilts that modifiers ask for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who is placed before whom: actors that others are placed by, towing vehicles before trailers."""
+"""Order of placement: references first, towing vehicles before trailers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How long it takes to a distance to another actor, where a duration leaves a choice."""
+"""Arrival commands: a distance to another actor at the end of a duration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When an action without a duration of its own ends: with the phase that it belongs to.
+"""The duration with which an open-ended action ends: that of the composition around it.
 
 In `parallel(duration: 8s)` the members that never end by themselves end after 8 s; what holds
 `at: end` for one of them has to hold then.

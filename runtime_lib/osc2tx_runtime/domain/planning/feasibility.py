@@ -1,4 +1,4 @@
-"""Whether an actor can do what a course asks for: within its limits, and without turning back."""
+"""Checks of profiles against the limits of the actor, and of monotonous ones for turning back."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where an action has to be at its end, and the way there."""
+"""Goals of an action: the place or distance at its end, and the distance to it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From modifiers of the lane and of the place across it to commands (DSL 8.9.8, 8.9.14, 8.9.15)."""
+"""Lateral commands for modifiers of lane and lateral position (DSL 8.9.8, 8.9.14, 8.9.15)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From modifiers to the lateral command of an action."""
+"""The lateral command of an action, from its modifiers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From modifiers of the lateral speed to commands (DSL 8.9.4, `direction: lateral`)."""
+"""Lateral commands for `speed` with `direction: lateral` (DSL 8.9.4)."""
 
 from __future__ import annotations
 

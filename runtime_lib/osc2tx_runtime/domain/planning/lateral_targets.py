@@ -1,4 +1,4 @@
-"""Where a change of the place across the road ends, and whether it can be driven."""
+"""Target lanes and offsets of lateral changes; checks that they can be driven."""
 
 from __future__ import annotations
 

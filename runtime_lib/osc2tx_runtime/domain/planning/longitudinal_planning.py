@@ -1,4 +1,4 @@
-"""From modifiers to the longitudinal command of an action."""
+"""The longitudinal command of an action, from its modifiers."""
 
 from __future__ import annotations
 

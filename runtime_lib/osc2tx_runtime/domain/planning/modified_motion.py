@@ -1,4 +1,4 @@
-"""Actions whose motion modifiers shape, as the planning modules see them."""
+"""The base of actions with motion modifiers, as the planning modules see them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the concrete actions share: the state of the actor and the progress of its commands."""
+"""The base of actions that command motion: state, limits and progress of the actor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From modifiers of the attitude to commands: heading, pitch and roll (DSL 8.9.9, 8.9.10)."""
+"""Commands for modifiers of the orientation: heading, pitch, roll (DSL 8.9.9, 8.9.10)."""
 
 from __future__ import annotations
 

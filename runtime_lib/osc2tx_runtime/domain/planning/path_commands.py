@@ -1,4 +1,4 @@
-"""From paths and trajectories to commands."""
+"""Commands for following and replaying paths and trajectories."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From shapes of positions to commands: where an actor is at any time (DSL 8.9.1.2)."""
+"""Commands for shapes of positions: the place of an actor over time (DSL 8.9.1.2)."""
 
 from __future__ import annotations
 

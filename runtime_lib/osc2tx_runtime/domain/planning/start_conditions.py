@@ -1,4 +1,4 @@
-"""What modifiers say about the start of an action: it has to hold, or is jumped to.
+"""Start conditions of an action (`at: start`): checked, or set where physics need not hold.
 
 Where physics need not hold (`physical_movement(prefer_non_physical)`) the actor is put there at
 once. Otherwise the actions before have to see to it; if they have not, the action fails.

@@ -1,4 +1,4 @@
-"""Routes that scenarios put together from roads, lanes, crossings and points (DSL 8.5.7).
+"""Routes composed of roads, lanes, crossings and points (DSL 8.5.7).
 
 Each element offers ways through itself: a crossing one, a road one for each of its lanes. Of these
 the first ones are taken that can be joined. Gaps between lanes for vehicles are filled by the way

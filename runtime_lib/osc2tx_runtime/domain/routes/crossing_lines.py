@@ -1,4 +1,4 @@
-"""Where crossings lie: straight from the centre line of a lane to that of another (DSL 8.5.8)."""
+"""Centre lines of crossings, from lane to lane (DSL 8.5.8)."""
 
 from __future__ import annotations
 

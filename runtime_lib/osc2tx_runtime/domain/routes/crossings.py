@@ -1,4 +1,4 @@
-"""Crossings as scenarios declare them (DSL 8.12.11): over crosswalks of the map, or laid freely."""
+"""Declared crossings, on crosswalks of the map or elsewhere (DSL 8.12.11)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Points on the globe, on the map of a run (DSL 8.12.28)."""
+"""Projection of geodetic points to the map (DSL 8.12.28)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ways through the junctions of a map."""
+"""Passages through junctions, from lane to lane."""
 
 from __future__ import annotations
 

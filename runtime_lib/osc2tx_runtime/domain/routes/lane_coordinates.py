@@ -1,4 +1,4 @@
-"""Route coordinates: lanes measured along their centre line in direction of travel, and roads.
+"""Conversion between route coordinates (s, t), road coordinates and lane positions.
 
 A lane is measured from where it begins on its road, over all lane sections it continues in; it
 goes by the id it has there.

@@ -1,4 +1,4 @@
-"""Roads, lane sections and lanes of a map as stretches, in a fixed order, and what follows what."""
+"""Roads, lane sections and lanes of a map as segments, with successors and neighbours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What lanes of OpenDRIVE are in the words of the domain model (DSL 8.12.6, 8.12.12, 8.12.13)."""
+"""OpenDRIVE lane types in terms of the domain model (DSL 8.12.6, 8.12.12, 8.12.13)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What scenarios declare of the map."""
+"""The base of objects of the map that scenarios declare."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the map of a scenario is found."""
+"""Search for the map file of a scenario."""
 
 from __future__ import annotations
 

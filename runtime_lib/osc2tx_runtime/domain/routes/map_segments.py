@@ -1,4 +1,4 @@
-"""Stretches of a map: what roads, lanes and the like of a scenario turn out to be."""
+"""Segments of a map that declared roads, lanes and crossings stand for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Paths and trajectories through points of the road network, brought into the world.
+"""Conversion of paths and trajectories through points of the road network to poses.
 
 Scenarios make them before the map is loaded, so the points stay what they are until an action
 uses the path.

@@ -1,4 +1,4 @@
-"""Numbers that a scenario asks of its map: one number, or a range that it is in."""
+"""Constraints of a number on the map: a value, or a range."""
 
 from __future__ import annotations
 

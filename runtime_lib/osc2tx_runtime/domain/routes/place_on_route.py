@@ -1,4 +1,4 @@
-"""Where an actor is on a route (DSL 8.7.5.1.1): metres from its start, and how long it is."""
+"""Distance of an actor along a route, and the length of the route (DSL 8.7.5.1.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a map has to offer for declared roads, lanes, crossings and junctions, in a fixed order."""
+"""The lane graph of a map with its crossings and junction passages."""
 
 from __future__ import annotations
 

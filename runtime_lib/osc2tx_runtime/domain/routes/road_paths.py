@@ -1,4 +1,4 @@
-"""Ways along the road network, as points: from a place to a place, changing lanes where needed."""
+"""Points of a way along lanes between places, with lane changes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Roads, lanes and junctions as scenarios declare them (DSL 8.12): unknowns that a map fills in.
+"""Declared roads, lanes and junctions, bound to segments of the map (DSL 8.12).
 
 What the map says of them can be read when it is known: `length`, `lanes`, `start_point()`.
 """

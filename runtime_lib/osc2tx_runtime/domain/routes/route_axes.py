@@ -1,4 +1,4 @@
-"""Axes of routes: what their `s` runs along (DSL 8.5.9), and what follows from that.
+"""Axes of routes, along which `s` runs (DSL 8.5.9): length, direction, lane counts.
 
 The axis of a lane is its centre line, that of a lane section the centre of its rightmost lane, that
 of a road its reference line; a compound route is measured along its lanes from end to end.

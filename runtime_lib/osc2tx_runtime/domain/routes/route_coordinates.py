@@ -1,4 +1,4 @@
-"""Where an actor is in the coordinates of the road, lane section, lane or crossing under it."""
+"""Position of an actor in coordinates of the road, lane section, lane or crossing under it."""
 
 from __future__ import annotations
 

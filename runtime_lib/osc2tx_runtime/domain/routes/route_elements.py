@@ -1,4 +1,4 @@
-"""What roads, lanes and the like of a scenario have in common: wishes, and what the map says.
+"""Bases of declared roads, lanes and routes: constraints, and what the map says.
 
 A scenario says what its roads are like (`number_of_lanes`, `lane_side`, ...); before the start the
 `MapSolver` chooses for each of them a stretch of the map for which all that holds.

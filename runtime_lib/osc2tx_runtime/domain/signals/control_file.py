@@ -1,4 +1,4 @@
-"""Reads the cycles of traffic lights from a file (`map.set_traffic_lights_control_file`).
+"""Reader of traffic light control files (`map.set_traffic_lights_control_file`).
 
 The standard leaves the format open. Here it is JSON, a list with one object per cycle:
 

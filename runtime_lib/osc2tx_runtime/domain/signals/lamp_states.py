@@ -1,4 +1,4 @@
-"""What scenarios say that traffic lights show (DSL 8.15.2): lamps, states, meanings."""
+"""States of traffic light bulbs and their meanings (DSL 8.15.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stop lines as scenarios declare them (DSL 8.15.5.2)."""
+"""Declared stop lines of traffic lights (DSL 8.15.5.2)."""
 
 from __future__ import annotations
 

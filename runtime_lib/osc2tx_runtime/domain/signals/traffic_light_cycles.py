@@ -1,4 +1,4 @@
-"""Cycles of traffic lights at work (DSL 8.15.6): the phase that holds at a time."""
+"""Evaluation of traffic light cycles: the phase at a time (DSL 8.15.6)."""
 
 from __future__ import annotations
 

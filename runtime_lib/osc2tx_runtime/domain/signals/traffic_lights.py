@@ -1,4 +1,4 @@
-"""Traffic lights as scenarios name them (DSL 8.15): boxes of lamps, groups, phases and cycles.
+"""Declared traffic lights: boxes of bulbs, groups, phases, cycles (DSL 8.15).
 
 A `traffic_light` is a dynamic signal of the map, a `traffic_light_group` one of its controllers;
 `map_id` is their OpenDRIVE id.

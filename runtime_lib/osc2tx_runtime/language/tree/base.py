@@ -1,4 +1,4 @@
-"""Bases of all nodes: what py_trees calls a behaviour, ticked without its overhead.
+"""Base classes of tree nodes, on py_trees behaviours.
 
 A node's work is `pulse()`: one call per pass that returns the new status. py_trees' generator
 `tick()` is kept for viewers and visitors, but costs every node a pass through all its ancestors;

@@ -1,4 +1,4 @@
-"""The compositions of the language but parallel: serial, one_of, and what all share."""
+"""The base of compositions, `serial` and `one_of`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conditions on the state of the world and on scenario time.
+"""Conditions: rise, fall, elapsed, every, and functions of the scenario.
 
 A condition is sampled once per snapshot: the state of the world is that of the step, and sampled
 variables may change between two passes of an instant (`context.snapshot` counts). It starts with

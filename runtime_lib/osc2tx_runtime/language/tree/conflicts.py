@@ -1,4 +1,4 @@
-"""Judges a settled instant: two actions that control the same thing are a conflict.
+"""Detection of conflicts: two actions that control the same thing at one instant.
 
 Claims and effects are judged together at the end of an instant, so a hand-over from one action to
 the next is silent in whatever order the tree visits them.

@@ -1,4 +1,4 @@
-"""The `duration` of a node: how long it must and may take, in whole steps."""
+"""The `duration` of a node: least and most steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`emit end` and `emit fail`: a scenario that says itself that it is over (§7.3.13)."""
+"""The directives `emit end` and `emit fail` (§7.3.13)."""
 
 from __future__ import annotations
 

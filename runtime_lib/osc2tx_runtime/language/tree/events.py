@@ -1,4 +1,4 @@
-"""Events, and how a node watches for one.
+"""Events and their occurrences, and how nodes watch them.
 
 Time within an instant is the context's pass counter `tick`: an occurrence is stamped with the
 pass in which it becomes visible, a watch with the pass in which it starts, and the watch sees

@@ -1,4 +1,4 @@
-"""Why a tree ended as it did, in words: which node, where, when, why."""
+"""Texts that say why a tree failed or ran out of time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a module itself says: nodes without a label are called as they are written.
+"""Names of unlabelled nodes, taken from the text of the module.
 
 `self.ego.drive(speed(self.v_ego))` makes a node `ego.drive(speed(v_ego))`, `Wait(rise(lambda:
 self.ego.speed > 3))` one named `wait rise(ego.speed > 3)`. Names are for people and only for them:

@@ -1,4 +1,4 @@
-"""The directive `on`: reacts for as long as the behavior beside it runs."""
+"""The directive `on`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The modifier `override`: one behavior ends another, or keeps it from starting."""
+"""The modifier `override`: one behavior ends or blocks another."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parallel composition, with its overlaps and offsets."""
+"""The composition `parallel`, with overlaps and offsets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Carries out the schedule of a `parallel`: starts, ends and watches its members."""
+"""Execution of the schedule of a `parallel`: starts, ends and watches its members."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class Course:
             return FAILURE
         problem = self._problem(step)
         if problem and not self._context.settled:
-            self._context.request_settling()  # what still happens at this instant may mend it
+            self._context.request_settling()  # what still happens at this instant may fix it
             return RUNNING
         if problem:
             return self._owner.fail(f"{self._what}: {problem}")

@@ -1,4 +1,4 @@
-"""When the members of a `parallel` start and end: plans the offsets before the run.
+"""Scheduling of the members of a `parallel`, before the run.
 
 The first member is the primary, the others are secondaries. For each secondary the composition
 bounds two offsets, in steps:

@@ -1,4 +1,4 @@
-"""Values of parameters: given, set, drawn or default."""
+"""Values of parameters: given, set, drawn, default; ranges and choices."""
 
 from __future__ import annotations
 

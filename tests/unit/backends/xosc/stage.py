@@ -58,6 +58,8 @@ class Stage:
             case "RoutingAction":
                 entity.actions.pop("longitudinal", None)
                 return self._take(entity, "path", self._path(entity, inner[0]))
+            case "TrailerAction":
+                return None  # nobody asks here where a trailer is
         raise NotImplementedError(inner.tag)
 
     def distance(self, a: Entity, b: Entity, node: Node) -> float:
