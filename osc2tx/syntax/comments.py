@@ -141,4 +141,8 @@ class CommentTable:
 
 
 def _texts(comments: Iterable[Comment]) -> tuple[str, ...]:
-    return tuple(comment.text for comment in comments)
+    """Return the lines of comments, with an empty one where blank lines part them."""
+    lines: list[str] = []
+    for comment in comments:
+        lines += ["", comment.text] if lines and comment.blank_lines else [comment.text]
+    return tuple(lines)

@@ -17,6 +17,8 @@ from tests.corpus.report import (
     reason_of,
 )
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def results(test_data: Path) -> list[Result]:

@@ -25,7 +25,10 @@ from tests.end_to_end.harness import SCENARIOS
 from tests.golden.test_stages import HERE as GOLDEN
 from tests.golden.test_stages import options_for
 
-OURS = sorted(SCENARIOS.rglob("*.osc"))
+OURS = [
+    pytest.param(path, id=path.stem, marks=() if path.parent == SCENARIOS else pytest.mark.slow)
+    for path in sorted(SCENARIOS.rglob("*.osc"))
+]
 CASES = [path for stage in ("ir", "py_trees") for path in sorted((GOLDEN / stage).rglob("*.osc"))]
 WITHOUT_CODE = ("action", "unit", "enum", "type", "struct", "extend")
 NUMBER = re.compile(r"<(\d+)>")
@@ -213,7 +216,7 @@ def assert_comments_fit(path: Path, options: CompileOptions, source: Source) -> 
     return {int(number) for number in NUMBER.findall(python)}
 
 
-@pytest.mark.parametrize("path", OURS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", OURS)
 def test_ours(path: Path) -> None:
     options = ConfigFiles().for_source(path).options_for(path, GivenOptions())
     source = Source(path.read_text(encoding="utf-8"))

@@ -31,12 +31,19 @@ def module(lines: list[str], folder: Path) -> list[str]:
     return emit(asam("\n".join(lines) + "\n", folder)).python.splitlines()
 
 
+@pytest.fixture(scope="module")
+def before(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    return module(SOURCE, tmp_path_factory.mktemp("before"))
+
+
 @pytest.mark.parametrize("statement", STATEMENTS)
 @pytest.mark.parametrize("index", insertion_points())
-def test_an_inserted_statement_is_one_new_line(index: int, statement: str, tmp_path: Path) -> None:
+def test_an_inserted_statement_is_one_new_line(
+    index: int, statement: str, before: list[str], tmp_path: Path
+) -> None:
     indent = SOURCE[index][: len(SOURCE[index]) - len(SOURCE[index].lstrip())]
     edited = [*SOURCE[:index], indent + statement, *SOURCE[index:]]
-    before, after = module(SOURCE, tmp_path), module(edited, tmp_path)
+    after = module(edited, tmp_path)
     changed = [
         line[1:].strip()
         for line in difflib.unified_diff(before, after, n=0, lineterm="")
@@ -45,8 +52,8 @@ def test_an_inserted_statement_is_one_new_line(index: int, statement: str, tmp_p
     assert changed == [STATEMENTS[statement]]
 
 
-def test_a_comment_on_top_is_one_new_line(tmp_path: Path) -> None:
-    before, after = module(SOURCE, tmp_path), module(["# Seen twice", *SOURCE], tmp_path)
+def test_a_comment_on_top_is_one_new_line(before: list[str], tmp_path: Path) -> None:
+    after = module(["# Seen twice", *SOURCE], tmp_path)
     assert [line for line in after if line not in before] == ["Seen twice"]
     assert len(after) == len(before) + 1
 

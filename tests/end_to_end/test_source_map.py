@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
 from osc2tx.cli.module_loading import scenarios_of_file
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
-from tests.end_to_end.harness import SCENARIOS, compile_scenario
+from tests.end_to_end.harness import SCENARIOS, generate
 
 FILES = sorted(SCENARIOS.rglob("*.osc"))
-OTHER = emit(compile_scenario(SCENARIOS / "follow_leader.osc")).source_map
+TOP = sorted(SCENARIOS.glob("*.osc"))
+OTHER = generate(SCENARIOS / "follow_leader.osc").source_map
 LINE = re.compile(r"(?<=\.osc):\d+")
 
 
@@ -59,19 +59,30 @@ def broken_maps(source_map: str) -> Mapping[str, str]:
     }
 
 
-@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
-def test_the_map_changes_lines_alone(file: Path, tmp_path: Path) -> None:
-    module = emit(compile_scenario(file))
-    path = tmp_path / f"{module.stem}.py"
+def assert_lines_alone_change(file: Path, folder: Path, kinds: Collection[str]) -> None:
+    module = generate(file)
+    path = folder / f"{module.stem}.py"
     path.write_text(module.python, encoding="utf-8")
     expected = traces(path)
-    for what, text in {"its own": module.source_map, **broken_maps(module.source_map)}.items():
-        path.with_suffix(".map.json").write_text(text, encoding="utf-8")
+    maps = {"its own": module.source_map, **broken_maps(module.source_map)}
+    for what in kinds:
+        path.with_suffix(".map.json").write_text(maps[what], encoding="utf-8")
         assert traces(path) == expected, what
 
 
+@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+def test_the_map_changes_lines_alone(file: Path, tmp_path: Path) -> None:
+    assert_lines_alone_change(file, tmp_path, ["other lines"])
+
+
+@pytest.mark.parametrize("file", TOP, ids=[file.stem for file in TOP])
+def test_no_map_does_harm(file: Path, tmp_path: Path) -> None:
+    kinds = ["its own", "not JSON", "a list", "of another module"]
+    assert_lines_alone_change(file, tmp_path, kinds)
+
+
 def test_lines_come_from_the_map(tmp_path: Path) -> None:
-    module = emit(compile_scenario(SCENARIOS / "cut_in.osc"))
+    module = generate(SCENARIOS / "cut_in.osc")
     path = tmp_path / "cut_in.py"
     path.write_text(module.python, encoding="utf-8")
     path.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")

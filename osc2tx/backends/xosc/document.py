@@ -34,7 +34,7 @@ def make_document(ctx: Context) -> Element:
     privates = initial_actions(ctx)
     flattener = Flattener(ctx)
     end = flattener.run()
-    writer = StoryboardWriter(ctx.names, ctx.version)
+    writer = StoryboardWriter(ctx.version)
     end = _end(ctx, end)
     acts = adapted(ctx, flattener.acts, end)
     ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}

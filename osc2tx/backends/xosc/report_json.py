@@ -49,7 +49,9 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
 
 
 def _list(values: Sequence[object]) -> str:
-    return json.dumps(values, indent=2, ensure_ascii=False).replace("\n", "\n  ")
+    """Return a list with a line for each of its members."""
+    lines = ",\n".join(f"    {_text(value)}" for value in values)
+    return f"[\n{lines}\n  ]" if values else "[]"
 
 
 def _text(value: object) -> str:

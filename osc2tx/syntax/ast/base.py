@@ -20,7 +20,8 @@ class Statement(Node):
     """A node that stands on lines of its own and can therefore carry comments.
 
     Attributes:
-        comments: The comment lines directly above it, without `#` and surrounding blanks.
+        comments: The comment lines that belong to it, without `#` and surrounding blanks; an empty
+            one where blank lines part them.
         trailing_comment: The comment at the end of its first line.
     """
 

@@ -21,9 +21,9 @@ from osc2tx.syntax import ast, dump_ast, parse
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
 
 ROOT = Path(__file__).resolve().parents[3]
-SCENARIOS = sorted(ROOT.glob("scenarios/*.osc")) + sorted(
-    ROOT.glob("tests/golden/diagnostics/semantic_*/*.osc")
-)
+OWN = sorted(ROOT.glob("scenarios/*.osc")) + sorted(ROOT.glob("tests/golden/ast/*/input.osc"))
+MISTAKES = sorted(ROOT.glob("tests/golden/diagnostics/semantic_*/*.osc"))
+SCENARIOS = [*OWN, *MISTAKES]
 LIBRARY = [(name, standard) for name in (TYPES, DOMAIN) for standard in ("2.1", "2.2")]
 LIBRARY += [("dialects/carla.osc", "2.1")]
 
@@ -68,7 +68,11 @@ def test_a_snapshot_gives_what_parsing_gives(name: str, standard: str) -> None:
     assert loaded.span.source is source
 
 
-@pytest.mark.parametrize("path", SCENARIOS, ids=lambda path: f"{path.parent.name}/{path.stem}")
+@pytest.mark.parametrize(
+    "path",
+    [*OWN, *(pytest.param(path, marks=pytest.mark.slow) for path in MISTAKES)],
+    ids=lambda path: f"{path.parent.name}/{path.stem}",
+)
 def test_every_construct_survives_packing(path: Path) -> None:
     source = SourceFile(path.name, path.read_bytes().decode("utf-8", "replace"))
     file = parse(source, DiagnosticSink())

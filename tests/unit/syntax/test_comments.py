@@ -9,15 +9,15 @@ from osc2tx.syntax import ast
 from tests.unit.syntax.helpers import clean
 
 # Text -> where each comment belongs: the line of its statement, `end` of the one with the block,
-# nothing for one that has no place in the tree.
+# nothing for one that has no place in the tree. An empty one parts groups.
 CASES = {
     "above": ("# a\nactor x\n", {"a": 2}),
     "above_with_a_blank_line": ("actor x\n\n# a\n\nactor y\n", {"a": 5}),
-    "first_of_a_file": ("# a\n\n# b\n\nactor x\n", {"a": 5, "b": 5}),
+    "first_of_a_file": ("# a\n\n# b\n\nactor x\n", {"a": 5, "": 5, "b": 5}),
     "touches_what_is_above": ("actor x\n# a\n\nactor y\n", {}),
     "touches_both": ("actor x\n# a\nactor y\n", {"a": 3}),
     "touches_the_block_above": ("struct s:\n    x: int\n# a\n\nactor y\n", {}),
-    "two_groups": ("actor x\n# a\n# b\n\n# c\n\n# d\nactor y\n", {"c": 8, "d": 8}),
+    "two_groups": ("actor x\n# a\n# b\n\n# c\n\n# d\nactor y\n", {"c": 8, "": 8, "d": 8}),
     "first_of_a_block": ("struct s:\n    # a\n\n    x: int\n", {"a": 4}),
     "deeper_first_of_a_block": ("struct s:\n        # a\n    x: int\n", {"a": 3}),
     "less_deep": ("struct s:\n    x: int\n# a\n    y: int\n", {"a": 4}),
@@ -33,7 +33,7 @@ CASES = {
     "ends_of_blocks": (
         "scenario s:\n    do serial:\n        parallel:\n            a.b()\n            # a\n\n"
         "            # b\n        # c\n    # d\n# e\n",
-        {"a": "end 3", "b": "end 3", "c": "end 2", "d": "end 1"},
+        {"a": "end 3", "": "end 3", "b": "end 3", "c": "end 2", "d": "end 1"},
     ),
     "between_the_columns": (
         "scenario s:\n    do serial:\n        a.b()\n      # a\n  # b\nactor x\n",

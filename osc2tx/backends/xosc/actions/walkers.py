@@ -12,13 +12,14 @@ from dataclasses import replace
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed_changes import jump_to
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
+from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import WAY, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 SAMPLES = 20
-"""Vertices of a change of the speed."""
+"""Points of a change of the speed, before those that are not needed are left out."""
 
 LONG = 3600.0
 """Seconds of the last stretch of a trajectory; something else ends it."""
@@ -71,17 +72,18 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Elem
     if course.duration > 0.0:
         times += [course.duration * index / SAMPLES for index in range(1, SAMPLES + 1)]
     times.append(times[-1] + length)
+    places = ((time, _ahead(start, _covered(course, time))) for time in times)
+    points = [Waypoint(time, place.x, place.y, place.z, place.h) for time, place in places]
     vertices = []
-    for time in times:
-        place = _ahead(start, _covered(course, time))
+    for point in thinned(points, is_timed=True):
         position = element(
             "WorldPosition",
-            x=round(place.x, 6),
-            y=round(place.y, 6),
-            z=place.z,
-            h=round(place.h, 9),
+            x=round(point.x, 6),
+            y=round(point.y, 6),
+            z=point.z,
+            h=round(start.h, 9),
         )
-        vertices.append(element("Vertex", element("Position", position), time=round(time, 6)))
+        vertices.append(element("Vertex", element("Position", position), time=round(point.time, 6)))
     trajectory = element(
         "Trajectory",
         element("Shape", element("Polyline", *vertices)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal, NamedTuple
@@ -35,6 +36,9 @@ class Waypoint(NamedTuple):
 
 SAMPLES = 12
 """Pieces into which a stretch of a smooth way is cut."""
+
+TOLERANCE = 0.02
+"""Metres by which the straight lines of a polyline may leave a curve."""
 
 
 def sample_curve(
@@ -83,4 +87,38 @@ def sample_curve(
         h = curve.yaw(place)
         h = curve.heading(place) if h is None and is_even else h
         found.append(Waypoint(place - begin, x, y, z, h))
-    return tuple(found)
+    return thinned(found, is_timed=is_timed) if is_smooth else tuple(found)
+
+
+def thinned(points: Sequence[Waypoint], *, is_timed: bool) -> tuple[Waypoint, ...]:
+    """Return points of a curve whose straight lines stay within `TOLERANCE` of all of them.
+
+    Args:
+        points: Points of the curve, close together.
+        is_timed: Whether a place counts at its time, and not wherever it is on the curve.
+    """
+    kept = [points[0]]
+    first = 0
+    while first < len(points) - 1:
+        last = first + 1
+        while last + 1 < len(points) and _is_straight(points[first : last + 2], is_timed):
+            last += 1
+        kept.append(points[last])
+        first = last
+    return tuple(kept)
+
+
+def _is_straight(points: Sequence[Waypoint], is_timed: bool) -> bool:
+    """Whether the points between the first and the last lie on the line between these."""
+    begin, end = points[0], points[-1]
+    way = (end.x - begin.x, end.y - begin.y, end.z - begin.z)
+    square = sum(step * step for step in way)
+    for point in points[1:-1]:
+        off = (point.x - begin.x, point.y - begin.y, point.z - begin.z)
+        if is_timed:
+            part = (point.time - begin.time) / (end.time - begin.time)
+        else:
+            part = sum(a * b for a, b in zip(off, way, strict=True)) / square if square else 0.0
+        if math.dist(off, tuple(part * step for step in way)) > TOLERANCE:
+            return False
+    return True

@@ -29,7 +29,7 @@ def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
     done = builder.add(name, (*set_parameters(ctx, node), setting), start, actor=builder.mark_actor)
     if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
         reset = events.setting(node.event.name, "false")
-        builder.add(ctx.names.new(f"after_{name}"), (reset,), done)
+        builder.add(ctx.names.new(f"after_{name}"), (reset,), done, actor=builder.mark_actor)
     else:
         done = builder.is_set(events.variable(node.event.name))
     ctx.report.exact("emit", node.span)

@@ -16,7 +16,6 @@ from osc2tx.backends.xosc.flattening.parallel_overlaps import length_of
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import element
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
@@ -44,7 +43,7 @@ def end_within_duration(
         return (content if low <= length else start.later(low)) | until
     in_time, late = NEVER, start.later(high)
     if length is None:
-        done = builder.ctx.names.new(f"done_{plain(node.label or node.name)}")
+        done = builder.ctx.names.new(f"done_{builder.name_of(node)}")
         in_time = builder.keep(done, content) & start.later(low)
         late = late & builder.is_unset(done)
     return _failing(builder, node, in_time, late, role) | until
@@ -69,7 +68,7 @@ def _failing(
     builder: StoryboardBuilder, node: Timed, in_time: Flow, late: Flow, role: Role
 ) -> Flow:
     """Return when a member is over that fails with a flow."""
-    ctx, name = builder.ctx, f"late_{plain(node.label or node.name)}"
+    ctx, name = builder.ctx, f"late_{builder.name_of(node)}"
     span = node.span if node.duration is None else node.duration.span
     construct = f"duration of a {construct_of(node)}"
     if role == "racer":

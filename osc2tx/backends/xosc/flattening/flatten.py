@@ -29,7 +29,6 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import (
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant, is_single, is_timed
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
-from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.diagnostics import Span
 
 
@@ -81,7 +80,8 @@ class Flattener:
             case ir.Invoke():
                 return invoke(self._builder, node, start)
             case ir.Wait():
-                end = self._builder.after(node.trigger, self._builder.latched(start, node.name))
+                begin = self._builder.latched(start, self._builder.name_of(node))
+                end = self._builder.after(node.trigger, begin)
                 self._ctx.report.exact("wait", node.span)
                 return self._builder.mark_end(node, end)
             case ir.Emit():
@@ -111,7 +111,7 @@ class Flattener:
 
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
         if len(node.members) > 1:
-            start = self._builder.latched(start, node.name)
+            start = self._builder.latched(start, self._builder.name_of(node))
         ends: list[tuple[ir.Behavior, Flow]] = []
         mark_actor = self._builder.mark_actor
         for member, offset in zip(node.members, starts_of(self._ctx, node), strict=True):
@@ -133,7 +133,8 @@ class Flattener:
             return NEVER
         if len(bounding) == 1:
             return bounding[0][1]
-        joined, *others = (self._builder.latched(end, member.name) for member, end in bounding)
+        named = ((self._builder.name_of(member), end) for member, end in bounding)
+        joined, *others = (self._builder.latched(end, name) for name, end in named)
         for other in others:
             joined = joined & other
         return joined
@@ -146,7 +147,7 @@ class Flattener:
         if policy == "seeded":
             return self._choice(node, start)
         if len(node.members) > 1:
-            start = self._builder.latched(start, node.name)
+            start = self._builder.latched(start, self._builder.name_of(node))
         is_race = len(node.members) > 1
         single = [
             is_single(member) and not (is_race and is_timed(member)) for member in node.members
@@ -164,7 +165,7 @@ class Flattener:
                 if mark is not None:
                     ends[mark] = self._builder.is_set(mark)
             elif not (end := self._racer(member, start, is_race)).is_never:
-                mark = self._ctx.names.new(f"end_of_{plain(member.name)}")
+                mark = self._ctx.names.new(f"end_of_{self._builder.name_of(member)}")
                 ends[mark] = self._builder.keep(mark, end) if races else end
             states = self._ctx.states
             after = dict(states) if after is None else either(after, states)
@@ -183,7 +184,7 @@ class Flattener:
         branch = self._ctx.choosing.branch(self._ctx.scope, node)
         if branch is None:
             return self._member(node.members[0], start)
-        start = self._builder.latched(start, node.name)
+        start = self._builder.latched(start, self._builder.name_of(node))
         before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
         end = NEVER
         for member, choice in zip(node.members, branch.choices, strict=True):
@@ -232,7 +233,7 @@ class Flattener:
         builder = self._builder
         if not node.until and node.duration is None and not builder.overriding(node):
             return builder.mark_end(node, body(start))
-        start = builder.latched(start, node.name)
+        start = builder.latched(start, builder.name_of(node))
         if node.span in self._entrants:  # the act is its own already
             return builder.mark_end(
                 node, end_within_duration(builder, node, start, body(start), "racer")
@@ -260,7 +261,7 @@ class Flattener:
         if not ctx.profile.has_act_stop:
             reason = f"{ctx.profile.name} does not stop acts"
             raise Inexpressible(reason, node.span, Remedy(profile="generic"))
-        name = f"act_{plain(node.label or node.name)}"
+        name = f"act_{builder.name_of(node)}"
         act = builder.open_act(name, start)
         end = body(single(state_of("act", act.name, "runningState")))
         mark = None

@@ -13,6 +13,7 @@ from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.flattening.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.adjacent_members import is_first
+from osc2tx.backends.xosc.flattening.member_names import event_name
 from osc2tx.backends.xosc.flattening.storyboard_builder import (
     RUN_START,
     StoryboardBuilder,
@@ -40,8 +41,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     overriding = builder.overriding(node)
     is_measured = any(call.name == "distance" for call in node.modifiers)
     if node.until or overriding or node.duration is not None or is_measured:
-        start = builder.latched(start, node.name)
-    name = ctx.names.new(node.label or f"{member.name}_{node.action}")
+        start = builder.latched(start, builder.name_of(node))
+    name = ctx.names.new(event_name(ctx.scope.scenario, node, member.name))
     is_start = start == RUN_START or is_first(ctx.scenario.body, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start)
     performance = Performance((), "instant")
@@ -125,23 +126,23 @@ def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> 
     entry = entry_of(node)
     lasts = entry is not None and entry.ends == "open"
     if lasts:
-        start = builder.latched(start, node.name)
+        start = builder.latched(start, builder.name_of(node))
     if node.modifiers or (not lasts and (node.until or node.duration is not None)):
         raise Inexpressible("it takes no time, so it has no duration and no modifiers")
-    goal = _act_globally(builder, node, actions, start)
-    for name, lights in followed_lights(ctx).items():
-        builder.add(ctx.names.new(f"{name}_lights"), lights, start, actor=name)
+    name = event_name(ctx.scope.scenario, node)
+    goal = _act_globally(builder, name, actions, start)
+    for actor, lights in followed_lights(ctx).items():
+        builder.add(ctx.names.new(f"{actor}_lights_{name}"), lights, start, actor=actor)
     if not lasts:
         return builder.mark_end(node, goal)
     return builder.mark_end(node, builder.limit(node, start))
 
 
 def _act_globally(
-    builder: StoryboardBuilder, node: ir.Invoke, actions: tuple[Element | Later, ...], start: Flow
+    builder: StoryboardBuilder, name: str, actions: tuple[Element | Later, ...], start: Flow
 ) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
     ctx = builder.ctx
-    name = node.label or node.action
     at_once = tuple(action for action in actions if isinstance(action, Element))
     later: dict[float, list[Element]] = {}
     for action in actions:

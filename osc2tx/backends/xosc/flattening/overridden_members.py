@@ -7,7 +7,6 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.flattening.tree_queries import may_be_cut
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.names import plain
 
 
 def unless_active(builder: StoryboardBuilder, node: ir.Behavior, start: Flow) -> tuple[Flow, Flow]:
@@ -26,8 +25,8 @@ def unless_active(builder: StoryboardBuilder, node: ir.Behavior, start: Flow) ->
     ]
     if not blocking:
         return start, NEVER
-    start = builder.latched(start, node.name)
-    name = plain(node.label or node.name)
+    name = builder.name_of(node)
+    start = builder.latched(start, name)
     skip, go = builder.ctx.names.new(f"skip_{name}"), builder.ctx.names.new(f"go_{name}")
     active, idle = NEVER, Flow(((),))
     for override in blocking:

@@ -3,7 +3,8 @@
     Story > Act > ManeuverGroup > Maneuver > Event > Action
 
 There is one maneuver group with one maneuver for each actor of an act, and one without actors for
-events that concern nobody: marks, and actions on the whole world.
+events that concern nobody: marks, and actions on the whole world. Names of stories, acts and events
+are unique, for conditions refer to them; the others only have to differ from those beside them.
 """
 
 from __future__ import annotations
@@ -88,17 +89,17 @@ def _in_order(group: Group) -> Group:
 class StoryboardWriter:
     """Writes acts as elements."""
 
-    def __init__(self, names: Names, version: XmlVersion) -> None:
-        """Take the names that are in use already."""
-        self._names = names
+    def __init__(self, version: XmlVersion) -> None:
+        """Take the version of the document."""
         self._version = version
 
     def story(self, name: str, acts: Iterable[Act]) -> Element:
         """Return the story of all acts."""
-        return element("Story", *(self._act(act) for act in acts), name=self._names.new(name))
+        return element("Story", *(self._act(act) for act in acts), name=name)
 
     def trigger(self, tag: str, flow: Flow, name: str) -> Element:
-        """Return a trigger; its conditions are called after what they start or stop."""
+        """Return a trigger; its conditions have a name and numbers."""
+        names = Names()
         groups = [
             element(
                 "ConditionGroup",
@@ -106,7 +107,7 @@ class StoryboardWriter:
                     element(
                         "Condition",
                         self._condition(test),
-                        name=self._names.new(name),
+                        name=names.new(name),
                         delay=test.delay,
                         conditionEdge=test.edge,
                     )
@@ -124,20 +125,17 @@ class StoryboardWriter:
         return test.condition
 
     def _act(self, act: Act) -> Element:
-        groups = [self._group(act, actor, events) for actor, events in act.events.items()]
-        stop = (
-            None if act.stop.is_never else self.trigger("StopTrigger", act.stop, f"stop_{act.name}")
-        )
+        stop = None if act.stop.is_never else self.trigger("StopTrigger", act.stop, "stop")
         return element(
             "Act",
-            *groups,
-            self.trigger("StartTrigger", act.start, f"start_{act.name}"),
+            *(self._group(actor, events) for actor, events in act.events.items()),
+            self.trigger("StartTrigger", act.start, "start"),
             stop,
             name=act.name,
         )
 
-    def _group(self, act: Act, actor: str | None, events: Sequence[Event]) -> Element:
-        suffix = f"{actor or 'scenario'}_{act.name}"
+    def _group(self, actor: str | None, events: Sequence[Event]) -> Element:
+        name = actor or "scenario"
         reference = None if actor is None else element("EntityRef", entityRef=actor)
         return element(
             "ManeuverGroup",
@@ -145,21 +143,22 @@ class StoryboardWriter:
             element(
                 "Maneuver",
                 *(self._event(event) for event in events),
-                name=self._names.new(f"maneuver_{suffix}"),
+                name=name,
             ),
-            name=self._names.new(f"group_{suffix}"),
+            name=name,
             maximumExecutionCount=1,
         )
 
     def _event(self, event: Event) -> Element:
-        name = f"action_{event.name}"
+        # Readers may look for what is referred to among all elements, so an action is no namesake.
+        names, name = Names(), f"action_{event.name}"
         priority = event.priority
         if priority == "override" and self._version < "1.2":
             priority = "overwrite"
         return element(
             "Event",
-            *(element("Action", action, name=self._names.new(name)) for action in event.actions),
-            self.trigger("StartTrigger", event.start, f"start_{event.name}"),
+            *(element("Action", action, name=names.new(name)) for action in event.actions),
+            self.trigger("StartTrigger", event.start, "start"),
             name=event.name,
             priority=priority,
             maximumExecutionCount=event.repeats,

@@ -9,12 +9,12 @@ from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, single, state_of
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.events import EventTable
+from osc2tx.backends.xosc.flattening.member_names import member_name
 from osc2tx.backends.xosc.flattening.storyboard import Act, Event
 from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import Element
 
 RUN_START = single(run_start())
@@ -125,13 +125,17 @@ class StoryboardBuilder:
             for mark in (*act.stops, *around):
                 act.stop = act.stop | self.is_set(mark)
 
+    def name_of(self, node: ir.Behavior) -> str:
+        """Return what a member of the scenario that is being written down is called."""
+        return member_name(self.ctx.scope.scenario, node)
+
     # --- flows ------------------------------------------------------------------------------------
 
     def latched(self, flow: Flow, name: str) -> Flow:
         """Return a flow that stays true, by means of a mark if need be."""
         if flow.is_latched:
             return flow
-        return self.keep(self.ctx.names.new(f"before_{plain(name)}"), flow)
+        return self.keep(self.ctx.names.new(f"before_{name}"), flow)
 
     def keep(self, mark: str, flow: Flow) -> Flow:
         """Add a mark; return when it is set."""

@@ -21,6 +21,7 @@ from osc2tx.backends.xosc import XmlScenario
 
 SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
 NAMED = ("Story", "Act", "ManeuverGroup", "Maneuver", "Event", "Action", "Condition")
+LOCAL = ("ManeuverGroup", "Maneuver", "Action", "Condition")
 KINDS = {
     "story": "Story",
     "act": "Act",
@@ -105,9 +106,13 @@ class Story:
 
     def _names(self) -> Iterator[str]:
         for tag in NAMED:
-            counts = Counter(node.get("name") for node in self.root.iter(tag))
+            is_local = tag in LOCAL  # and what nobody refers to must differ from its neighbours
+            counts = Counter(
+                (node.get("name"), node.getparent() if is_local else None)
+                for node in self.root.iter(tag)
+            )
             yield from (
-                f"{count} {tag}s are called {n}" for n, count in counts.items() if count > 1
+                f"{count} {tag}s are called {n}" for (n, _), count in counts.items() if count > 1
             )
 
     def _references(self) -> Iterator[str]:

@@ -230,10 +230,33 @@ def document(text: str | None) -> etree._Element:
     return etree.fromstring(text.encode())
 
 
-@pytest.mark.parametrize("id_", ROWS)
-def test_the_row_is_exact_from_its_version_on(id_: str) -> None:
+def edges(row: Row) -> set[XmlVersion]:
+    """Return the versions at which something may change: the ends, and where it becomes exact."""
+    exact = sum(row.is_exact(version) for version in XML_VERSIONS)
+    first = len(XML_VERSIONS) - exact
+    return {XML_VERSIONS[0], XML_VERSIONS[-1], *XML_VERSIONS[max(first - 1, 0) : first + 1]}
+
+
+VERSIONS = [
+    *(pytest.param(id_, sorted(edges(row)), id=id_) for id_, row in ROWS.items()),
+    *(
+        pytest.param(
+            id_,
+            between,
+            id=f"{id_}, versions between",
+            marks=pytest.mark.slow,
+        )
+        for id_, row in ROWS.items()
+        if (between := sorted(set(XML_VERSIONS) - edges(row)))
+    ),
+]
+"""Rows, with versions to look at: those between two that are alike are slow tests."""
+
+
+@pytest.mark.parametrize(("id_", "versions"), VERSIONS)
+def test_the_row_is_exact_from_its_version_on(id_: str, versions: list[XmlVersion]) -> None:
     row = ROWS[id_]
-    for version in XML_VERSIONS:
+    for version in versions:
         found = written(id_, version)
         if not row.is_exact(version):
             assert found.xml is None, f"{version} says it too"
@@ -281,16 +304,16 @@ def test_what_tools_can_do_of_it(id_: str) -> None:
             assert document(found.xml).xpath(path), f"{profile}: {path}\n{found.xml}"
 
 
-DIALECTS: tuple[tuple[XmlVersion, XmlProfile], ...] = (
-    *((version, "generic") for version in XML_VERSIONS),
-    ("1.3", "esmini"),
-    ("1.0", "scenario_runner"),
-)
+GENERIC: XmlProfile = "generic"
+TOOLS: Mapping[XmlVersion, XmlProfile] = {"1.3": "esmini", "1.0": "scenario_runner"}
 
 
-@pytest.mark.parametrize("id_", ROWS)
-def test_the_documents_are_valid_and_lead_back_to_the_source(id_: str) -> None:
-    for version, profile in DIALECTS:
+@pytest.mark.parametrize(("id_", "versions"), VERSIONS)
+def test_the_documents_are_valid_and_lead_back_to_the_source(
+    id_: str, versions: list[XmlVersion]
+) -> None:
+    tools = [(version, TOOLS[version]) for version in versions if version in TOOLS]
+    for version, profile in [*((version, GENERIC) for version in versions), *tools]:
         found = written(id_, version, profile, allow_approx=True)
         assert (found.xml is None) == bool(found.report.obstacles)
         if found.xml is None:

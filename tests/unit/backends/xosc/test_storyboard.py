@@ -3,7 +3,6 @@
 from osc2tx.backends.xosc.conditions import flow
 from osc2tx.backends.xosc.conditions.flow import Flow, run_start, state_of
 from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
-from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 
@@ -14,7 +13,7 @@ def on(name: str) -> Element:
 
 def order(*group: flow.Test) -> list[str]:
     """Return the tags and edges of a written group."""
-    trigger = StoryboardWriter(Names(), "1.3").trigger("StartTrigger", Flow((group,)), "start")
+    trigger = StoryboardWriter("1.3").trigger("StartTrigger", Flow((group,)), "start")
     (written,) = trigger.children
     return [
         f"{condition.children[0].children[0].name} {condition.get('conditionEdge')}"

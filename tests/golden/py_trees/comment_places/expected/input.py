@@ -40,6 +40,7 @@ class Part:
 
 class Top(Scenario):
     """Of the scenario: nothing stands between.
+
     The second paragraph.
     """
 
