@@ -61,6 +61,7 @@ tables: $(STAMP)
 	$(BIN)/python tools/make_maps.py
 	$(BIN)/python tools/make_enums.py
 	$(BIN)/python tools/make_catalogue.py
+	$(BIN)/python tools/make_actor_methods.py
 	$(BIN)/osc2tx build scenarios/ -o generated/
 	$(BIN)/python tools/make_readme_example.py
 	$(BIN)/python tools/make_coverage.py

@@ -7,11 +7,63 @@ Made by osc2tx from capabilities/C33_custom_action.osc: edit the scenario, not t
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from typing import Protocol
+
+from osc2tx_runtime import (
+    Behaviour,
+    Duration,
+    Late,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+    user_action,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Speed, m, mps, s
 
 require_api(1)
+
+
+class Creep(Protocol):
+    """Action `vehicle.creep`.
+
+    Drives at walking speed, until something ends it.
+    """
+
+    def __call__(
+        self,
+        actor: Vehicle,
+        label: str | None = None,
+        /,
+        *,
+        v: Late[Speed],
+        duration: Duration | None = None,
+    ) -> Behaviour: ...
+
+
+creep: Creep = user_action("creep")
+
+
+class RollOut(Protocol):
+    """Action `vehicle.roll_out`.
+
+    Rolls to standstill.
+    """
+
+    def __call__(
+        self,
+        actor: Vehicle,
+        label: str | None = None,
+        /,
+        *,
+        duration: Duration | None = None,
+    ) -> Behaviour: ...
+
+
+roll_out: RollOut = user_action("roll_out")
 
 
 class CustomAction(Scenario):
@@ -31,8 +83,8 @@ class CustomAction(Scenario):
         return Serial(
             "custom_action",
             self.ego.drive(speed(3 * mps), duration=1 * s),
-            self.ego.creep(v=2 * mps, duration=3 * s),
-            self.ego.roll_out(),
+            creep(self.ego, v=2 * mps, duration=3 * s),
+            roll_out(self.ego),
         )
 
 

@@ -80,11 +80,6 @@ class FileResult:
         """The place of what concerns the file as a whole, even if there is no text."""
         return Span(self.source or SourceFile(self.job.name, "", self.job.path), 0, 0)
 
-    @property
-    def has_texts(self) -> bool:
-        """Whether the texts of all outputs are at hand."""
-        return all(made.text is not None for made in self.outputs)
-
 
 def compile_job(job: Job) -> FileResult:
     """Compile a file to its outputs; a mistake of one back end costs only what that one makes."""

@@ -68,6 +68,7 @@ from osc2tx.ir.expressions import (
     UserShape,
 )
 from osc2tx.ir.nodes import (
+    ActionParameter,
     Actor,
     Constraint,
     Declaration,
@@ -84,6 +85,7 @@ from osc2tx.ir.nodes import (
     Sample,
     Scenario,
     Struct,
+    UserAction,
     UserField,
     UserType,
     Variable,
@@ -94,6 +96,7 @@ from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
+    "ActionParameter",
     "Actor",
     "Argument",
     "Attribute",
@@ -166,6 +169,7 @@ __all__ = [
     "TypeTest",
     "Unary",
     "Unit",
+    "UserAction",
     "UserField",
     "UserShape",
     "UserType",

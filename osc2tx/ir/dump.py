@@ -44,6 +44,7 @@ from osc2tx.ir.nodes import (
     Placement,
     Scenario,
     Struct,
+    UserAction,
     UserType,
     Variable,
 )
@@ -59,6 +60,7 @@ def dump_ir(module: Module) -> str:
     ]
     for own in module.types:
         lines.extend(_indented(_own_type(own)))
+    lines.extend(_indented(map(_user_action, module.actions)))
     for scenario in module.scenarios:
         lines.extend(_indented(_scenario(scenario)))
     return "\n".join(lines) + "\n"
@@ -74,6 +76,11 @@ def _own_type(own: UserType) -> Iterator[str]:
     for field in own.fields:
         default = "" if field.default is None else f" = {show(field.default)}"
         yield f"{INDENT}{field.name}: {field.type}{default} @{field.span.line}"
+
+
+def _user_action(action: UserAction) -> str:
+    parameters = ", ".join(f"{p.name}: {p.type}" for p in action.parameters)
+    return f"declared action {action.owner}.{action.name}({parameters}) @{action.span.line}"
 
 
 def _scenario(scenario: Scenario) -> Iterator[str]:

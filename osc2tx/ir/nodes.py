@@ -278,11 +278,40 @@ class UserType:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ActionParameter:
+    """A parameter of a user's own action; one with a default has a value in every invocation."""
+
+    name: str
+    type: ValueType
+    has_default: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserAction:
+    """An action that the scenario's files declare, and a package of the user carries out.
+
+    Attributes:
+        name: Its name.
+        owner: The actor type that it belongs to.
+        parameters: Its own and those of its bases.
+        takes_modifiers: Whether modifiers of movement may be applied to it.
+    """
+
+    name: str
+    owner: str
+    span: Span
+    parameters: tuple[ActionParameter, ...]
+    takes_modifiers: bool
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Module:
     """All scenarios of one source file, with the settings that give them their meaning.
 
     Attributes:
         types: Types of their objects that are not the library's, bases first.
+        actions: Actions they invoke that are not the library's, in order of use.
         comments: The comment lines at the head of the file.
     """
 
@@ -293,3 +322,4 @@ class Module:
     scenarios: tuple[Scenario, ...]
     comments: tuple[str, ...] = ()
     types: tuple[UserType, ...] = ()
+    actions: tuple[UserAction, ...] = ()

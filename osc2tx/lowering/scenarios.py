@@ -27,6 +27,7 @@ from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.objects import lineage
 from osc2tx.lowering.override_modifiers import lower_overrides
 from osc2tx.lowering.unsupported_members import report_unsupported_members
+from osc2tx.lowering.user_actions import lower_actions
 from osc2tx.lowering.user_fields import (
     class_default,
     mentioned_fields,
@@ -99,6 +100,7 @@ def lower(
         scenarios=scenarios,
         comments=_head_comments(model.root),
         types=lower_types(program, used),
+        actions=lower_actions(actions),
     )
 
 

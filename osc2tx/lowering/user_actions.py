@@ -6,21 +6,53 @@ declaration, whatever the default of the Python class.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.analysis.tree_walk import nodes_below
-from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
+
+MOVEMENT = "action_for_movable_object"
+"""Base of all actions of the library that modifiers of movement may be applied to."""
 
 
 def is_user_defined(action: sym.ActionSymbol) -> bool:
     """Whether an action comes neither from the library nor from the prelude of a dialect."""
     return action.origin == "user"
+
+
+def lower_actions(actions: Iterable[sym.ActionSymbol]) -> tuple[ir.UserAction, ...]:
+    """Return the declarations of the user's own actions among those that are invoked."""
+    return tuple(
+        _lower_action(action) for action in dict.fromkeys(actions) if is_user_defined(action)
+    )
+
+
+def _lower_action(action: sym.ActionSymbol) -> ir.UserAction:
+    assert action.actor is not None  # others are refused where they are invoked
+    bases = [action]
+    while (base := bases[-1].base) is not None:
+        bases.append(base)
+    return ir.UserAction(
+        name=action.name,
+        owner=action.actor.name,
+        span=action.span,
+        comments=statement_comments(action.node),
+        parameters=tuple(
+            ir.ActionParameter(
+                name=p.name, type=lower_type(p.type), has_default=p.default is not None
+            )
+            for p in _parameters(action)
+            if p.node is not None
+        ),
+        takes_modifiers=any(base.name == MOVEMENT for base in bases),
+    )
 
 
 def default_arguments(

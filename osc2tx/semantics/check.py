@@ -95,12 +95,8 @@ def _check_statement(
             _check_event_declaration(r, node, env)
         case ast.MethodDeclaration():
             _check_method(r, owner, node, env)
-        case ast.KeepConstraint():
-            check_keep(r, node, env)
-        case ast.RemoveDefault():
-            check_remove_default(r, node, env)
-        case ast.CoverageDeclaration():
-            check_coverage(r, node, env)
+        case ast.KeepConstraint() | ast.RemoveDefault() | ast.CoverageDeclaration():
+            _check_constraint(r, node, env)
         case ast.ModifierApplication():
             _check_applied_modifier(r, owner, node, env)
         case ast.DoDirective():
@@ -147,13 +143,21 @@ def _check_field(
         return
     inner = env.with_it(type_)
     for constraint in node.constraints:
-        match constraint:
-            case ast.KeepConstraint():
-                check_keep(r, constraint, inner)
-            case ast.RemoveDefault():
-                check_remove_default(r, constraint, inner)
-            case ast.CoverageDeclaration():
-                check_coverage(r, constraint, inner)
+        _check_constraint(r, constraint, inner)
+
+
+def _check_constraint(
+    r: Resolution,
+    node: ast.KeepConstraint | ast.RemoveDefault | ast.CoverageDeclaration,
+    env: Environment,
+) -> None:
+    match node:
+        case ast.KeepConstraint():
+            check_keep(r, node, env)
+        case ast.RemoveDefault():
+            check_remove_default(r, node, env)
+        case ast.CoverageDeclaration():
+            check_coverage(r, node, env)
 
 
 def _check_event_declaration(r: Resolution, node: ast.EventDeclaration, env: Environment) -> None:

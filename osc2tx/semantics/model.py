@@ -8,8 +8,6 @@ from dataclasses import field
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     FieldSymbol,
-    MethodSymbol,
-    ModifierSymbol,
     ParameterSymbol,
     ScenarioSymbol,
     Symbol,
@@ -75,6 +73,3 @@ class SemanticModel:
     def binding_of(self, node: ast.Node) -> Binding:
         """Return what a call means; only asked for programs without errors."""
         return self.bindings[node]
-
-
-Callee = ScenarioSymbol | ActionSymbol | ModifierSymbol | MethodSymbol

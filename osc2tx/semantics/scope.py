@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import field
 from typing import TypeAlias, TypeVar
 
@@ -214,8 +214,3 @@ def base_of(symbol: TypeSymbol) -> TypeSymbol | None:
 def is_subtype(symbol: TypeSymbol, ancestor: TypeSymbol) -> bool:
     """Whether a type is another one or derives from it."""
     return any(s is ancestor for s in supertypes(symbol))
-
-
-def names_of(symbols: Iterable[Symbol]) -> list[str]:
-    """Return the simple names of some symbols."""
-    return [s.name for s in symbols]

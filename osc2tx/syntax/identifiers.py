@@ -16,8 +16,3 @@ def identifier_end(text: str, start: int) -> int:
     while end < len(text) and category(text[end]) in _CONTINUE:
         end += 1
     return end
-
-
-def is_identifier(text: str) -> bool:
-    """Whether the text is one plain identifier."""
-    return bool(text) and identifier_end(text, 0) == len(text)

@@ -29,7 +29,6 @@ class LexicalErrors:
         self._sink = sink
         self._block_comments = block_comments
         self._reported: dict[str, int] = {}
-        self._without_end: set[str] = set()
         self.last_offset = 0
 
     def _report(

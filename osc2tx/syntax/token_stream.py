@@ -17,7 +17,3 @@ class TokenStream:
     def LA(self, distance: int) -> int:
         """Return the type of the current token; `distance` is always 1."""
         return self.types[self.index]
-
-    def previous_type(self) -> int:
-        """Return the type of the token before the current one."""
-        return self.types[self.index - 1]

@@ -33,14 +33,6 @@ from osc2tx_runtime.domain.actors import (
     Trailer,
     Vehicle,
 )
-from osc2tx_runtime.domain.actors.parts import (
-    Axle,
-    BehavioralModel,
-    BmEngine,
-    BoundingBox,
-    HitchCoupler,
-    HitchReceiver,
-)
 from osc2tx_runtime.domain.measuring.weather import (
     Air,
     CelestialLightSource,
@@ -51,6 +43,15 @@ from osc2tx_runtime.domain.measuring.weather import (
     Precipitation,
     Weather,
     Wind,
+)
+from osc2tx_runtime.domain.modifiers.base import Late, Modifier, value_of
+from osc2tx_runtime.domain.objects.parts import (
+    Axle,
+    BehavioralModel,
+    BmEngine,
+    BoundingBox,
+    HitchCoupler,
+    HitchReceiver,
 )
 from osc2tx_runtime.domain.paths.path_values import (
     Path,
@@ -98,7 +99,7 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods
+from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods, user_action
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -120,6 +121,7 @@ from osc2tx_runtime.language.tree import (
     rise,
 )
 from osc2tx_runtime.language.tree.coverage import Unit
+from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
@@ -274,6 +276,11 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "LONGITUDINAL",
     "Action",
     "Actor",
+    "Duration",
+    "Late",
+    "Modifier",
     "action",
     "methods",
+    "user_action",
+    "value_of",
 ]

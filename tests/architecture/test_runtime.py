@@ -40,12 +40,17 @@ MAY_IMPORT: dict[str, set[str]] = {
     "domain.signals": {"domain.points_and_poses", "domain.routes"} | GROUND - {"clock"},
     "domain.measuring": {"domain.paths", "domain.points_and_poses", "domain.routes"}
     | GROUND - {"clock"},
-    "domain.actors": {"domain.measuring", "domain.paths", "domain.points_and_poses"}
-    | {"domain.routes", "domain.signals"}
-    | GROUND - {"clock"},
-    "domain.modifiers": {"domain.actors", "domain.paths", "domain.points_and_poses"}
+    "domain.objects": {"domain.measuring", "domain.points_and_poses"}
+    | GROUND - {"clock", "opendrive"},
+    "domain.modifiers": {"domain.objects", "domain.paths", "domain.points_and_poses"}
     | {"domain.routes", "domain.shapes"}
     | GROUND - {"clock", "opendrive"},
+    "domain.methods": {"domain.measuring", "domain.modifiers", "domain.objects", "domain.paths"}
+    | {"domain.points_and_poses", "domain.routes", "domain.signals"}
+    | GROUND - {"clock", "errors", "opendrive"},
+    "domain.actors": {"domain.measuring", "domain.methods", "domain.objects", "domain.paths"}
+    | {"domain.points_and_poses", "domain.routes", "domain.signals"}
+    | GROUND - {"clock"},
     "domain.placing": {"domain.actors", "domain.modifiers", "domain.paths"}
     | {"domain.points_and_poses", "domain.routes", "domain.signals"}
     | GROUND - {"clock", "enums"},
@@ -53,13 +58,20 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"domain.points_and_poses", "domain.routes", "domain.shapes"}
     | GROUND - {"clock"},
     "domain.actions": {"domain.actors", "domain.measuring", "domain.modifiers", "domain.paths"}
-    | {"domain.placing", "domain.planning", "domain.points_and_poses", "domain.routes"}
-    | {"domain.signals"}
+    | {"domain.objects", "domain.placing", "domain.planning", "domain.points_and_poses"}
+    | {"domain.routes", "domain.signals"}
     | GROUND - {"clock"},
     "domain.scenario": {"domain.actors", "domain.modifiers", "domain.routes"}
     | {"errors", "language"},
-    "domain.capability_tables": {"domain.actors", "domain.measuring", "domain.paths"}
-    | {"domain.points_and_poses", "domain.routes", "domain.shapes", "domain.signals", "world"},
+    "domain.capability_tables": {"domain.actors", "domain.measuring", "domain.objects"}
+    | {
+        "domain.paths",
+        "domain.points_and_poses",
+        "domain.routes",
+        "domain.shapes",
+        "domain.signals",
+        "world",
+    },
     "domain.capabilities": {"domain.actions", "domain.actors", "domain.capability_tables"}
     | {"domain.modifiers", "enums", "language"},
     # what carries a scenario out, and what generated modules import
@@ -67,8 +79,15 @@ MAY_IMPORT: dict[str, set[str]] = {
     "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
     | {"errors", "language", "opendrive", "world"},
     "modifiers": {"domain.modifiers"},
-    "": {"domain.actions", "domain.actors", "domain.measuring", "domain.paths"}
-    | {"domain.points_and_poses", "domain.routes", "domain.scenario", "domain.shapes"}
+    "": {"domain.actions", "domain.actors", "domain.measuring", "domain.modifiers"}
+    | {
+        "domain.objects",
+        "domain.paths",
+        "domain.points_and_poses",
+        "domain.routes",
+        "domain.scenario",
+        "domain.shapes",
+    }
     | {"domain.signals", "errors", "language", "running", "world"},
 }
 

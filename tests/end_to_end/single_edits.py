@@ -274,4 +274,4 @@ EDITS = (
     actor("cut_in", "other: vehicle", "third: vehicle"),
     actor("pedestrian_crossing", "walker: person", "passer_by: person"),
 )
-"""Sixty-odd edits of 22 scenarios; each of them makes a scenario that builds."""
+"""Edits of 22 scenarios; each of them makes a scenario that builds."""

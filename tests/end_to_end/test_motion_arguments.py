@@ -18,7 +18,6 @@ from tests.end_to_end.motion_arguments import CAST, PREAMBLE, REFUSED, ROWS
 Load = Callable[[GeneratedModule], type[Scenario]]
 MOTION = ("movable_object.", "vehicle.", "person.walk")
 WITHOUT_MOTION = {"connect_trailer", "disconnect_trailer", "set_lights"}
-BEYOND_THE_LIBRARY = {("keep_space_headway", "direction"), ("keep_time_headway", "direction")}
 OPTIONS = CompileOptions(standard="2.2")
 
 
@@ -95,7 +94,7 @@ def test_every_argument_has_a_row() -> None:
     tried = {
         (name, each) for name, arguments, *_ in (*ROWS, *REFUSED) for each in arguments.split()
     }
-    assert {pair for pair in wanted - tried if pair[0] not in WITHOUT_MOTION} == BEYOND_THE_LIBRARY
+    assert not {pair for pair in wanted - tried if pair[0] not in WITHOUT_MOTION}
 
 
 DIALECT = {

@@ -76,7 +76,7 @@ def test_the_example_of_the_document_runs(
     done = run(project, packages)
     assert done.returncode == 0, done.stderr
     module = (project / "slow.py").read_text(encoding="utf-8")
-    assert "self.ego.creep(v=1.5 * mps, duration=2 * s)," in module
+    assert "creep(self.ego, v=1.5 * mps, duration=2 * s)," in module
     assert "my_actions" not in module
     lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
     ends = [(e["t"], e["source"]) for e in lines if e["kind"] == "action" and e["status"] == "end"]
@@ -156,7 +156,7 @@ def test_an_action_of_an_own_actor(project: Path, tmp_path_factory: pytest.TempP
     assert done.returncode == 0, done.stderr
     module = (project / "slow.py").read_text(encoding="utf-8")
     assert "self.ego = SlowCar(pace=1.25 * mps)" in module
-    assert "self.ego.creep(v=self.ego.pace, duration=2 * s)," in module
+    assert "creep(self.ego, v=self.ego.pace, duration=2 * s)," in module
     lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
     assert lines[0]["actors"]["ego"]["length"] == 4.6  # a car, as any vehicle without a category
     speeds = {line["t"]: line["v"] for line in lines if line["kind"] == "state"}

@@ -27,6 +27,7 @@ from osc2tx.backends.py_trees.node_names import (
     method_name,
 )
 from osc2tx.backends.py_trees.source_map import ScenarioMap
+from osc2tx.backends.py_trees.user_actions import action_key, is_function
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
     CallView,
@@ -162,8 +163,14 @@ class BehaviorTreeBuilder:
 
     def _invocation(self, node: ir.Invoke) -> CallView:
         actor = self._calls.expressions.write(node.actor)
-        action = PyExpr(f"{actor.within(Level.ATOM)}.{identifier(node.action)}", Level.ATOM)
+        first: tuple[ArgumentView, ...] = ()
+        if is_function(node):
+            action = name_expression(self._classes[action_key(node.owner, node.action)])
+            first = (code(actor),)
+        else:
+            action = PyExpr(f"{actor.within(Level.ATOM)}.{identifier(node.action)}", Level.ATOM)
         arguments = (
+            *first,
             *self._label(node.label),
             *(self._calls.modifier(modifier) for modifier in node.modifiers),
             *self._calls.keywords(node.arguments),

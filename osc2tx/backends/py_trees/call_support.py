@@ -8,14 +8,13 @@ from types import MappingProxyType
 from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_name
 from osc2tx.backends.py_trees.combinations import CombinationCheck
-from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.catalogue import Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.diagnostics.suggestions import nearest
 from osc2tx_rules import Rule, violations
 
 # Names that constructors of actions take for themselves.
-ACTION_KEYWORDS = frozenset({"actor", "label", "self"})
+ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
 
 
 class CallCheck:
@@ -60,7 +59,7 @@ class CallCheck:
         key = f"{node.owner}.{node.action}"
         entry = self._library.actions.get(key)
         if entry is None and node.is_own:
-            self._own_action(node, key)
+            self._user_action(node, key)
             return
         if entry is None:
             near = nearest(key, self._library.actions)
@@ -78,16 +77,8 @@ class CallCheck:
             self._combinations.check(node, physical=entry.physical)
         self._modifiers(node, key, entry.modifiers)
 
-    def _own_action(self, node: ir.Invoke, key: str) -> None:
+    def _user_action(self, node: ir.Invoke, key: str) -> None:
         """Check an action that a package of the user carries out: it takes what it declares."""
-        name = identifier(node.action)
-        if name in self._objects.reserved:
-            self._sink.report(
-                "OSC507",
-                node.span,
-                f"the runtime has something else by the name `{name}`, so it cannot find `{key}`",
-                help="rename the action",
-            )
         for argument in node.arguments:
             if argument.parameter in ACTION_KEYWORDS:
                 self._sink.report(

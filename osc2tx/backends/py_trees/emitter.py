@@ -21,6 +21,7 @@ from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
+from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import ModuleView
 from osc2tx.catalogue import object_tables
@@ -33,10 +34,13 @@ RUNTIME_CLASSES = frozenset(
         "Actor",
         "Behaviour",
         "Call",
+        "Duration",
         "Emit",
         "End",
         "Event",
         "Fail",
+        "Late",
+        "Modifier",
         "On",
         "OneOf",
         "OwnShape",
@@ -44,7 +48,7 @@ RUNTIME_CLASSES = frozenset(
         "Range",
         "Rgb",
     }
-    | {"Any", "Scenario", "Serial", "Unit", "Until", "Wait"}
+    | {"Any", "Protocol", "Scenario", "Serial", "Unit", "Until", "Wait"}
 )
 
 ONE_OF_POLICIES = {
@@ -81,6 +85,7 @@ def emit(module: ir.Module) -> GeneratedModule:
     table = TypeTable(module.types, classes, uses)
     type_methods = TypeMethods(module.types, module.scenarios)
     types = write_types(module.types, table, type_methods, uses)
+    actions = write_actions(module.actions, classes, table, uses)
     writers = [
         ScenarioWriter(scenario, module.one_of, classes, table, type_methods, uses)
         for scenario in module.scenarios
@@ -97,6 +102,7 @@ def emit(module: ir.Module) -> GeneratedModule:
         shown=classes[shown_scenario(module).key],
         standard_imports=uses.standard_imports(),
         types=types,
+        actions=actions,
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}

@@ -54,6 +54,20 @@ class TypeTable:
         """Name a class of the runtime."""
         return self._uses.name(name)
 
+    def class_or_object(self, type_: str) -> PyName:
+        """Name the class of a declared type; `object` if the module has none of it."""
+        lineage = self.lineage(type_)
+        is_known = class_key(type_) in self._classes or any(name in CLASSES for name in lineage)
+        if lineage[-1] == ROOT and not is_known:
+            return self._uses.name("Actor")
+        return self.class_of(lineage) if is_known else PyName("object")
+
+    def annotation_or_object(self, type_: ir.ValueType) -> PyExpr:
+        """Write a declared type; `object` for structs that the module has no class of."""
+        if type_.kind in (ir.Kind.STRUCT, ir.Kind.ACTOR):
+            return name_expression(self.class_or_object(type_.name))
+        return self.annotation(type_)
+
     def base_of(self, own: ir.UserType) -> PyName | None:
         """Name the base class of an own type; an actor of no special kind is an `Actor`."""
         if own.is_actor and own.base in (None, ROOT):

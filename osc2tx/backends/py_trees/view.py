@@ -121,6 +121,27 @@ class TypeView:
 
 
 @dataclass(frozen=True, slots=True)
+class UserActionView:
+    """An action of the user's own, as a function with its type.
+
+    Attributes:
+        function: Its name in the module.
+        protocol: Name of its type.
+        action: Its name in the registry.
+        binder: What makes the function.
+        docstring: Lines of its docstring.
+        parameters: As they are written, the actor first.
+    """
+
+    function: PyName
+    protocol: PyName
+    action: PyExpr
+    binder: PyName
+    docstring: tuple[PyDocLine, ...]
+    parameters: tuple[PyExpr, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ScenarioView:
     """A scenario class."""
 
@@ -146,6 +167,7 @@ class ModuleView:
         enums: Enums it defines.
         standard_imports: What it takes from Python's standard library.
         types: Classes for the types of its objects.
+        actions: Actions of the user's own.
         scenarios: Its classes.
         mains: The classes that it can run as a script.
         shown: The class whose tree viewers get.
@@ -161,3 +183,4 @@ class ModuleView:
     shown: PyName
     standard_imports: tuple[ImportView, ...] = ()
     types: tuple[TypeView, ...] = ()
+    actions: tuple[UserActionView, ...] = ()

@@ -20,14 +20,6 @@ from osc2tx_runtime.domain.actors import (
     Trailer,
     Vehicle,
 )
-from osc2tx_runtime.domain.actors.parts import (
-    Axle,
-    BehavioralModel,
-    BmEngine,
-    BoundingBox,
-    HitchCoupler,
-    HitchReceiver,
-)
 from osc2tx_runtime.domain.actors.road_network import RoadNetwork
 from osc2tx_runtime.domain.measuring.object_position import RoutePosition
 from osc2tx_runtime.domain.measuring.weather import (
@@ -40,6 +32,14 @@ from osc2tx_runtime.domain.measuring.weather import (
     Precipitation,
     Weather,
     Wind,
+)
+from osc2tx_runtime.domain.objects.parts import (
+    Axle,
+    BehavioralModel,
+    BmEngine,
+    BoundingBox,
+    HitchCoupler,
+    HitchReceiver,
 )
 from osc2tx_runtime.domain.paths.path_values import (
     Path,

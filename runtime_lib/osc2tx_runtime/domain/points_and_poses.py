@@ -9,6 +9,7 @@ from typing import Literal
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 
 __all__ = [
+    "AnyPoint",
     "GeodeticPoint",
     "NetworkPoint",
     "OdrPoint",
@@ -237,6 +238,9 @@ class GeodeticPoint(RoutableDot):
     longitude: float
     altitude: float = 0.0
 
+
+AnyPoint = Point | XyzPoint | RoutePoint | OdrPoint
+"""A point that one can go to."""
 
 NetworkPoint = RoutePoint | OdrPoint | XyzPoint | GeodeticPoint
 """A point of the road network."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import inspect
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -30,7 +32,9 @@ __all__ = [
     "MethodRegistry",
     "RegisteredMethod",
     "action",
+    "carried_out",
     "methods",
+    "user_action",
 ]
 
 ENTRY_POINTS = "osc2tx.methods"
@@ -39,6 +43,7 @@ ENTRY_POINTS = "osc2tx.methods"
 _OPTIONS = ("duration",)  # what every action takes
 
 ActionT = TypeVar("ActionT", bound="type[Action]")
+ClassT = TypeVar("ClassT")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -243,3 +248,37 @@ methods = MethodRegistry()
 """The registry that actors use; own actions go in here as well."""
 
 action = methods.action
+
+
+def carried_out(declared: type[ClassT]) -> type[ClassT]:
+    """Let the registry carry out the methods that a class declares: `self.ego.drive(...)`.
+
+    They are there for their types and docstrings; what they are called with goes to the class that
+    is registered for the actor, and is checked there.
+    """
+    for name, method in vars(declared).copy().items():
+        if not name.startswith("_"):
+            setattr(declared, name, functools.wraps(method)(_caller(name)))
+    return declared
+
+
+def user_action(name: str) -> Any:
+    """Return the function `name(actor, ...)` of an action that a package of the user registers.
+
+    A generated module gives it the type that the scenario declares.
+    """
+
+    def call(actor: BaseActor, *args: Any, **kwargs: Any) -> Action:
+        node = methods.bind(actor, name)(*args, **kwargs)
+        written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor stands before it
+        node.name = node.label or f"{actor.id}.{name}{written}"
+        return node
+
+    return call
+
+
+def _caller(name: str) -> Callable[..., Action]:
+    def call(actor: BaseActor, *args: Any, **kwargs: Any) -> Action:
+        return methods.bind(actor, name)(*args, **kwargs)
+
+    return call

@@ -18,8 +18,11 @@ ROOT = Path(__file__).parents[3]
 DOCUMENT = ROOT / "docs/extending.md"
 
 SCENARIO = """
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, Wait, elapsed, main
+from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main
+from osc2tx_runtime import methods, user_action
 from osc2tx_runtime.modifiers import lane, position, speed
+
+creep = user_action("creep")
 
 
 class Slow(Scenario):
@@ -78,7 +81,8 @@ def test_the_example_is_as_short_as_promised() -> None:
 
 
 def test_own_actions_are_found_and_run(tmp_path: Path) -> None:
-    body = 'Serial("slow", self.ego.creep(v=1.5, duration=2.0), self.ego.roll_out())'
+    roll_out = 'methods.bind(self.ego, "roll_out")()'
+    body = f'Serial("slow", creep(self.ego, v=1.5, duration=2.0), {roll_out})'
     done = run(tmp_path, body)
     assert done.returncode == 0, done.stderr
     ends = [(a["t"], a["name"]) for a in trace(tmp_path, "action") if a["status"] == "end"]
@@ -88,7 +92,7 @@ def test_own_actions_are_found_and_run(tmp_path: Path) -> None:
 
 
 def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
-    body = 'Parallel("both", self.ego.creep(), self.ego.change_speed(target=5.0))'
+    body = 'Parallel("both", creep(self.ego), self.ego.change_speed(target=5.0))'
     done = run(tmp_path, body)
     assert done.returncode == 5
     assert done.stderr == (
@@ -99,7 +103,7 @@ def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
 
 
 def test_a_broken_package_is_named(tmp_path: Path) -> None:
-    done = run(tmp_path, 'Serial("s", self.ego.creep())', actions="import no_such_module\n")
+    done = run(tmp_path, 'Serial("s", creep(self.ego))', actions="import no_such_module\n")
     assert done.returncode == 5
     assert done.stderr == (
         "slow.osc: error: the actions in my_actions of my-actions cannot be loaded:"
@@ -131,7 +135,7 @@ class Creep(Action):
 @pytest.mark.parametrize(("where", "then"), [("self.sped", "pass"), ("pass", "self.sped")])
 def test_mistakes_of_own_actions_are_theirs(tmp_path: Path, where: str, then: str) -> None:
     text = BROKEN.replace("WHERE", where).replace("THEN", then)
-    ended = run(tmp_path, "self.ego.creep()", actions=text)
+    ended = run(tmp_path, "creep(self.ego)", actions=text)
     assert ended.returncode == 5
     assert "ego creep: my_actions.Creep raised AttributeError:" in ended.stderr
     assert "Traceback" not in ended.stderr

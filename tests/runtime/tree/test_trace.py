@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx_runtime.domain.actors.parts import HitchReceiver
+from osc2tx_runtime.domain.objects.parts import HitchReceiver
 from osc2tx_runtime.language.trace import TraceWriter, number, to_json
 from osc2tx_runtime.language.tree import Emit, Parallel
 from osc2tx_runtime.world.velocities import OrientationRate, Velocity

@@ -74,12 +74,6 @@ def has_attribute(type_name: str, attribute: str, version: XmlVersion) -> bool:
     return part is not None and part.is_in(version)
 
 
-def has_child(type_name: str, child: str, version: XmlVersion) -> bool:
-    """Whether elements of a type have a child in a version."""
-    part = element_type(type_name).children.get(child)
-    return part is not None and part.is_in(version)
-
-
 @cache
 def required_attributes(type_name: str, version: XmlVersion) -> tuple[str, ...]:
     """Return the attributes that elements of a type must have in a version."""

@@ -14,7 +14,14 @@ from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.planning.path_commands import path_command
-from osc2tx_runtime.domain.points_and_poses import OdrPoint, Point, Pose, RoutePoint, XyzPoint
+from osc2tx_runtime.domain.points_and_poses import (
+    AnyPoint,
+    OdrPoint,
+    Point,
+    Pose,
+    RoutePoint,
+    XyzPoint,
+)
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.enums import PathInterpolation
@@ -31,7 +38,6 @@ if TYPE_CHECKING:
 __all__ = ["ChangePosition"]
 
 TARGETS = ("target_position", "target_xyz", "target_st", "target_odr")
-Target = Point | XyzPoint | RoutePoint | OdrPoint
 
 
 @action("movable_object", "change_position", slots=(LATERAL,))
@@ -57,7 +63,7 @@ class ChangePosition(CourseAction):
         self,
         actor: MovableObject,
         *modifiers: Modifier,
-        target_position: Target | Callable[[], Target] | None = None,
+        target_position: AnyPoint | Callable[[], AnyPoint] | None = None,
         target_xyz: Point | Callable[[], Point] | None = None,
         target_st: RoutePoint | Callable[[], RoutePoint] | None = None,
         target_odr: OdrPoint | Callable[[], OdrPoint] | None = None,
@@ -68,20 +74,20 @@ class ChangePosition(CourseAction):
         super().__init__(actor, *modifiers, **options)
         target = target_position or target_xyz or target_st or target_odr
         assert target is not None  # see the rules
-        self.target: Target | Callable[[], Target] = target
+        self.target: AnyPoint | Callable[[], AnyPoint] = target
         self.interpolation: PathInterpolation = interpolation
         self.on_road_network = actor.lane_bound if on_road_network is None else on_road_network
 
     def commands(self) -> dict[str, Command]:
         """The way to the target."""
-        target = cast(Target, now(self.target))
+        target = cast(AnyPoint, now(self.target))
         place = self._place(target)
         path = self._along_lanes(place) if self.on_road_network else self._across(place)
         return {
             LATERAL: path_command(self.world.map, self.here, path, (0.0, 0.0), exact=self.may_jump)
         }
 
-    def _place(self, target: Target) -> LanePosition | opendrive.Pose:
+    def _place(self, target: AnyPoint) -> LanePosition | opendrive.Pose:
         match target:
             case RoutePoint():
                 return place_of_route(self.world.map, target)

@@ -7,13 +7,13 @@ front. A gap in time across the road is the gap over the lateral speed towards t
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack, get_args
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import SIDE_FREE, SPEED_FREE
 from osc2tx_runtime.domain.planning.arrival_time import arrival
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.enums import GapDirection, RoadDistanceDirection
+from osc2tx_runtime.enums import GapDirection, HeadwayDirection, RoadDistanceDirection
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
@@ -23,6 +23,7 @@ from .modifiable import ShapedAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
 __all__ = [
     "ChangeSpaceGap",
@@ -35,7 +36,7 @@ __all__ = [
     "KeepTimeHeadway",
 ]
 
-_DIRECTIONS: tuple[GapDirection, ...] = ("ahead", "behind", "left", "right", "inside", "outside")
+_DIRECTIONS: tuple[GapDirection, ...] = get_args(GapDirection)
 
 
 class _OneAxis(ShapedAction):
@@ -55,7 +56,7 @@ class _OneAxis(ShapedAction):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        reference: Vehicle,
+        reference: PhysicalObject,
         across: bool,
         **options: Unpack[ActionOptions],
     ) -> None:
@@ -103,7 +104,7 @@ class _ChangeGap(_OneAxis):
         *modifiers: Modifier,
         target: Value,
         direction: GapDirection,
-        reference: Vehicle,
+        reference: PhysicalObject,
         **options: Unpack[ActionOptions],
     ) -> None:
         across = direction not in ("ahead", "behind")
@@ -167,18 +168,34 @@ class ChangeTimeGap(_ChangeGap):
     timed = True
 
 
-@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
-class ChangeSpaceHeadway(_ChangeGap):
-    """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
+class _ChangeHeadway(_ChangeGap):
+    """Reaches a distance or time between fronts, along the road."""
 
     measure = "headway"
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        target: Value,
+        direction: HeadwayDirection,
+        reference: PhysicalObject,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(
+            actor, *modifiers, target=target, direction=direction, reference=reference, **options
+        )
+
+
+@action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
+class ChangeSpaceHeadway(_ChangeHeadway):
+    """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
 
 
 @action("vehicle", "change_time_headway", slots=(LONGITUDINAL,), needs=("lanes",))
-class ChangeTimeHeadway(_ChangeGap):
+class ChangeTimeHeadway(_ChangeHeadway):
     """Reach a time (s) between fronts, at the speed of the one behind."""
 
-    measure = "headway"
     timed = True
 
 
@@ -189,7 +206,7 @@ class _KeepGap(_OneAxis):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        reference: Vehicle,
+        reference: PhysicalObject,
         direction: RoadDistanceDirection = "longitudinal",
         **options: Unpack[ActionOptions],
     ) -> None:
@@ -249,7 +266,7 @@ class _KeepHeadway(_KeepGap):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        reference: Vehicle,
+        reference: PhysicalObject,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, reference=reference, **options)

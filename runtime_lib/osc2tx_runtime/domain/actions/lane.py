@@ -26,7 +26,8 @@ from .modifiable import ShapedAction
 from .profiled_change import check_profile, peak_of
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
+    from osc2tx_runtime.domain.actors import Vehicle
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
     from osc2tx_runtime.language.tree.parameters import Range
 

@@ -31,7 +31,8 @@ from osc2tx_runtime.world.commands import Command
 from .modifiable import ShapedAction
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import MovableObject, PhysicalObject
+    from osc2tx_runtime.domain.actors import MovableObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
 __all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
 

@@ -11,7 +11,8 @@ from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Trailer, Vehicle
+    from osc2tx_runtime.domain.actors import Vehicle
+    from osc2tx_runtime.domain.objects.parts import Towable
 
 __all__ = ["ConnectTrailer", "DisconnectTrailer"]
 
@@ -24,7 +25,7 @@ class ConnectTrailer(OneStepAction):
         self,
         actor: Vehicle,
         *modifiers: Modifier,
-        trailer: Trailer,
+        trailer: Towable,
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
@@ -43,7 +44,7 @@ class ConnectTrailer(OneStepAction):
                 f"the coupler of {trailer} is {gap:.1f} m from the hitch of {tow}; couple within"
                 f" {COUPLING_REACH:g} m"
             )
-        misfit = self.trailer.misfit(self.vehicle)
+        misfit = self.trailer.misfit(self.vehicle.said_receiver)
         if misfit is not None:
             raise Refused(f"{tow} cannot tow {trailer}: {misfit}")
         self.effect("trailer", trailer, lambda: world.attach(tow, trailer))

@@ -1,27 +1,21 @@
 """Actors of the domain model: what a scenario declares, reads and calls.
 
 Constructor keywords are the fields a scenario may fix. Live fields and methods read the snapshot
-of the present step. Everything else one calls on an actor is an action: `Actor.__getattr__` finds
-it in the registry.
+of the present step. What else one calls on an actor is an action: `methods` declares those of the
+library, the registry carries them out.
 """
 
 from __future__ import annotations
 
 from osc2tx_runtime.domain.measuring.object_position import RoutePosition
 from osc2tx_runtime.domain.measuring.weather import CelestialLightSource
+from osc2tx_runtime.domain.objects.base import Actor
+from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject, StationaryObject
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, Pose
 
-from .base import Actor
 from .environment import Environment
 from .map import Map
-from .physical_objects import (
-    Animal,
-    MovableObject,
-    Person,
-    PhysicalObject,
-    StationaryObject,
-    TrafficParticipant,
-)
+from .movable_objects import Animal, MovableObject, Person, TrafficParticipant
 from .traffic_light_controller import TrafficLightController
 from .vehicles import Trailer, Vehicle
 

@@ -14,10 +14,10 @@ from osc2tx_runtime.domain.measuring.weather import (
     celestial_position,
     weather_of,
 )
+from osc2tx_runtime.domain.methods import EnvironmentMethods
+from osc2tx_runtime.domain.objects.base import Actor
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.sun_and_moon import Sky
-
-from .base import Actor
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["Environment"]
 
 
-class Environment(Actor):
+class Environment(Actor, EnvironmentMethods):
     """Weather and light.
 
     Args:

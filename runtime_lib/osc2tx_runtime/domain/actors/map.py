@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from osc2tx_runtime.domain.actors.road_network import RoadNetwork
+from osc2tx_runtime.domain.objects.base import Actor
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightControl, TrafficLightCycle
 from osc2tx_runtime.enums import DrivingRule
-
-from .base import Actor
 
 __all__ = ["Map"]
 

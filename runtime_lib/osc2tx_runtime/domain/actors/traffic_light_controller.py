@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from .base import Actor
+from osc2tx_runtime.domain.methods import TrafficLightControllerMethods
+from osc2tx_runtime.domain.objects.base import Actor
 
 __all__ = ["TrafficLightController"]
 
 
-class TrafficLightController(Actor):
+class TrafficLightController(Actor, TrafficLightControllerMethods):
     """Switches traffic lights."""
 
     kinds = ("traffic_light_controller", *Actor.kinds)

@@ -6,19 +6,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Unpack
 
-from osc2tx_runtime.domain.actors.part_defaults import (
+from osc2tx_runtime.domain.methods import VehicleMethods
+from osc2tx_runtime.domain.objects.part_defaults import (
     known_axles,
     known_coupler,
     known_receiver,
     known_trailer_category,
     misfit,
 )
-from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver, completed
+from osc2tx_runtime.domain.objects.parts import Axle, HitchCoupler, HitchReceiver, completed
 from osc2tx_runtime.enums import TrailerCategory, VehicleCategory
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.actor_dimensions import VEHICLE_CATEGORIES, Shape, category_of
 
-from .physical_objects import ParticipantFields, TrafficParticipant
+from .movable_objects import ParticipantFields, TrafficParticipant
 
 __all__ = ["Trailer", "Vehicle", "VehicleFields"]
 
@@ -32,7 +33,7 @@ class VehicleFields(ParticipantFields, total=False):
     trailer_receiver: HitchReceiver | None
 
 
-class Vehicle(TrafficParticipant):
+class Vehicle(TrafficParticipant, VehicleMethods):
     """A land vehicle; follows lanes where it stands on one.
 
     Args:
@@ -42,6 +43,9 @@ class Vehicle(TrafficParticipant):
         rear_overhang: Metres from the rear end to the rear axle.
         trailer_receiver: The half of the hitch on this vehicle; default: one at its rear end.
         **fields: As of `TrafficParticipant`.
+
+    Attributes:
+        said_receiver: The half of the hitch, as far as the scenario says it.
     """
 
     kinds = ("vehicle", *TrafficParticipant.kinds)
@@ -63,7 +67,7 @@ class Vehicle(TrafficParticipant):
         self._category = vehicle_category
         self._axles = axles
         self._rear_overhang = rear_overhang
-        self._receiver = trailer_receiver or HitchReceiver()
+        self.said_receiver = trailer_receiver or HitchReceiver()
 
     @property
     def category(self) -> VehicleCategory | None:
@@ -88,14 +92,16 @@ class Vehicle(TrafficParticipant):
     @property
     def trailer_receiver(self) -> HitchReceiver:
         """The half of the hitch on this vehicle."""
-        receiver = completed(self._receiver, known_receiver(self.shape, self._receiver.hitch_type))
+        receiver = completed(
+            self.said_receiver, known_receiver(self.shape, self.said_receiver.hitch_type)
+        )
         return replace(receiver, connected=self._is_towing)
 
     @property
     def shape(self) -> Shape:
         """As of `PhysicalObject`, with what axles and hitch mean for the way it moves."""
         shape = super().shape
-        hitch = self._receiver.position_x
+        hitch = self.said_receiver.position_x
         if hitch == hitch:  # else it is left open
             shape = replace(shape, hitch=-hitch)
         if self._axles is None:
@@ -199,9 +205,9 @@ class Trailer(Vehicle):
         assert isinstance(vehicle, Vehicle)
         return vehicle
 
-    def misfit(self, vehicle: Vehicle) -> str | None:
-        """Why a vehicle cannot tow it; None if it can, as far as the scenario says."""
-        return misfit(vehicle._receiver, self._coupler)
+    def misfit(self, receiver: HitchReceiver) -> str | None:
+        """Why it cannot hang on a receiver; None if it can, as far as the scenario says."""
+        return misfit(receiver, self._coupler)
 
     def _is_towed(self) -> bool:
         return self._tow_id() is not None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.function_profiles import Computed
 
 __all__ = [
+    "Late",
     "Modifier",
     "MovementModifier",
     "Shape",
@@ -32,7 +33,10 @@ __all__ = [
 ]
 
 ValueT = TypeVar("ValueT")
-Value = float | Callable[[], float]
+Late: TypeAlias = ValueT | Callable[[], ValueT]
+"""A value, or a function that is called for it when the action starts."""
+
+Value: TypeAlias = Late[float]
 Shape = CommonShape | OwnShape[AnyShape]
 
 _SAME = 1e-3  # between what a shape reaches and what is asked for

@@ -16,7 +16,7 @@ from .base import Modifier, MovementModifier, Value, now
 from .registry import modifier
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import Trailer
+    from osc2tx_runtime.domain.objects.parts import Towable
     from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
     from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPath, Route
 
@@ -131,4 +131,4 @@ class AvoidCollisions(Modifier):
 class TowTrailer(Modifier):
     """A trailer that is coupled from the start."""
 
-    trailer: Trailer
+    trailer: Towable

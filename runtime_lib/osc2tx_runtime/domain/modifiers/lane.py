@@ -16,7 +16,7 @@ from .base import Modifier, MovementModifier, Value, now, wanted
 from .registry import modifier
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
 _EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left
@@ -102,13 +102,13 @@ class Lateral(MovementModifier):
     )
     distance: Value | None = None
     distance_range: Range[float] | Callable[[], Range[float]] | None = None
-    side_of: Vehicle | None = None
+    side_of: PhysicalObject | None = None
     side: SideLeftRight = "left"
     measure_by: LatMeasureBy = "center_to_center"
     shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
-    def reference(self) -> Vehicle | None:
+    def reference(self) -> PhysicalObject | None:
         """The actor it is relative to."""
         return self.side_of
 

@@ -16,7 +16,7 @@ from .base import MovementModifier, Value, value_of, wanted
 from .registry import modifier
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
 

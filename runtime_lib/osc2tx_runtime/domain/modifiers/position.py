@@ -15,7 +15,7 @@ from .base import Modifier, MovementModifier, Value, band_of, wanted
 from .registry import modifier
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.points_and_poses import Point, Pose
     from osc2tx_runtime.language.tree.parameters import Range
 

@@ -23,7 +23,7 @@ from .base import Modifier, MovementModifier, Value, course_of, value_of, wanted
 from .registry import modifier
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.language.tree.parameters import Range
 
 __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]

@@ -70,7 +70,8 @@ def couple(starts: Sequence[Start]) -> None:
                 f"{trailer.actor.id} is towed by {start.actor.id}, so it has no place of its own",
                 start.source,
             )
-        misfit = tow.trailer.misfit(start.actor) if isinstance(start.actor, Vehicle) else None
+        vehicle = start.actor
+        misfit = tow.trailer.misfit(vehicle.said_receiver) if isinstance(vehicle, Vehicle) else None
         if misfit is not None:
             raise PlacementError(
                 f"{start.actor.id} cannot tow {trailer.actor.id}: {misfit}", start.source

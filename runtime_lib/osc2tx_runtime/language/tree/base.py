@@ -254,6 +254,6 @@ def place_key(node: Named) -> tuple[int, str]:
 
 def split_label(arguments: tuple[Any, ...]) -> tuple[str | None, tuple[Any, ...]]:
     """Return the label that may stand before the positional arguments of a node, and these."""
-    if arguments and isinstance(arguments[0], str):
+    if arguments and isinstance(arguments[0], str | None):
         return arguments[0], arguments[1:]
     return None, arguments

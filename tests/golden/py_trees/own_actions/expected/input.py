@@ -4,11 +4,69 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from typing import Protocol
+
+from osc2tx_runtime import (
+    Behaviour,
+    Duration,
+    Late,
+    Map,
+    Modifier,
+    Parallel,
+    PhysicalObject,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+    user_action,
+)
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, mps, s
+from osc2tx_runtime.units import Time, kph, mps, s
 
 require_api(1)
+
+
+class Honk(Protocol):
+    """Action `vehicle.honk`."""
+
+    def __call__(
+        self,
+        actor: Vehicle,
+        label: str | Modifier | None = None,
+        /,
+        *modifiers: Modifier,
+        times: Late[int] = ...,
+        loudness: Late[float],
+        at_whom: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour: ...
+
+
+honk: Honk = user_action("honk")
+
+
+class KeepHonking(Protocol):
+    """Action `vehicle.keep_honking`.
+
+    Until somebody hears it.
+    """
+
+    def __call__(
+        self,
+        actor: Vehicle,
+        label: str | Modifier | None = None,
+        /,
+        *modifiers: Modifier,
+        times: Late[int] = ...,
+        loudness: Late[float],
+        at_whom: PhysicalObject,
+        pause: Late[Time],
+        duration: Duration | None = None,
+    ) -> Behaviour: ...
+
+
+keep_honking: KeepHonking = user_action("keep_honking")
 
 
 class OwnActions(Scenario):
@@ -24,16 +82,16 @@ class OwnActions(Scenario):
     def behavior(self) -> Behaviour:
         return Serial(
             "own_actions",
-            self.ego.honk(times=3, loudness=0.5, at_whom=self.ego),
+            honk(self.ego, times=3, loudness=0.5, at_whom=self.ego),
             self.ego_parallel(),
-            self.ego.honk(speed(20 * kph), times=2, loudness=0.5, at_whom=self.ego),
+            honk(self.ego, speed(20 * kph), times=2, loudness=0.5, at_whom=self.ego),
         )
 
     def ego_parallel(self) -> Behaviour:
         return Parallel(
             "ego: parallel",
-            self.ego.keep_honking(
-                times=1, at_whom=self.other, loudness=0.5, pause=2 * s, duration=6 * s
+            keep_honking(
+                self.ego, times=1, at_whom=self.other, loudness=0.5, pause=2 * s, duration=6 * s
             ),
             self.ego.drive(speed(10 * mps)),
         )

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor
-from osc2tx_runtime.language.registry import methods
 
 if TYPE_CHECKING:
-    from py_trees.behaviour import Behaviour
-
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["Actor"]
@@ -32,9 +28,3 @@ class Actor(BaseActor):
         if self._context is None:
             raise ScenarioError(f"{self.id or self.kinds[0]} is read before the scenario runs")
         return self._context
-
-    def __getattr__(self, name: str) -> Callable[..., Behaviour]:
-        """Return an action of this actor, as a constructor of its node."""
-        if name.startswith("_"):
-            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
-        return methods.bind(self, name)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.enums import HitchType
@@ -23,6 +23,7 @@ __all__ = [
     "BoundingBox",
     "HitchCoupler",
     "HitchReceiver",
+    "Towable",
     "completed",
     "is_open",
 ]
@@ -119,6 +120,15 @@ class HitchCoupler:
     def is_towed(self) -> bool:
         """Whether a vehicle tows it now."""
         return self.connected()
+
+
+class Towable(Protocol):
+    """What a vehicle can tow: it has the other half of a hitch."""
+
+    id: str
+
+    def misfit(self, receiver: HitchReceiver) -> str | None:
+        """Return why a receiver, as far as it is said, does not fit; None if it does."""
 
 
 def completed(said: PartT, known: PartT) -> PartT:

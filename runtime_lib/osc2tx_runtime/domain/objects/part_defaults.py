@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from osc2tx_runtime.domain.actors.parts import Axle, HitchCoupler, HitchReceiver
+from osc2tx_runtime.domain.objects.parts import Axle, HitchCoupler, HitchReceiver
 from osc2tx_runtime.enums import (
     HitchType,
     IntendedInfrastructure,

@@ -1,24 +1,20 @@
-"""Physical objects, and those of them that are not vehicles (DSL 8.7.3 to 8.7.6, 8.7.9, 8.7.10)."""
+"""Physical objects, and those of them that never move (DSL 8.7.3, 8.7.4)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, TypedDict, TypeVar, Unpack
+from typing import TYPE_CHECKING, ClassVar, TypedDict, TypeVar
 
-from osc2tx_runtime.domain.actors.part_defaults import known_infrastructure, known_role
-from osc2tx_runtime.domain.actors.parts import (
+from osc2tx_runtime.domain.measuring.object_measurements import Measures
+from osc2tx_runtime.domain.objects.parts import (
     UNSAID,
     BehavioralModel,
     BoundingBox,
     completed,
     is_open,
 )
-from osc2tx_runtime.domain.measuring.object_measurements import Measures
 from osc2tx_runtime.domain.points_and_poses import Point, Rgb
 from osc2tx_runtime.enums import (
     Color,
-    IntendedInfrastructure,
-    TrafficParticipantRole,
     VehicleCategory,
 )
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
@@ -33,14 +29,9 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = [
-    "Animal",
-    "MovableObject",
     "ObjectFields",
-    "ParticipantFields",
-    "Person",
     "PhysicalObject",
     "StationaryObject",
-    "TrafficParticipant",
 ]
 
 LIBRARY_KINDS = frozenset(
@@ -52,7 +43,6 @@ LIBRARY_KINDS = frozenset(
 """Kinds of physical objects in the domain model."""
 
 ValueT = TypeVar("ValueT")
-Infrastructure = Sequence[IntendedInfrastructure] | Mapping[int, IntendedInfrastructure]
 
 _SAME = 1e-6  # m between what a scenario says and what follows from the rest of it
 
@@ -71,13 +61,6 @@ class ObjectFields(TypedDict, total=False):
     height: float | None
     center_of_gravity: Point | None
     initial_bm: BehavioralModel | None
-
-
-class ParticipantFields(ObjectFields, total=False):
-    """Keywords of `TrafficParticipant`."""
-
-    intended_infrastructure: Infrastructure | None
-    role: TrafficParticipantRole | None
 
 
 class PhysicalObject(Actor, Measures):
@@ -270,65 +253,3 @@ class StationaryObject(PhysicalObject):
 
     kinds = ("stationary_object", *PhysicalObject.kinds)
     movable = False
-
-
-class MovableObject(PhysicalObject):
-    """An object that may move."""
-
-    kinds = ("movable_object", *PhysicalObject.kinds)
-
-
-class TrafficParticipant(MovableObject):
-    """A movable object that matters to traffic.
-
-    Args:
-        intended_infrastructure: What it moves on, or single places of that list; default: what
-            its kind or category does.
-        role: The role that others can see; default: that of the model, if it is made for one.
-        **fields: As of `PhysicalObject`.
-    """
-
-    kinds = ("traffic_participant", *MovableObject.kinds)
-
-    def __init__(
-        self,
-        *,
-        intended_infrastructure: Infrastructure | None = None,
-        role: TrafficParticipantRole | None = None,
-        **fields: Unpack[ObjectFields],
-    ) -> None:
-        super().__init__(**fields)
-        self._infrastructure = intended_infrastructure
-        self._role = role
-
-    @property
-    def intended_infrastructure(self) -> list[IntendedInfrastructure]:
-        """What it moves on, in words of OpenDRIVE lane types."""
-        said = self._infrastructure or {}
-        if not isinstance(said, Mapping):
-            return list(said)
-        found = list(known_infrastructure(self.category or self.library_kind))
-        for number, kind in sorted(said.items()):
-            if number > len(found):
-                raise ScenarioError(
-                    f"nothing says number {len(found)} of what {self.id} moves on", self.source
-                )
-            found[number : number + 1] = [kind]
-        return found
-
-    @property
-    def role(self) -> TrafficParticipantRole:
-        """The role that others can see."""
-        return self._said("role", self._role or known_role(self.model))
-
-
-class Person(TrafficParticipant):
-    """A human being on foot; walks straight on, not bound to lanes."""
-
-    kinds = ("person", *TrafficParticipant.kinds)
-
-
-class Animal(TrafficParticipant):
-    """An animal; moves like a person."""
-
-    kinds = ("animal", *TrafficParticipant.kinds)

@@ -1,0 +1,83 @@
+"""Actions of the user's own, as typed functions of the module.
+
+The declaration in the scenario gives a function its signature, so that a misspelt argument is an
+error of types; the class that carries the action out is found by name when the module runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr, literal
+from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
+from osc2tx.backends.py_trees.type_table import TypeTable
+from osc2tx.backends.py_trees.uses import Uses
+from osc2tx.backends.py_trees.view import UserActionView
+from osc2tx.catalogue import catalogue
+
+
+def action_key(owner: str, action: str) -> str:
+    """Return the key of the function of an action in the table of the module's names."""
+    return f"action {owner}.{action}"
+
+
+def is_function(node: ir.Invoke) -> bool:
+    """Return whether an action is no method of the runtime's actors."""
+    return node.is_own and not _is_method(node.owner, node.action)
+
+
+def _is_method(owner: str, action: str) -> bool:
+    return f"{owner}.{action}" in catalogue().actions
+
+
+def write_actions(
+    actions: Iterable[ir.UserAction], names: NameTable, types: TypeTable, uses: Uses
+) -> tuple[UserActionView, ...]:
+    """Return the view models of the functions, in their order.
+
+    Args:
+        actions: The actions that the module invokes.
+        names: Names of the module; those of the functions are added.
+        types: All types that the module knows.
+        uses: What the module has to import.
+    """
+    return tuple(
+        _write(action, names, types, uses)
+        for action in actions
+        if not _is_method(action.owner, action.name)
+    )
+
+
+def _write(action: ir.UserAction, names: NameTable, types: TypeTable, uses: Uses) -> UserActionView:
+    key = action_key(action.owner, action.name)
+    uses.standard("typing", "Protocol")
+    about = [f"Action `{action.owner}.{action.name}`.", *action.comments]
+    if action.comments:
+        about.insert(1, "")
+    return UserActionView(
+        function=names.add(key, identifier(action.name), "_action"),
+        protocol=names.add(f"type of {key}", class_name(action.name), "Action"),
+        action=literal(identifier(action.name)),
+        binder=uses.name("user_action"),
+        docstring=tuple(PyDocLine.of(line) for line in about),
+        parameters=tuple(_parameters(action, types, uses)),
+    )
+
+
+def _parameters(action: ir.UserAction, types: TypeTable, uses: Uses) -> Iterable[PyExpr]:
+    owner = types.class_or_object(action.owner)
+    if action.takes_modifiers:
+        modifier = uses.name("Modifier")
+        label = (f"label: str | {modifier} | None = None", "/", f"*modifiers: {modifier}")
+    else:
+        label = ("label: str | None = None", "/", "*")
+    written = [f"actor: {owner}", *label]
+    for parameter in action.parameters:
+        annotation = str(types.annotation_or_object(parameter.type))
+        if parameter.type.kind is not ir.Kind.ACTOR:
+            annotation = f"{uses.name('Late')}[{annotation}]"
+        default = "" if parameter.has_default else " = ..."
+        written.append(f"{identifier(parameter.name)}: {annotation}{default}")
+    written.append(f"duration: {uses.name('Duration')} | None = None")
+    return (PyExpr(text, Level.ATOM) for text in written)

@@ -1,0 +1,85 @@
+"""Movable objects, and those of them that are not vehicles (DSL 8.7.4 to 8.7.6, 8.7.9, 8.7.10)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Unpack
+
+from osc2tx_runtime.domain.methods import AnimalMethods, MovableObjectMethods, PersonMethods
+from osc2tx_runtime.domain.objects.part_defaults import known_infrastructure, known_role
+from osc2tx_runtime.domain.objects.physical_objects import ObjectFields, PhysicalObject
+from osc2tx_runtime.enums import IntendedInfrastructure, TrafficParticipantRole
+from osc2tx_runtime.errors import ScenarioError
+
+__all__ = ["Animal", "MovableObject", "ParticipantFields", "Person", "TrafficParticipant"]
+
+Infrastructure = Sequence[IntendedInfrastructure] | Mapping[int, IntendedInfrastructure]
+
+
+class MovableObject(PhysicalObject, MovableObjectMethods):
+    """An object that may move."""
+
+    kinds = ("movable_object", *PhysicalObject.kinds)
+
+
+class ParticipantFields(ObjectFields, total=False):
+    """Keywords of `TrafficParticipant`."""
+
+    intended_infrastructure: Infrastructure | None
+    role: TrafficParticipantRole | None
+
+
+class TrafficParticipant(MovableObject):
+    """A movable object that matters to traffic.
+
+    Args:
+        intended_infrastructure: What it moves on, or single places of that list; default: what
+            its kind or category does.
+        role: The role that others can see; default: that of the model, if it is made for one.
+        **fields: As of `PhysicalObject`.
+    """
+
+    kinds = ("traffic_participant", *MovableObject.kinds)
+
+    def __init__(
+        self,
+        *,
+        intended_infrastructure: Infrastructure | None = None,
+        role: TrafficParticipantRole | None = None,
+        **fields: Unpack[ObjectFields],
+    ) -> None:
+        super().__init__(**fields)
+        self._infrastructure = intended_infrastructure
+        self._role = role
+
+    @property
+    def intended_infrastructure(self) -> list[IntendedInfrastructure]:
+        """What it moves on, in words of OpenDRIVE lane types."""
+        said = self._infrastructure or {}
+        if not isinstance(said, Mapping):
+            return list(said)
+        found = list(known_infrastructure(self.category or self.library_kind))
+        for number, kind in sorted(said.items()):
+            if number > len(found):
+                raise ScenarioError(
+                    f"nothing says number {len(found)} of what {self.id} moves on", self.source
+                )
+            found[number : number + 1] = [kind]
+        return found
+
+    @property
+    def role(self) -> TrafficParticipantRole:
+        """The role that others can see."""
+        return self._said("role", self._role or known_role(self.model))
+
+
+class Person(TrafficParticipant, PersonMethods):
+    """A human being on foot; walks straight on, not bound to lanes."""
+
+    kinds = ("person", *TrafficParticipant.kinds)
+
+
+class Animal(TrafficParticipant, AnimalMethods):
+    """An animal; moves like a person."""
+
+    kinds = ("animal", *TrafficParticipant.kinds)

@@ -1,0 +1,62 @@
+"""Actions of a animal; made by tools/make_actor_methods.py."""
+
+# The registry carries out what is only declared here.
+# mypy: disable-error-code="empty-body"
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.registry import carried_out
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.methods.modifiers import PathModifier, StartModifier, TurnModifier
+    from osc2tx_runtime.domain.modifiers import (
+        Acceleration,
+        AvoidCollisions,
+        ChangeSpeed,
+        Distance,
+        KeepPosition,
+        KeepSpeed,
+        PhysicalMovement,
+    )
+    from osc2tx_runtime.language.tree.base import Behaviour
+    from osc2tx_runtime.language.tree.duration_limits import Duration
+
+__all__ = ["AnimalMethods"]
+
+
+@carried_out
+class AnimalMethods:
+    """What a scenario can tell a animal to do."""
+
+    def walk(
+        self,
+        label: (
+            str
+            | TurnModifier
+            | PathModifier
+            | StartModifier
+            | Acceleration
+            | AvoidCollisions
+            | ChangeSpeed
+            | Distance
+            | KeepPosition
+            | KeepSpeed
+            | PhysicalMovement
+            | None
+        ) = None,
+        /,
+        *modifiers: TurnModifier
+        | PathModifier
+        | StartModifier
+        | Acceleration
+        | AvoidCollisions
+        | ChangeSpeed
+        | Distance
+        | KeepPosition
+        | KeepSpeed
+        | PhysicalMovement,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Walk as the modifiers say, straight on or along a path."""

@@ -1,0 +1,126 @@
+"""Actions of a traffic light controller; made by tools/make_actor_methods.py."""
+
+# The registry carries out what is only declared here.
+# mypy: disable-error-code="empty-body"
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.registry import carried_out
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from osc2tx_runtime.domain.signals.traffic_lights import (
+        Bulbs,
+        TrafficLight,
+        TrafficLightCycle,
+        TrafficLightGroup,
+    )
+    from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
+    from osc2tx_runtime.language.tree.base import Behaviour
+    from osc2tx_runtime.language.tree.duration_limits import Duration
+
+__all__ = ["TrafficLightControllerMethods"]
+
+
+@carried_out
+class TrafficLightControllerMethods:
+    """What a scenario can tell a traffic light controller to do."""
+
+    def play_cycles(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        cycles: Sequence[TrafficLightCycle],
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Run cycles, again and again, until another action switches one of the lights.
+
+        Section §8.15.9.7.1.
+
+        Args:
+            *modifiers: None are taken.
+            cycles: At most one for each light.
+        """
+
+    def set_bulb_state(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        traffic_light: TrafficLight,
+        bulb_color: BulbColor,
+        bulb_kind: BulbIcon,
+        bulb_state: BulbState,
+        sync: bool = False,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Switch one lamp of a box, chosen by its color and symbol (§8.15.9.1.1)."""
+
+    def set_group_bulb_state(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        traffic_light: TrafficLight,
+        bulb_color: BulbColor,
+        bulb_kind: BulbIcon,
+        bulb_state: BulbState,
+        sync: bool = False,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Switch one lamp in every box of the group that a light belongs to (§8.15.9.4.1)."""
+
+    def set_group_semantic_state(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        traffic_light_group: TrafficLightGroup,
+        state: SemanticTrafficLightState,
+        sync: bool = False,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Let every box of a group say something; boxes without lamps for it ignore it.
+
+        Section §8.15.9.6.1.
+        """
+
+    def set_group_state(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        group: TrafficLightGroup,
+        state: Bulbs,
+        sync: bool = False,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Switch all lamps of every box of a group (§8.15.9.5.1)."""
+
+    def set_semantic_state(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        traffic_light: TrafficLight,
+        state: SemanticTrafficLightState,
+        sync: bool = False,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Let a box say something; ignored if it has no lamps for it (§8.15.9.3.1)."""
+
+    def set_state(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        traffic_light: TrafficLight,
+        state: Bulbs,
+        sync: bool = False,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Switch all lamps of a box, in their order (§8.15.9.2.1)."""

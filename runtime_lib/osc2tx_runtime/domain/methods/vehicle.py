@@ -1,0 +1,229 @@
+"""Actions of a vehicle; made by tools/make_actor_methods.py."""
+
+# The registry carries out what is only declared here.
+# mypy: disable-error-code="empty-body"
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.registry import carried_out
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from osc2tx_runtime.domain.methods.modifiers import (
+        PathModifier,
+        SideModifier,
+        SpeedModifier,
+        StartModifier,
+    )
+    from osc2tx_runtime.domain.modifiers import Distance, KeepPosition, Value
+    from osc2tx_runtime.domain.objects.parts import Towable
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+    from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
+    from osc2tx_runtime.enums import (
+        DynamicProfile,
+        GapDirection,
+        HeadwayDirection,
+        LaneChangeSide,
+        RoadDistanceDirection,
+    )
+    from osc2tx_runtime.language.tree.base import Behaviour
+    from osc2tx_runtime.language.tree.duration_limits import Duration
+    from osc2tx_runtime.language.tree.parameters import Range
+    from osc2tx_runtime.world.protocol import LightMode
+
+__all__ = ["VehicleMethods"]
+
+
+@carried_out
+class VehicleMethods:
+    """What a scenario can tell a vehicle to do."""
+
+    def change_lane(
+        self,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
+        num_of_lanes: int | Callable[[], int] = 1,
+        side: LaneChangeSide | None = None,
+        reference: PhysicalObject | None = None,
+        offset: Value = 0.0,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: Value | None = None,
+        target: Lane | None = None,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """End in another lane, aligned with it (§8.8.3.3).
+
+        Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m.
+
+        Args:
+            *modifiers: What they say about the speed.
+            num_of_lanes: How many lanes away from the reference.
+            side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
+                Without a side one is drawn from the seed among those that exist.
+            reference: Default: the actor itself.
+            offset: Metres left of the centre of the target lane at the end.
+            rate_profile: Course of the lateral speed.
+            rate_peak: Its peak (m/s).
+            target: Instead of a number and a side: a lane of the map beside the present one.
+        """
+
+    def change_space_gap(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        target: Value,
+        direction: GapDirection,
+        reference: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Reach a space (m) between facing ends or sides, in a direction from the reference.
+
+        Section §8.8.3.6.
+        """
+
+    def change_space_headway(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        target: Value,
+        direction: HeadwayDirection,
+        reference: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Reach a distance (m) between fronts, `ahead` of or `behind` the reference (§8.8.3.10)."""
+
+    def change_time_gap(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        target: Value,
+        direction: GapDirection,
+        reference: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Reach a time (s) between facing ends at the speed of the one behind, or between sides.
+
+        Section §8.8.3.4.
+        """
+
+    def change_time_headway(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        target: Value,
+        direction: HeadwayDirection,
+        reference: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Reach a time (s) between fronts, at the speed of the one behind (§8.8.3.8)."""
+
+    def connect_trailer(
+        self, label: str | None = None, /, *, trailer: Towable, duration: Duration | None = None
+    ) -> Behaviour:
+        """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end.
+
+        Section §8.8.3.12.
+        """
+
+    def disconnect_trailer(
+        self, label: str | None = None, /, *, duration: Duration | None = None
+    ) -> Behaviour:
+        """Uncouple the trailer, which brakes and stands (§8.8.3.13)."""
+
+    def drive(
+        self,
+        label: (
+            str | SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition | None
+        ) = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Drive as the modifiers say; without any, on in the lane at the present speed.
+
+        Section §8.8.3.1.
+        """
+
+    def follow_lane(
+        self,
+        label: str | SpeedModifier | StartModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | StartModifier,
+        offset: Value | None = None,
+        offset_range: Range[float] | Callable[[], Range[float]] | None = None,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: Value | None = None,
+        target: Lane | None = None,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Stay in a lane (§8.8.3.2).
+
+        Args:
+            *modifiers: What they say about the speed.
+            offset: Metres left of its centre.
+            offset_range: Instead of it: what it may be at any time.
+            rate_profile: Course of the lateral speed on the way there.
+            rate_peak: Its peak (m/s).
+            target: A lane of the map beside the present one; None: the present one.
+        """
+
+    def keep_space_gap(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        reference: PhysicalObject,
+        direction: RoadDistanceDirection = "longitudinal",
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Hold the present space between facing ends, or sides (§8.8.3.7)."""
+
+    def keep_space_headway(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        reference: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Hold the present distance between fronts (§8.8.3.11)."""
+
+    def keep_time_gap(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        reference: PhysicalObject,
+        direction: RoadDistanceDirection = "longitudinal",
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Hold the present time between facing ends, or sides (§8.8.3.5)."""
+
+    def keep_time_headway(
+        self,
+        label: str | SpeedModifier | SideModifier | None = None,
+        /,
+        *modifiers: SpeedModifier | SideModifier,
+        reference: PhysicalObject,
+        duration: Duration | None = None,
+    ) -> Behaviour:
+        """Hold the present time between fronts (§8.8.3.9)."""
+
+    def set_lights(
+        self, label: str | None = None, /, *, mode: LightMode, duration: Duration | None = None
+    ) -> Behaviour:
+        """Switch the lights.
+
+        Args:
+            *modifiers: None are taken.
+            mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less
+                than 100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
+        """
