@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
 from osc2tx import ir
@@ -75,6 +75,12 @@ class GeneratedModule:
 
 def emit(module: ir.Module) -> GeneratedModule:
     """Write the module for one source file with at least one scenario."""
+    written = draft(module)
+    return replace(written, python=format_module(written.python))
+
+
+def draft(module: ir.Module) -> GeneratedModule:
+    """Write a module in the layout of the templates: it does the same, but is not for readers."""
     uses = Uses()
     classes = NameTable(RUNTIME_CLASSES | object_tables().enums)
     for scenario in module.scenarios:
@@ -106,7 +112,7 @@ def emit(module: ir.Module) -> GeneratedModule:
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
-    return GeneratedModule(module_stem(module.source), format_module(text), render_source_map(maps))
+    return GeneratedModule(module_stem(module.source), text, render_source_map(maps))
 
 
 def module_stem(source: str) -> str:
