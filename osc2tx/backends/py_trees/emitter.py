@@ -14,10 +14,12 @@ from osc2tx.backends.py_trees.own_types import write_types
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     API_LEVEL,
+    PHYSICAL_TYPES,
     STRUCT_CLASSES,
 )
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
 from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
@@ -27,7 +29,7 @@ from osc2tx.support.portable_names import is_portable
 
 # Names a module may import; a scenario class must not hide them.
 RUNTIME_CLASSES = frozenset(
-    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()}
+    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values(), *PHYSICAL_TYPES.values()}
     | {
         "Actor",
         "Behaviour",
@@ -87,9 +89,13 @@ def draft(module: ir.Module) -> GeneratedModule:
     for own in module.types:
         classes.add(class_key(own.name), class_name(own.name), "Type")
     table = TypeTable(module.types, classes, uses)
-    types = write_types(module.types, table, uses)
+    type_methods = TypeMethods(module.types, module.scenarios)
+    types = write_types(module.types, table, type_methods, uses)
     actions = write_actions(module.actions, classes, table, uses)
-    writers = [ScenarioWriter(s, module.one_of, classes, table, uses) for s in module.scenarios]
+    writers = [
+        ScenarioWriter(scenario, module.one_of, classes, table, type_methods, uses)
+        for scenario in module.scenarios
+    ]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
         docstring=_docstring(module),
