@@ -109,7 +109,8 @@ def edit(folder: Path, places: Collection[str]) -> None:
 
 
 def make_tables(folder: Path) -> subprocess.CompletedProcess[str]:
-    return run(folder, "tools/make_catalogue.py")
+    made = run(folder, "tools/make_catalogue.py")
+    return made if made.returncode else run(folder, "tools/make_actor_methods.py")
 
 
 @pytest.fixture(scope="module")
@@ -149,6 +150,15 @@ def test_the_module_knows_them_and_the_world_carries_them_out(answers: dict[str,
     assert "wobble(" in module
     assert answers["offset"] == pytest.approx(1.25, abs=0.01)
     assert answers["entry"] == ["8.8.3.99", "open", ["lateral"], ["lanes"]]
+
+
+def test_vehicles_have_it_as_a_typed_method(copy: Path, answers: dict[str, object]) -> None:
+    folder = copy / "runtime_lib/osc2tx_runtime/domain/methods"
+    text = (folder / "vehicle.py").read_text(encoding="utf-8")
+    method = text[text.index("def swerve(") :].partition(") -> Behaviour:")[0]
+    assert "offset: Value | None = None," in method
+    assert "side: SideLeftRight | None = None," in method
+    assert "Wobble" in method
 
 
 def test_the_coverage_page_knows_them(answers: dict[str, object]) -> None:
