@@ -22,7 +22,7 @@ class GainSpeed(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.actor = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
         self.target = self.parameter("target", 15 * mps)
 
     def behavior(self) -> Behaviour:

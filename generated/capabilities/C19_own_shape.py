@@ -26,7 +26,7 @@ from osc2tx_runtime import (
     rise,
 )
 from osc2tx_runtime.modifiers import acceleration, lane, position, speed
-from osc2tx_runtime.units import m, mps, mpss, s
+from osc2tx_runtime.units import Acceleration, Speed, Time, m, mps, mpss, s
 
 require_api(1)
 
@@ -38,9 +38,18 @@ class Swell(AnySpeedShape):
     Up by `height` and down again, on a parabola over `length`.
     """
 
-    base: float
-    height: float
-    length: float
+    base: Speed
+    height: Speed
+    length: Time
+
+    def duration(self) -> Time:
+        return self.length
+
+    def bow(self, share: float) -> float:
+        return 4.0 * share * (1.0 - share)
+
+    def compute(self, time: Time) -> Speed:
+        return self.base + self.height * self.bow(time / self.length)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,8 +59,14 @@ class Fading(AnyAccelerationShape):
     Falls evenly to zero.
     """
 
-    first: float
-    length: float
+    first: Acceleration
+    length: Time
+
+    def duration(self) -> Time:
+        return self.length
+
+    def compute(self, time: Time) -> Acceleration:
+        return self.first * (1.0 - time / self.length)
 
 
 class OwnShapeScenario(Scenario):
@@ -67,44 +82,24 @@ class OwnShapeScenario(Scenario):
         self.push = Fading(first=3 * mpss, length=6 * s)
         self.ramp = CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpss, target=6 * mps)
         self.half_way = Event(
-            rise(
-                lambda: self.swelling.speed
-                >= self.swell_compute(self.wave, self.swell_duration(self.wave) / 4.0)
-            )
+            rise(lambda: self.swelling.speed >= self.wave.compute(self.wave.duration() / 4.0))
         )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(
-            self.swelling, lane(1), position(50 * m), speed(self.swell_compute(self.wave, 0 * s))
-        )
+        self.place(self.swelling, lane(1), position(50 * m), speed(self.wave.compute(0 * s)))
         self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
-
-    def swell_duration(self, swell: Swell) -> float:
-        return swell.length
-
-    def swell_bow(self, swell: Swell, share: float) -> float:
-        return 4.0 * share * (1.0 - share)
-
-    def swell_compute(self, swell: Swell, time: float) -> float:
-        return swell.base + swell.height * self.swell_bow(swell, time / swell.length)
-
-    def fading_duration(self, fading: Fading) -> float:
-        return fading.length
-
-    def fading_compute(self, fading: Fading, time: float) -> float:
-        return fading.first * (1.0 - time / fading.length)
 
     def behavior(self) -> Behaviour:
         return Parallel(
             "own_shape",
             self.swelling.drive(
-                speed(shape=OwnShape(self.wave, self.swell_compute, self.swell_duration)),
-                duration=self.swell_duration(self.wave),
+                speed(shape=OwnShape(self.wave, Swell.compute, Swell.duration)),
+                duration=self.wave.duration(),
             ),
             self.starting.drive(
-                acceleration(shape=OwnShape(self.push, self.fading_compute, self.fading_duration)),
-                duration=self.swell_duration(self.wave) + self.ramp.duration(),
+                acceleration(shape=OwnShape(self.push, Fading.compute, Fading.duration)),
+                duration=self.wave.duration() + self.ramp.duration(),
             ),
             Wait(self.half_way),
         )

@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import distance, lane, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Length, Speed, Time, m, mps, s
 
 require_api(1)
 
@@ -34,9 +34,15 @@ class Gaining(AnyPositionShape):
     Goes on at `pace`, and faster and faster: `more` further after `period`.
     """
 
-    pace: float
-    more: float
-    period: float
+    pace: Speed
+    more: Length
+    period: Time
+
+    def square(self, share: float) -> float:
+        return share * share
+
+    def compute(self, time: Time) -> Length:
+        return self.pace * time + self.more * self.square(time / self.period)
 
 
 class PositionShape(Scenario):
@@ -58,17 +64,7 @@ class PositionShape(Scenario):
         self.place(self.stopping, lane(1), position(20 * m), speed(12 * mps))
         self.place(self.lead, lane(2), position(80 * m), speed(12 * mps))
         self.place(self.closing, lane(2), position(40 * m, behind=self.lead), speed(10 * mps))
-        self.place(
-            self.own, lane(3), speed(10 * mps), position(self.gaining_compute(self.faster, 0 * s))
-        )
-
-    def gaining_square(self, gaining: Gaining, share: float) -> float:
-        return share * share
-
-    def gaining_compute(self, gaining: Gaining, time: float) -> float:
-        return gaining.pace * time + gaining.more * self.gaining_square(
-            gaining, time / gaining.period
-        )
+        self.place(self.own, lane(3), speed(10 * mps), position(self.faster.compute(0 * s)))
 
     def behavior(self) -> Behaviour:
         return Parallel(
@@ -76,7 +72,7 @@ class PositionShape(Scenario):
             self.stopping.drive(distance(60 * m, shape=self.smoothly)),
             self.lead.drive(),
             self.closing.drive(position(25 * m, behind=self.lead, shape=self.smoothly, at="end")),
-            self.own.drive(position(shape=OwnShape(self.faster, self.gaining_compute))),
+            self.own.drive(position(shape=OwnShape(self.faster, Gaining.compute))),
             duration=8 * s,
         )
 

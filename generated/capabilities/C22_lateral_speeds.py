@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import lane, lateral, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Length, Time, m, mps, s
 
 require_api(1)
 
@@ -34,8 +34,17 @@ class Bulge(AnyLateralShape):
     Out by `reach` and back, on a parabola.
     """
 
-    reach: float
-    length: float
+    reach: Length
+    length: Time
+
+    def duration(self) -> Time:
+        return self.length
+
+    def bow(self, share: float) -> float:
+        return 4.0 * share * (1.0 - share)
+
+    def compute(self, time: Time) -> Length:
+        return self.reach * self.bow(time / self.length)
 
 
 class LateralSpeeds(Scenario):
@@ -58,7 +67,7 @@ class LateralSpeeds(Scenario):
             lane(2),
             position(120 * m),
             speed(15 * mps),
-            lateral(self.bulge_compute(self.out, 0 * s)),
+            lateral(self.out.compute(0 * s)),
         )
         self.place(
             self.leaning,
@@ -68,22 +77,12 @@ class LateralSpeeds(Scenario):
             speed(0.5 * mps, direction="lateral"),
         )
 
-    def bulge_duration(self, bulge: Bulge) -> float:
-        return bulge.length
-
-    def bulge_bow(self, bulge: Bulge, share: float) -> float:
-        return 4.0 * share * (1.0 - share)
-
-    def bulge_compute(self, bulge: Bulge, time: float) -> float:
-        return bulge.reach * self.bulge_bow(bulge, time / bulge.length)
-
     def behavior(self) -> Behaviour:
         return Parallel(
             "lateral_speeds",
             self.drifting_serial(),
             self.bulging.drive(
-                lateral(shape=OwnShape(self.out, self.bulge_compute, self.bulge_duration)),
-                duration=4 * s,
+                lateral(shape=OwnShape(self.out, Bulge.compute, Bulge.duration)), duration=4 * s
             ),
             self.leaning.drive(duration=4 * s),
         )

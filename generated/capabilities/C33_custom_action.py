@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     user_action,
 )
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Speed, m, mps, s
 
 require_api(1)
 
@@ -39,7 +39,7 @@ class Creep(Protocol):
         label: str | None = None,
         /,
         *,
-        v: Late[float],
+        v: Late[Speed],
         duration: Duration | None = None,
     ) -> Behaviour: ...
 

@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 
 from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.units import m, mps, mpss, s
+from osc2tx_runtime.units import Acceleration, Speed, m, mps, mpss, s
 
 require_api(1)
 
@@ -28,8 +28,8 @@ class Plan:
     """Struct `plan`."""
 
     mood: Mood
-    cruise: float
-    peak: float
+    cruise: Speed
+    peak: Acceleration
 
 
 class OwnTypes(Scenario):

@@ -1,13 +1,32 @@
-"""Units of the standard library as SI factors: `35 * kph` is a speed in m/s.
+"""Physical types and units of the standard library.
 
-Units with an offset are functions, because a factor cannot say them: `celsius(20)` is 293.15
-(kelvin). The factors are exact where the standard prints rounded ones (`kph` is 1/3.6, `deg` is
-pi/180, `mph` is 0.44704).
+Units are SI factors: `35 * kph` is a speed in m/s. Those with an offset are functions, because a
+factor cannot say them: `celsius(20)` is 293.15 (kelvin). The factors are exact where the standard
+prints rounded ones (`kph` is 1/3.6, `deg` is pi/180, `mph` is 0.44704).
 """
 
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
+
+# Physical types: numbers in SI units
+Length: TypeAlias = float  # m
+Time: TypeAlias = float  # s
+Speed: TypeAlias = float  # m/s
+Acceleration: TypeAlias = float  # m/s^2
+Jerk: TypeAlias = float  # m/s^3
+Angle: TypeAlias = float  # rad
+AngularRate: TypeAlias = float  # rad/s
+AngularAcceleration: TypeAlias = float  # rad/s^2
+Mass: TypeAlias = float  # kg
+Temperature: TypeAlias = float  # K
+Pressure: TypeAlias = float  # Pa
+LuminousIntensity: TypeAlias = float  # cd
+LuminousFlux: TypeAlias = float  # lm
+Illuminance: TypeAlias = float  # lx
+ElectricalCurrent: TypeAlias = float  # A
+AmountOfSubstance: TypeAlias = float  # mol
 
 # length, in metres
 nanometer = nm = 1e-9

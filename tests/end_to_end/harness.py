@@ -6,8 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from osc2tx import ir
-from osc2tx.backends.py_trees import emit
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.options import CompileOptions
@@ -47,10 +46,10 @@ def compile_scenario(path: Path) -> ir.Module:
     return compilation.ir
 
 
+@cache
 def generate(path: Path) -> GeneratedModule:
-    compilation = compilation_of(path)
-    assert compilation.module is not None, compilation.diagnostics
-    return compilation.module
+    """Return the module of a scenario of the repository as a draft: black takes its time."""
+    return draft(compile_scenario(path))
 
 
 def run(scenario: type[Scenario], settings: RunSettings | None = None) -> Trace:
@@ -72,7 +71,7 @@ def permuted(node: ir.Behavior) -> ir.Behavior:
 
 def permuted_module(module: ir.Module) -> GeneratedModule:
     scenarios = tuple(replace(s, body=permuted(s.body)) for s in module.scenarios)
-    return emit(replace(module, scenarios=scenarios))
+    return draft(replace(module, scenarios=scenarios))
 
 
 def asam(text: str, folder: Path) -> ir.Module:

@@ -21,7 +21,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from osc2tx import ir
-from osc2tx.backends.py_trees import emit
+from osc2tx.backends.py_trees.emitter import draft
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
@@ -58,7 +58,7 @@ scenario acceptance:
 
 
 def compiled(body: str, folder: Path, load: Load) -> type[Scenario]:
-    return load(emit(asam(HEAD + body, folder)))
+    return load(draft(asam(HEAD + body, folder)))
 
 
 # --- time ----------------------------------------------------------------------------------------
@@ -124,7 +124,7 @@ def test_a_seeded_choice_is_one_alternative_and_each_has_its_seeds(
     path.write_text(HEAD + CHOICE, encoding="utf-8")
     compilation = Compilation(path, path.name, CompileOptions(one_of="seeded"))
     assert compilation.ir is not None
-    scenario = load(emit(compilation.ir))
+    scenario = load(draft(compilation.ir))
     choices = [chosen(scenario, seed) for seed in range(40)]
     assert choices == [chosen(scenario, seed) for seed in range(40)]
     counts = Counter(name for choice in choices for name in choice)
@@ -207,10 +207,10 @@ def test_the_members_of_a_written_parallel_have_no_order(
 ) -> None:
     after = "        after: serial:\n            wait elapsed(0.5s)\n" + indented(text, 12)
     module = asam(HEAD + after + "        wait @c\n", tmp_path)
-    first = outcome(load(emit(module)))
+    first = outcome(load(draft(module)))
     draw = random.Random(seed)
     scenarios = tuple(replace(s, body=shuffled(s.body, draw)) for s in module.scenarios)
-    assert outcome(load(emit(replace(module, scenarios=scenarios)))) == first
+    assert outcome(load(draft(replace(module, scenarios=scenarios)))) == first
     assert outcome(load(permuted_module(module))) == first
 
 

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import Trace, asam, run
 
@@ -32,7 +31,7 @@ BODY = """    do ego.change_speed(target: 36kph, rate_profile: constant, duratio
 def sampled(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     def run_one(items: str, body: str = BODY) -> Trace:
         lines = "".join(f"    {line}\n" for line in items.strip().splitlines())
-        return run(load(emit(asam(HEAD + lines + body, tmp_path))))
+        return run(load(draft(asam(HEAD + lines + body, tmp_path))))
 
     return run_one
 
@@ -127,7 +126,7 @@ scenario sampled:
         one: ego.step(v: 10kph)
         two: ego.step(v: 30kph)
 """
-    trace = run(load(emit(asam(text, tmp_path))))
+    trace = run(load(draft(asam(text, tmp_path))))
     assert [(line["t"], line["name"], line["value"]) for line in trace.of_kind("cover")] == [
         (1.0, "one.v", pytest.approx(10.0)),
         (2.0, "two.v", pytest.approx(30.0)),

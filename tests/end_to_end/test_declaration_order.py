@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import asam, run
 
@@ -48,7 +47,7 @@ def story(
     order: tuple[str, ...], load: Callable[[GeneratedModule], type[Scenario]], folder: Path
 ) -> list[str]:
     """Run the scenario; return what is told, at one time in any order and without source lines."""
-    trace = run(load(emit(asam(TEXT.format("\n    ".join(order)), folder))))
+    trace = run(load(draft(asam(TEXT.format("\n    ".join(order)), folder))))
     assert trace.of_kind("variable"), "the run samples nothing"
     told = [{k: v for k, v in line.items() if k != "source"} for line in trace.lines[1:]]
     return sorted(json.dumps(line, sort_keys=True) for line in told)

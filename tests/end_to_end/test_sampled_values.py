@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import asam, run
 
@@ -39,7 +38,7 @@ scenario sampled:
 def test_only_new_values_are_traced(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
-    trace = run(load(emit(asam(TEXT, tmp_path))))
+    trace = run(load(draft(asam(TEXT, tmp_path))))
     lines = trace.of_kind("variable")
     assert len([line for line in trace.of_kind("event") if line["name"] == "tick"]) == 4
     assert [line["value"] for line in lines] == pytest.approx([5.0, 8.0])

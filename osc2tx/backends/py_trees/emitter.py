@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
 from osc2tx import ir
@@ -14,10 +14,12 @@ from osc2tx.backends.py_trees.own_types import write_types
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     API_LEVEL,
+    PHYSICAL_TYPES,
     STRUCT_CLASSES,
 )
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
 from osc2tx.backends.py_trees.source_map import render_source_map
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable, class_key
 from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
@@ -27,7 +29,7 @@ from osc2tx.support.portable_names import is_portable
 
 # Names a module may import; a scenario class must not hide them.
 RUNTIME_CLASSES = frozenset(
-    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()}
+    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values(), *PHYSICAL_TYPES.values()}
     | {
         "Actor",
         "Behaviour",
@@ -73,6 +75,12 @@ class GeneratedModule:
 
 def emit(module: ir.Module) -> GeneratedModule:
     """Write the module for one source file with at least one scenario."""
+    written = draft(module)
+    return replace(written, python=format_module(written.python))
+
+
+def draft(module: ir.Module) -> GeneratedModule:
+    """Write a module in the layout of the templates: it does the same, but is not for readers."""
     uses = Uses()
     classes = NameTable(RUNTIME_CLASSES | object_tables().enums)
     for scenario in module.scenarios:
@@ -81,9 +89,13 @@ def emit(module: ir.Module) -> GeneratedModule:
     for own in module.types:
         classes.add(class_key(own.name), class_name(own.name), "Type")
     table = TypeTable(module.types, classes, uses)
-    types = write_types(module.types, table, uses)
+    type_methods = TypeMethods(module.types, module.scenarios)
+    types = write_types(module.types, table, type_methods, uses)
     actions = write_actions(module.actions, classes, table, uses)
-    writers = [ScenarioWriter(s, module.one_of, classes, table, uses) for s in module.scenarios]
+    writers = [
+        ScenarioWriter(scenario, module.one_of, classes, table, type_methods, uses)
+        for scenario in module.scenarios
+    ]
     scenarios = tuple(writer.write() for writer in writers)
     view = ModuleView(
         docstring=_docstring(module),
@@ -100,7 +112,7 @@ def emit(module: ir.Module) -> GeneratedModule:
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
-    return GeneratedModule(module_stem(module.source), format_module(text), render_source_map(maps))
+    return GeneratedModule(module_stem(module.source), text, render_source_map(maps))
 
 
 def module_stem(source: str) -> str:

@@ -17,6 +17,7 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 
 COMPARISONS = {"==": "==", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 ARITHMETIC = {"+": Level.SUM, "-": Level.SUM, "*": Level.TERM, "/": Level.TERM, "%": Level.TERM}
@@ -53,6 +54,8 @@ class ExpressionWriter:
         class_of: Gives the class of an actor type.
         methods: The scenario's methods; their parameters must not hide what their bodies use.
         member: Names a member of an object of some type.
+        type_methods: The methods of types that stand in their classes.
+        receiver: The parameter that is `self`, in a method of a class.
     """
 
     def __init__(
@@ -63,8 +66,12 @@ class ExpressionWriter:
         class_of: Callable[[str], PyName] | None = None,
         methods: tuple[ir.Method, ...] = (),
         member: Callable[[str, str], PyName] | None = None,
+        type_methods: TypeMethods | None = None,
+        receiver: str | None = None,
     ) -> None:
         """See the class."""
+        self._type_methods = type_methods or TypeMethods()
+        self._receiver = receiver
         bodies = (method.expression for method in methods)
         parts = (part for body in bodies if body is not None for part in ir.walk(body))
         units = (part.unit.name for part in parts if isinstance(part, ir.Quantity))
@@ -90,6 +97,8 @@ class ExpressionWriter:
 
     def parameter(self, name: str) -> PyName:
         """Name a parameter of a method; one called `m` would hide the unit in `5 * m`."""
+        if name == self._receiver:
+            return PyName("self")
         wanted = identifier(name)
         return PyName(f"{wanted}_" if wanted in self._hidden else wanted)
 
@@ -160,10 +169,10 @@ class ExpressionWriter:
                 as_type = self._use_name("as_type")
                 return PyExpr(f"{as_type}({self.write(operand)}, {class_})", Level.ATOM)
             case ir.UserShape(operand=operand, compute=compute, duration=duration):
+                object_ = self.write(operand)
                 methods = [name for name in (compute, duration) if name is not None]
-                inner = ", ".join(
-                    (str(self.write(operand)), *(str(self.field(m)) for m in methods))
-                )
+                functions = (self._function(method, object_) for method in methods)
+                inner = ", ".join(map(str, (object_, *functions)))
                 return PyExpr(f"{self._use_name('OwnShape')}({inner})", Level.ATOM)
             case ir.HalfRange(bound=bound, is_lower=is_lower):
                 half = self._use_name("at_least" if is_lower else "at_most")
@@ -194,10 +203,29 @@ class ExpressionWriter:
         own = isinstance(call.base, ir.ScenarioSelf)
         if (call.owner, call.method) in PLAIN_METHODS:
             return self._plain_method(call)
+        if own and call.method in self._type_methods:
+            return self._type_method(call)
         arguments = ", ".join(self._argument(argument, own) for argument in call.arguments)
         method = self._fields[call.method] if own else PyName(identifier(call.method))
         object_ = self._class_of(call.owner) if call.needs_no_object else self._atom(call.base)
         return PyExpr(f"{object_}.{method}({arguments})", Level.ATOM)
+
+    def _type_method(self, call: ir.MethodCall) -> PyExpr:
+        """Write a method of a class of the module: the first argument is the object."""
+        owner, _, name = call.method.rpartition(".")
+        object_, *others = call.arguments
+        arguments = ", ".join(self._argument(argument, own=True) for argument in others)
+        method = self._member(owner, name)
+        return PyExpr(f"{self._atom(object_.value)}.{method}({arguments})", Level.ATOM)
+
+    def _function(self, method: str, object_: PyExpr) -> PyExpr:
+        """Write a method of a type as a function that takes the object."""
+        if method not in self._type_methods:
+            return self.field(method)
+        owner, _, name = method.rpartition(".")
+        is_overridden = self._type_methods.is_overridden(method)
+        class_ = f"type({object_})" if is_overridden else self._class_of(owner)
+        return PyExpr(f"{class_}.{self._member(owner, name)}", Level.ATOM)
 
     def _plain_method(self, call: ir.MethodCall) -> PyExpr:
         """Write a method of a string or range (2.2)."""

@@ -15,6 +15,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "argument",
         "arguments",
         "behavior",
+        "cast",
         "cover",
         "create_tree",
         "declare",

@@ -9,49 +9,102 @@ from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import PyDocLine, literal
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import NameTable
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
-from osc2tx.backends.py_trees.view import FieldView, TypeView
+from osc2tx.backends.py_trees.view import FieldView, FunctionView, TypeView, signature
 
 
-def write_types(own: Sequence[ir.UserType], table: TypeTable, uses: Uses) -> tuple[TypeView, ...]:
+def write_types(
+    own: Sequence[ir.UserType], table: TypeTable, methods: TypeMethods, uses: Uses
+) -> tuple[TypeView, ...]:
     """Return the view models of the types, in their order.
 
     Args:
         own: The types, bases first.
         table: All types that the module knows.
+        methods: The methods that stand in classes.
         uses: What the module has to import.
     """
-    writer = ExpressionWriter(NameTable(), uses.unit, uses.name)
     names = [each.name for each in own]
     return tuple(
-        _write(each, frozenset(names[index:]), table, uses, writer)
+        _TypeWriter(each, frozenset(names[index:]), table, methods, uses).write()
         for index, each in enumerate(own)
     )
 
 
-def _write(
-    own: ir.UserType, later: frozenset[str], table: TypeTable, uses: Uses, writer: ExpressionWriter
-) -> TypeView:
-    if not own.is_actor:
-        uses.standard("dataclasses", "dataclass")
-    elif own.fields:
-        uses.standard("typing", "Any")
-    word = "Actor" if own.is_actor else "Struct"
-    about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
-    return TypeView(
-        class_name=table.class_of((own.name,)),
-        base=table.base_of(own),
-        kind=literal(own.name),
-        is_actor=own.is_actor,
-        docstring=tuple(PyDocLine.of(line) for line in about),
-        fields=tuple(
-            FieldView(
-                name=table.member(own.name, field.name),
-                annotation=table.annotation(field.type, later),
-                default=None if field.default is None else writer.write(field.default),
-                comments=comments(field.comments),
-            )
-            for field in own.fields
-        ),
-    )
+class _TypeWriter:
+    """Writes a type; `later` are those whose classes come below."""
+
+    def __init__(
+        self,
+        own: ir.UserType,
+        later: frozenset[str],
+        table: TypeTable,
+        methods: TypeMethods,
+        uses: Uses,
+    ) -> None:
+        self._own = own
+        self._later = later
+        self._table = table
+        self._methods = methods
+        self._uses = uses
+
+    def write(self) -> TypeView:
+        own = self._own
+        if not own.is_actor:
+            self._uses.standard("dataclasses", "dataclass")
+        elif own.fields:
+            self._uses.standard("typing", "Any")
+        word = "Actor" if own.is_actor else "Struct"
+        about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
+        return TypeView(
+            class_name=self._table.class_of((own.name,)),
+            base=self._table.base_of(own),
+            kind=literal(own.name),
+            is_actor=own.is_actor,
+            docstring=tuple(PyDocLine.of(line) for line in about),
+            fields=tuple(map(self._field, own.fields)),
+            methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),
+        )
+
+    def _field(self, field: ir.UserField) -> FieldView:
+        writer = self._writer()
+        return FieldView(
+            name=self._table.member(self._own.name, field.name),
+            annotation=self._table.annotation(field.type, self._later),
+            default=None if field.default is None else writer.write(field.default),
+            comments=comments(field.comments),
+        )
+
+    def _method(self, name: str, method: ir.Method) -> FunctionView:
+        object_, *others = method.parameters
+        writer = self._writer((method,), object_.name)
+        body = method.expression
+        assert body is not None, "one that has none stands in the scenario"
+        parameters = [self._parameter(writer, parameter) for parameter in others]
+        result = self._table.annotation(method.result, self._later)
+        return FunctionView(
+            signature=signature(self._table.member(self._own.name, name), parameters, result),
+            value=writer.write(body),
+            comments=comments(method.comments),
+        )
+
+    def _parameter(self, writer: ExpressionWriter, parameter: ir.MethodParameter) -> str:
+        name = writer.parameter(parameter.name)
+        text = f"{name}: {self._table.annotation(parameter.type, self._later)}"
+        return text if parameter.default is None else f"{text} = {writer.write(parameter.default)}"
+
+    def _writer(
+        self, methods: tuple[ir.Method, ...] = (), receiver: str | None = None
+    ) -> ExpressionWriter:
+        return ExpressionWriter(
+            NameTable(),
+            self._uses.unit,
+            self._uses.name,
+            lambda type_: self._table.class_of((type_,)),
+            methods,
+            self._table.member,
+            self._methods,
+            receiver,
+        )

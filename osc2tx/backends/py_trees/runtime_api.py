@@ -139,6 +139,27 @@ ANNOTATIONS = {"bool": "bool", "int": "int", "float": "float", "quantity": "floa
 }
 
 
+# Physical types of the library to their names in `osc2tx_runtime.units`.
+PHYSICAL_TYPES = {
+    "length": "Length",
+    "time": "Time",
+    "speed": "Speed",
+    "acceleration": "Acceleration",
+    "jerk": "Jerk",
+    "angle": "Angle",
+    "angular_rate": "AngularRate",
+    "angular_acceleration": "AngularAcceleration",
+    "mass": "Mass",
+    "temperature": "Temperature",
+    "pressure": "Pressure",
+    "luminous_intensity": "LuminousIntensity",
+    "luminous_flux": "LuminousFlux",
+    "illuminance": "Illuminance",
+    "electrical_current": "ElectricalCurrent",
+    "amount_of_substance": "AmountOfSubstance",
+}
+
+
 def constructor_path(lineage: Sequence[str], path: tuple[str, ...]) -> tuple[str, ...]:
     """Return a path below an object as the constructors have it, keyword by keyword."""
     is_flat = len(path) > 1 and any((type_, path[0]) in FLAT_MEMBERS for type_ in lineage)

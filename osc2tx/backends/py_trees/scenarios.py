@@ -21,6 +21,7 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.objects import ObjectWriter
 from osc2tx.backends.py_trees.source_map import ScenarioMap
+from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import (
@@ -41,6 +42,7 @@ class ScenarioWriter:
         one_of: Policy of `one_of` in this module.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
+        type_methods: The methods of types that stand in their classes.
         uses: What the module has to import.
     """
 
@@ -50,6 +52,7 @@ class ScenarioWriter:
         one_of: str,
         classes: NameTable,
         types: TypeTable,
+        type_methods: TypeMethods,
         uses: Uses,
     ) -> None:
         """See the class."""
@@ -57,7 +60,8 @@ class ScenarioWriter:
         self._one_of = one_of
         self._classes = classes
         self._names = NameTable(SCENARIO_ATTRIBUTES)
-        for member in (*scenario.declarations, *scenario.methods):
+        self._methods = [each for each in scenario.methods if each.name not in type_methods]
+        for member in (*scenario.declarations, *self._methods):
             self._names.add(member.name, identifier(member.name))
         self._types = types
         expressions = ExpressionWriter(
@@ -67,6 +71,7 @@ class ScenarioWriter:
             lambda type_: types.class_of((type_,)),
             scenario.methods,
             types.member,
+            type_methods,
         )
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
         self._objects = ObjectWriter(expressions, types)
@@ -80,7 +85,7 @@ class ScenarioWriter:
         )
         functions = tuple(
             self._function(method, method.expression)
-            for method in self._scenario.methods
+            for method in self._methods
             if method.expression is not None
         )
         placements = tuple(self._placement(placement) for placement in self._scenario.placements)
@@ -174,8 +179,9 @@ class ScenarioWriter:
                 class_ = name_expression(self._types.class_of(lineage))
                 call = CallView(_self("required_argument"), (code(literal(name)), code(class_)))
                 return ArgumentView(call=call)
-            case ir.Actor(lineage=lineage):
-                return self._objects.write(lineage, declaration.values)
+            case ir.Actor(name=name, lineage=lineage):
+                actor = self._objects.write(lineage, declaration.values)
+                return self._from_invoker("cast", name, actor)
             case ir.Struct():
                 return self._struct(declaration)
             case ir.Variable():
@@ -193,9 +199,13 @@ class ScenarioWriter:
             value = code(self._calls.expressions.write(struct.value))
         else:
             value = self._objects.write(struct.lineage, struct.values)
+        return self._from_invoker("argument", struct.name, value)
+
+    def _from_invoker(self, method: str, name: str, value: ArgumentView) -> ArgumentView:
+        """Write what an invoker may hand in instead of the declared value."""
         if not self._scenario.is_invoked:
             return value
-        return ArgumentView(call=CallView(_self("argument"), (code(literal(struct.name)), value)))
+        return ArgumentView(call=CallView(_self(method), (code(literal(name)), value)))
 
     def _variable(self, variable: ir.Variable) -> ArgumentView:
         """Write the value, or how the variable is sampled."""
@@ -250,7 +260,7 @@ class ScenarioWriter:
     def _externals(self) -> tuple[StatementView, ...]:
         """Write the methods that are code of the user: the runtime asks whether they may run."""
         statements = []
-        for method in self._scenario.methods:
+        for method in self._methods:
             if method.external is None:
                 continue
             name = self._names[method.name]

@@ -10,6 +10,7 @@ from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
+    PHYSICAL_TYPES,
     STRUCT_CLASSES,
 )
 from osc2tx.backends.py_trees.uses import Uses
@@ -101,6 +102,8 @@ class TypeTable:
             return PyExpr(f"{outer}[{self.annotation(type_.element, later)}]", Level.ATOM)
         if type_.kind is ir.Kind.ENUM:
             return name_expression(self._uses.enum(type_, self._enum_name(type_)))
+        if type_.name in PHYSICAL_TYPES:
+            return name_expression(self._uses.physical_type(PHYSICAL_TYPES[type_.name]))
         plain = ANNOTATIONS.get(type_.kind.value)
         if plain is not None:
             return name_expression(PyName(plain))

@@ -37,6 +37,11 @@ class Uses:
         self._modifiers.add(name)
         return PyName(name)
 
+    def physical_type(self, name: str) -> PyName:
+        """Use the name of a physical type."""
+        self._standard_units.add(name)
+        return PyName(name)
+
     def unit(self, unit: ir.Unit) -> PyName:
         """Use a unit: the runtime's constant, or one that the module defines itself."""
         name = PyName(identifier(unit.name))

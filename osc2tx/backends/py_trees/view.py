@@ -46,7 +46,7 @@ def signature(name: PyName, parameters: Iterable[str], result: PyExpr) -> PyExpr
 
 @dataclass(frozen=True, slots=True)
 class FunctionView:
-    """A method of the scenario that computes a value."""
+    """A method that computes a value."""
 
     signature: PyExpr
     value: PyExpr
@@ -108,6 +108,7 @@ class TypeView:
         is_actor: An actor takes its fields by its constructor, a struct is a dataclass.
         docstring: Lines of its docstring.
         fields: Its own fields.
+        methods: Its own methods.
     """
 
     class_name: PyName
@@ -116,6 +117,7 @@ class TypeView:
     is_actor: bool
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
+    methods: tuple[FunctionView, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,6 +28,7 @@ from osc2tx_runtime.language.tree.variables import MISSING, Sampled
 __all__ = ["BaseScenario"]
 
 AnyT = TypeVar("AnyT")
+ActorT = TypeVar("ActorT", bound=BaseActor)
 
 
 class BaseScenario(ScenarioParts):
@@ -67,6 +68,17 @@ class BaseScenario(ScenarioParts):
         raise NotImplementedError
 
     # --- used by generated classes ---
+
+    def cast(self, name: str, declared: ActorT) -> ActorT:
+        """Return who plays a role: the actor that the invoker hands in, else the declared one.
+
+        Of maps and environments there is one in a run: all scenarios share it.
+
+        Args:
+            name: Name of the role.
+            declared: The actor as declared.
+        """
+        return declared if self._caller is None else self._caller.cast(name, declared)
 
     def place(self, actor: BaseActor, *modifiers: Modifier, throughout: bool = False) -> None:
         """Say where and how an actor starts.
@@ -223,8 +235,6 @@ class BaseScenario(ScenarioParts):
                 value.name = f"{self._path}.{name}" if self._path else name
                 self._variables[name] = value
                 return
-            if isinstance(value, BaseActor) and self._caller is not None:
-                value = self._caller.cast(name, value)
             object.__setattr__(self, name, value)
 
         def __getattr__(self, name: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
@@ -17,6 +17,8 @@ from osc2tx_runtime.language.tree.override import Mode
 from osc2tx_runtime.language.tree.variables import Sampled
 
 __all__ = ["Caller", "ScenarioParts"]
+
+ActorT = TypeVar("ActorT", bound=BaseActor)
 
 
 class ScenarioParts(ScenarioValues):
@@ -101,7 +103,7 @@ class Caller:
     key: str
     arguments: Mapping[str, Any]
 
-    def cast(self, name: str, declared: BaseActor) -> BaseActor:
+    def cast(self, name: str, declared: ActorT) -> ActorT:
         """Return the actor handed in for a declared one; what there is one of is shared.
 
         Raises:

@@ -33,9 +33,9 @@ class Approach(Scenario):
     name, source = "approach", "approach.osc"
 
     def declare(self) -> None:
-        self.actor = Vehicle()
-        self.road = Map()
-        self.lead = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
+        self.road = self.cast("road", Map())
+        self.lead = self.cast("lead", Vehicle())
         self.gap = self.parameter("gap", within(10.0, 30.0))
         self.v = self.parameter("v", 20.0)
         self.near = Event()
@@ -172,8 +172,8 @@ class Own(Scenario):
     name, source = "own", "own.osc"
 
     def declare(self) -> None:
-        self.other = Vehicle()
-        self.env = Environment()
+        self.other = self.cast("other", Vehicle())
+        self.env = self.cast("env", Environment())
         self.limit = self.global_parameter("limit", within(1.0, 2.0))
 
     def placement(self) -> None:

@@ -7,6 +7,7 @@ from types import ModuleType
 
 import pytest
 
+from osc2tx.backends.py_trees.runtime_api import PHYSICAL_TYPES
 from osc2tx_runtime import units
 
 # Type by type, with the factors as the standard prints them (about nine digits).
@@ -41,7 +42,9 @@ def test_factor(entry: list[str]) -> None:
 def test_all_units_are_there() -> None:
     names = {name for *names, _ in ENTRIES for name in names} | {"celsius", "C", "fahrenheit", "F"}
     public = {n for n, v in vars(units).items() if not n.startswith("_")} - {"annotations", "math"}
-    assert public == names
+    types = {name for name in public if getattr(units, name) is float}
+    assert types == {*PHYSICAL_TYPES.values()}
+    assert public - types - {"TypeAlias"} == names
     assert not any(isinstance(getattr(units, name), ModuleType) for name in names)
 
 

@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, s
+from osc2tx_runtime.units import Speed, kph, s
 
 require_api(1)
 
@@ -46,14 +46,14 @@ class Calls(Scenario):
         self.place(self.ego, speed(self.half(self.limit())))
 
     # What the base leaves open
-    def limit(self) -> float:
+    def limit(self) -> Speed:
         return 30 * kph
 
-    def half(self, v: float) -> float:
+    def half(self, v: Speed) -> Speed:
         return v / 2.0
 
     # A method of a type: its object comes first.
-    def vehicle_is_faster_than(self, vehicle: Vehicle, limit: float) -> bool:
+    def vehicle_is_faster_than(self, vehicle: Vehicle, limit: Speed) -> bool:
         return vehicle.speed > limit
 
     def behavior(self) -> Behaviour:

@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, m, s
+from osc2tx_runtime.units import Length, kph, m, s
 
 require_api(1)
 
@@ -35,7 +35,7 @@ class Part:
     tag::part[]
     """
 
-    size: float = 2 * m
+    size: Length = 2 * m
 
 
 class Top(Scenario):

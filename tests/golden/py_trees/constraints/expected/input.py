@@ -24,7 +24,7 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.modifiers import lane, speed
-from osc2tx_runtime.units import kph, m, s
+from osc2tx_runtime.units import Length, kph, m, s
 
 require_api(1)
 
@@ -57,7 +57,7 @@ class Constraints(Scenario):
         self.gap = self.parameter("gap", 10 * m, at_least(3 * m))
 
         # an open end: a value must be given
-        self.reach = self.required("reach", float, at_least(2 * m))
+        self.reach = self.required("reach", Length, at_least(2 * m))
 
         # both bounds, in two constraints
         self.slow = self.parameter("slow", within(20 * kph, 40 * kph))

@@ -21,7 +21,7 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import mps, s
+from osc2tx_runtime.units import Speed, mps, s
 
 require_api(1)
 
@@ -37,9 +37,12 @@ Mood: TypeAlias = Literal["calm", "brisk", "hurried", "reckless"]
 class Habits:
     """Struct `habits`."""
 
-    pace: float = 10 * mps
+    pace: Speed = 10 * mps
     spends: float = 15 * kWh_100km
     reserve: float = 0.5
+
+    def is_thrifty(self) -> bool:
+        return self.spends < 600 * newton and self.reserve > 0.1
 
 
 class Commute(Scenario):
@@ -48,7 +51,7 @@ class Commute(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.actor = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
         self.habit = self.argument("habit", Habits())
         self.mood: Mood = self.parameter("mood", "calm")
 
@@ -85,16 +88,13 @@ class Extensions(Scenario):
         self.keep(self.commute_top > self.economical.pace)
         self.keep(self.commute_top < self.fast.pace)
 
-    def habits_is_thrifty(self, habits: Habits) -> bool:
-        return habits.spends < 600 * newton and habits.reserve > 0.1
-
     def behavior(self) -> Behaviour:
         return Serial(
             "extensions",
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.commute_top),
             self.invoke(Commute, actor=self.ego, habit=self.fast, known_as="commute_2"),
             Wait(
-                lambda: self.habits_is_thrifty(self.economical)
+                lambda: self.economical.is_thrifty()
                 and {"calm": 0, "brisk": 1, "hurried": 7, "reckless": 8}[self.state] == 8
             ),
         )

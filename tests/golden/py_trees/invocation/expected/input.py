@@ -35,8 +35,8 @@ class Approach(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.actor = Vehicle()
-        self.lead = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
+        self.lead = self.cast("lead", Vehicle())
         self.gap = self.parameter("gap", within(10 * m, 30 * m))
         self.near = Event(
             rise(

@@ -6,7 +6,7 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 
 from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, m, s
+from osc2tx_runtime.units import Length, Speed, kph, m, s
 
 require_api(1)
 
@@ -28,11 +28,11 @@ class Methods(Scenario):
         self.place(self.ego, speed(self.share(self.limit)))
 
     # A method of the scenario becomes a method of its class.
-    def share(self, v: float, part: float = 0.5) -> float:
+    def share(self, v: Speed, part: float = 0.5) -> Speed:
         return v * part
 
     # A parameter may be called like a unit, or like a word of Python.
-    def longer(self, m_: float, self_: float = 1 * m) -> float:
+    def longer(self, m_: Length, self_: Length = 1 * m) -> Length:
         return m_ + self_ + 5 * m
 
     def is_faster(self, a: Vehicle, b: Vehicle) -> bool:

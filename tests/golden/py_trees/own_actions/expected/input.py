@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     user_action,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, mps, s
+from osc2tx_runtime.units import Time, kph, mps, s
 
 require_api(1)
 
@@ -61,7 +61,7 @@ class KeepHonking(Protocol):
         times: Late[int] = ...,
         loudness: Late[float],
         at_whom: PhysicalObject,
-        pause: Late[float],
+        pause: Late[Time],
         duration: Duration | None = None,
     ) -> Behaviour: ...
 

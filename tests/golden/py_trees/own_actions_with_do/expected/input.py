@@ -21,7 +21,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import mps, s
+from osc2tx_runtime.units import Speed, mps, s
 
 require_api(1)
 
@@ -64,7 +64,7 @@ class HurryMore(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.actor = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
         self.to = 18 * mps
         self.done = Event()
 
@@ -85,7 +85,7 @@ class Hurry(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.actor = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
         self.to = self.parameter("to", 15 * mps)
         self.done = Event()
 
@@ -106,9 +106,9 @@ class Platoon(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.first = Vehicle()
-        self.second = Vehicle()
-        self.pace = self.required("pace", float)
+        self.first = self.cast("first", Vehicle())
+        self.second = self.cast("second", Vehicle())
+        self.pace = self.required("pace", Speed)
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

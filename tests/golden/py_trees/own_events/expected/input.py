@@ -26,7 +26,7 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import mps, mpsps, ms, s
+from osc2tx_runtime.units import Speed, mps, mpsps, ms, s
 
 require_api(1)
 
@@ -36,7 +36,7 @@ class Probe(Vehicle):
 
     kinds = ("probe", *Vehicle.kinds)
 
-    def __init__(self, *, limit: float = 12 * mps, **fields: Any) -> None:
+    def __init__(self, *, limit: Speed = 12 * mps, **fields: Any) -> None:
         super().__init__(**fields)
         self.limit = limit
 
@@ -47,7 +47,7 @@ class Step(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.actor = Vehicle()
+        self.actor = self.cast("actor", Vehicle())
         self.pace = self.parameter("pace", within(5 * mps, 6 * mps))
         self.moving = Event(parameters={"at": None})
 
@@ -70,7 +70,7 @@ class WalkAround(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.car = Vehicle()
+        self.car = self.cast("car", Vehicle())
 
     def behavior(self) -> Behaviour:
         return Serial(

@@ -9,7 +9,7 @@ from typing import Any
 
 from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import kph, s
+from osc2tx_runtime.units import Speed, kph, s
 
 require_api(1)
 
@@ -23,19 +23,28 @@ class Coach(Vehicle):
         super().__init__(**fields)
         self.seats = seats
 
+    def is_full(self, guests: int) -> bool:
+        return guests >= self.seats
+
 
 class DoubleDecker(Coach):
     """Actor `double_decker`."""
 
     kinds = ("double_decker", *Coach.kinds)
 
+    def is_full(self, guests: int) -> bool:
+        return guests >= 2 * self.seats
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Limits:
     """Struct `limits`."""
 
-    low: float
-    high: float = 50 * kph
+    low: Speed
+    high: Speed = 50 * kph
+
+    def middle(self) -> Speed:
+        return (self.low + self.high) / 2.0
 
 
 class OwnMethods(Scenario):
@@ -57,33 +66,17 @@ class OwnMethods(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.limits_middle(self.range_of_speed)))
+        self.place(self.ego, speed(self.range_of_speed.middle()))
 
-    def scaled(self, factor: float) -> float:
+    def scaled(self, factor: float) -> Speed:
         return self.base * factor
-
-    def limits_middle(self, limits: Limits) -> float:
-        return (limits.low + limits.high) / 2.0
-
-    def coach_is_full(self, coach: Coach, guests: int) -> bool:
-        return (
-            self.double_decker_is_full(coach, guests)
-            if isinstance(coach, DoubleDecker)
-            else guests >= coach.seats
-        )
-
-    def double_decker_is_full(self, double_decker: DoubleDecker, guests: int) -> bool:
-        return guests >= 2 * double_decker.seats
 
     def behavior(self) -> Behaviour:
         return Serial(
             "own_methods",
-            self.ego.drive(speed(self.limits_middle(self.range_of_speed)), duration=1 * s),
+            self.ego.drive(speed(self.range_of_speed.middle()), duration=1 * s),
             self.ego.drive(speed(self.cruise, at="end"), duration=1 * s),
-            Wait(
-                lambda: self.coach_is_full(self.ego, 40)
-                and not self.double_decker_is_full(self.other, 40)
-            ),
+            Wait(lambda: self.ego.is_full(40) and not self.other.is_full(40)),
             Wait(lambda: self.other.seats == 40 and self.ego.speed > 1 * kph),
             Wait(
                 lambda: isinstance(self.ego, DoubleDecker)

@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import mps, s
+from osc2tx_runtime.units import Speed, Time, mps, s
 
 require_api(1)
 
@@ -43,10 +43,10 @@ class Company(Actor):
 class Leg:
     """Struct `leg`."""
 
-    pace: float = 10 * mps
+    pace: Speed = 10 * mps
     # twice as fast at most
-    most: float
-    time_of: float
+    most: Speed
+    time_of: Time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -56,8 +56,11 @@ class Journey:
     first: Leg
     second: Leg
     stops: list[str]
-    allowed: float
+    allowed: Speed
     is_late: bool = False
+
+    def longest(self) -> Time:
+        return self.first.time_of + self.second.time_of
 
 
 class Cab(Vehicle):
@@ -71,11 +74,17 @@ class Cab(Vehicle):
         self.owner = owner
         self.guest = guest
 
+    def fare(self, km: float) -> float:
+        return 2.5 * km
+
 
 class Limousine(Cab):
     """Actor `limousine`."""
 
     kinds = ("limousine", *Cab.kinds)
+
+    def fare(self, km: float) -> float:
+        return 20.0 + 5.0 * km
 
 
 class Top(Scenario):
@@ -130,15 +139,6 @@ class Ride(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.it_is, speed(self.it_is.trip.first.most), throughout=True)
 
-    def journey_longest(self, journey: Journey) -> float:
-        return journey.first.time_of + journey.second.time_of
-
-    def cab_fare(self, cab: Cab, km: float) -> float:
-        return self.limousine_fare(cab, km) if isinstance(cab, Limousine) else 2.5 * km
-
-    def limousine_fare(self, limousine: Limousine, km: float) -> float:
-        return 20.0 + 5.0 * km
-
     def behavior(self) -> Behaviour:
         return Serial(
             "ride",
@@ -147,9 +147,9 @@ class Ride(Scenario):
             ),
             self.it_is.drive(
                 speed(self.it_is.trip.second.pace),
-                duration=self.journey_longest(self.it_is.trip) - self.it_is.trip.first.time_of,
+                duration=self.it_is.trip.longest() - self.it_is.trip.first.time_of,
             ),
-            Wait(lambda: self.cab_fare(self.it_is, 2.0) == 30.0),
+            Wait(lambda: self.it_is.fare(2.0) == 30.0),
         )
 
 

@@ -20,7 +20,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Length, Speed, Time, m, mps, s
 
 require_api(1)
 
@@ -32,16 +32,16 @@ class DrivingStyle:
     How a test car is driven.
     """
 
-    v: float = 10 * mps
+    v: Speed = 10 * mps
     # To whoever is in front
-    gap: float
+    gap: Length
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CalmStyle(DrivingStyle):
     """Struct `calm_style`."""
 
-    patience: float = 5 * s
+    patience: Time = 5 * s
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

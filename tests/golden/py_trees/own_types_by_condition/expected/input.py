@@ -21,7 +21,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import speed
-from osc2tx_runtime.units import mps, s
+from osc2tx_runtime.units import Speed, mps, s
 
 require_api(1)
 
@@ -39,6 +39,9 @@ class Lorry(Vehicle):
         self.load = load
         self.crew = crew
 
+    def pace(self) -> Speed:
+        return 20 * mps
+
 
 class LoadedLorry(Lorry):
     """Actor `loaded_lorry`.
@@ -51,6 +54,9 @@ class LoadedLorry(Lorry):
     def __init__(self, *, weight: float = 7.5, **fields: Any) -> None:
         super().__init__(**fields)
         self.weight = weight
+
+    def pace(self) -> Speed:
+        return 12 * mps
 
 
 class Top(Scenario):
@@ -79,23 +85,17 @@ class Haul(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.who_load: Load = self.parameter("who.load", any_of("empty", "full"))
-        self.who = Lorry(load=self.who_load)
+        self.who = self.cast("who", Lorry(load=self.who_load))
         self.hands = self.required("hands", int)
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.who, speed(self.lorry_pace(self.who)), throughout=True)
-
-    def lorry_pace(self, lorry: Lorry) -> float:
-        return self.loaded_lorry_pace(lorry) if isinstance(lorry, LoadedLorry) else 20 * mps
-
-    def loaded_lorry_pace(self, loaded_lorry: LoadedLorry) -> float:
-        return 12 * mps
+        self.place(self.who, speed(self.who.pace()), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Serial(
             "haul",
-            self.who.drive(speed(self.lorry_pace(self.who)), duration=1 * s),
+            self.who.drive(speed(self.who.pace()), duration=1 * s),
             Wait(lambda: self.who.crew == self.hands),
         )
 

@@ -24,7 +24,19 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import lane, lateral, position, speed, yaw
-from osc2tx_runtime.units import degps, m, mps, mpsps, ms, s
+from osc2tx_runtime.units import (
+    Angle,
+    AngularRate,
+    Length,
+    Speed,
+    Time,
+    degps,
+    m,
+    mps,
+    mpsps,
+    ms,
+    s,
+)
 
 require_api(1)
 
@@ -36,23 +48,41 @@ class Ramp(AnySpeedShape):
     Evenly from one value to another.
     """
 
-    first: float
-    last: float
-    length: float
+    first: Speed
+    last: Speed
+    length: Time
+
+    def duration(self) -> Time:
+        return self.length
+
+    def share(self, time: Time) -> float:
+        return time / self.length
+
+    def compute(self, time: Time) -> Speed:
+        return self.first + (self.last - self.first) * self.share(time)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sway(AnyLateralShape):
     """Struct `sway`."""
 
-    rate: float
+    rate: Speed
+
+    def compute(self, time: Time) -> Length:
+        return self.rate * time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Turn(AnyShape):
     """Struct `turn`."""
 
-    rate: float
+    rate: AngularRate
+
+    def duration(self) -> Time:
+        return 2 * s
+
+    def compute(self, time: Time) -> Angle:
+        return self.rate * time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,40 +113,22 @@ class Shapes(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, lane(2), position(60 * m), speed(self.ramp_compute(self.up, 0 * s)))
+        self.place(self.ego, lane(2), position(60 * m), speed(self.up.compute(0 * s)))
         self.place(
             self.lead,
             lane(same_as=self.ego),
             position(40 * m, ahead_of=self.ego),
-            speed(self.ramp_compute(self.up, 2 * s)),
+            speed(self.up.compute(2 * s)),
         )
         self.place(self.walker, speed(self.plain.compute(500 * ms)))
-
-    def ramp_duration(self, ramp: Ramp) -> float:
-        return ramp.length
-
-    def ramp_share(self, ramp: Ramp, time: float) -> float:
-        return time / ramp.length
-
-    def ramp_compute(self, ramp: Ramp, time: float) -> float:
-        return ramp.first + (ramp.last - ramp.first) * self.ramp_share(ramp, time)
-
-    def sway_compute(self, sway: Sway, time: float) -> float:
-        return sway.rate * time
-
-    def turn_duration(self, turn: Turn) -> float:
-        return 2 * s
-
-    def turn_compute(self, turn: Turn, time: float) -> float:
-        return turn.rate * time
 
     def behavior(self) -> Behaviour:
         return Parallel(
             "shapes",
             self.ego_serial(),
-            self.lead.drive(speed(self.ramp_compute(self.up, 2 * s)), duration=20 * s),
+            self.lead.drive(speed(self.up.compute(2 * s)), duration=20 * s),
             self.walker.walk(
-                yaw(shape=OwnShape(self.round, self.turn_compute, self.turn_duration)),
+                yaw(shape=OwnShape(self.round, Turn.compute, Turn.duration)),
                 speed(self.plain.compute(500 * ms)),
                 duration=3 * s,
             ),
@@ -128,11 +140,11 @@ class Shapes(Scenario):
             "ego: serial",
             # What holds throughout starts with its first value.
             self.ego.drive(
-                speed(shape=OwnShape(self.up, self.ramp_compute, self.ramp_duration)),
-                duration=self.ramp_duration(self.up),
+                speed(shape=OwnShape(self.up, Ramp.compute, Ramp.duration)),
+                duration=self.up.duration(),
             ),
             self.ego.drive(
-                lateral(shape=OwnShape(self.out, self.sway_compute)),
+                lateral(shape=OwnShape(self.out, Sway.compute)),
                 duration=self.plain.duration() + 1 * s,
             ),
             self.ego.drive(
