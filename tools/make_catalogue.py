@@ -274,11 +274,23 @@ def render() -> dict[Path, str]:
     Raises:
         CatalogueError: The three sources disagree.
     """
-    tables = {"library": library(), "objects": capabilities.objects()}
     return {
-        **{TABLES / f"{n}.json": json.dumps(t, indent=1) + "\n" for n, t in tables.items()},
+        TABLES / "library.json": written(library(), 3) + "\n",
+        TABLES / "objects.json": written(capabilities.objects(), 2) + "\n",
         NAMES: names(),
     }
+
+
+def written(value: Any, depth: int, indent: str = "") -> str:
+    """Return JSON with a line for each member of the dictionaries down to a depth."""
+    if not depth or not isinstance(value, dict):
+        return json.dumps(value)
+    inner = indent + " "
+    members = (
+        f"{inner}{json.dumps(key)}: {written(each, depth - 1, inner)}"
+        for key, each in value.items()
+    )
+    return "{\n" + ",\n".join(members) + f"\n{indent}}}"
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ Each case is a folder with `input.osc` and `expected/`, found by walking.
 
 import ast
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,7 @@ def options_for(case: Path) -> CompileOptions:
     )
 
 
+@cache
 def compile_case(path: Path, options: CompileOptions) -> Compilation:
     compilation = Compilation(path, path.name, options)
     assert compilation.module is not None, compilation.diagnostics
