@@ -75,7 +75,7 @@ CODES = _table(
     Code("OSC504", "unsupported-invocation", ERROR, "No backend can express this invocation yet."),
     Code("OSC505", "start-after-the-start", WARNING, "`at: start` has to hold by then."),
     Code("OSC506", "unsupported-directive", ERROR, "No backend can express this directive yet."),
-    Code("OSC507", "no-such-runtime-action", ERROR, "The runtime library has no such action."),
+    Code("OSC507", "abstract-action", ERROR, "An abstract action has no behavior.", "8.8.1"),
     Code("OSC508", "no-such-runtime-modifier", ERROR, "The action cannot honour this modifier."),
     Code("OSC509", "no-such-runtime-argument", ERROR, "The runtime cannot honour this argument."),
     Code("OSC510", "nothing-to-do", WARNING, "The scenario has no `do`."),

@@ -10,7 +10,6 @@ from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_na
 from osc2tx.backends.py_trees.combinations import CombinationCheck
 from osc2tx.catalogue import Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.diagnostics.suggestions import nearest
 from osc2tx_rules import Rule, violations
 
 # Names that constructors of actions take for themselves.
@@ -61,11 +60,12 @@ class CallCheck:
         if entry is None and node.is_own:
             self._user_action(node, key)
             return
-        if entry is None:
-            near = nearest(key, self._library.actions)
-            help_ = f"the runtime has `{near}`" if near else None
+        if entry is None:  # the tables are complete: only abstract actions have no entry
             self._sink.report(
-                "OSC507", node.span, f"the runtime has no action `{key}` yet", help=help_
+                "OSC507",
+                node.span,
+                f"`{key}` is abstract: it stands for the actions that derive from it",
+                help="call one of these, such as `drive`",
             )
             return
         self._expressions((node.actor,))
