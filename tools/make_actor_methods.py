@@ -141,10 +141,10 @@ def _modifiers(factory: type[Any], imports: Imports) -> Iterator[str]:
     if issubclass(factory, ShapedAction) and not set(GROUPS[STARTS]) <= taken:
         groups.append(STARTS)
         left -= set(GROUPS[STARTS])
-    single = sorted(kind.__name__ for kind in left)
     imports.setdefault(own, set()).update(groups)
-    imports.setdefault(MODIFIERS, set()).update(single)
-    yield from (*groups, *single)
+    for kind in left:
+        imports.setdefault(kind.__module__, set()).add(kind.__name__)
+    yield from (*groups, *sorted(kind.__name__ for kind in left))
 
 
 def _parameters(factory: type[Any], imports: Imports) -> Iterator[str]:

@@ -175,7 +175,7 @@ def test_a_way_in_a_time_with_a_speed_at_its_end(run: Run, dt: float) -> None:
     [
         (
             lambda s: s.a.drive(position(10.0, ahead_of=s.b, at="end"), duration=2.0),
-            "a drive (two_cars.osc) failed at 2.000 s: when its time is over it is 46.0 m short of"
+            ") (two_cars.osc) failed at 2.000 s: when its time is over it is 46.0 m short of"
             " its place; it can do 4 and -8 m/s^2",
         ),
         (
@@ -266,7 +266,7 @@ def test_a_goal_that_is_not_there_at_the_end_of_the_phase(run: Run) -> None:
         return Parallel("phase", act, s.b.drive(), duration=2.0)
 
     done = run(scenario(body))
-    assert "a drive (two_cars.osc) failed at 2.000 s: when its time is over" in done.result.reason
+    assert "(two_cars.osc) failed at 2.000 s: when its time is over" in done.result.reason
 
 
 def test_a_path_ends_before_its_phase(run: Run) -> None:

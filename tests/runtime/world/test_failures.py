@@ -56,139 +56,139 @@ AT_ONCE = 1.0
 CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
     (
         lambda s: s.a.change_lane(num_of_lanes=3, side="left"),
-        "a change_lane",
+        "a.change_lane",
         1.05,
         "there are not 3 driving lanes to the left of lane -3 of road 1 at s = 60.0 m",
     ),
     (
         lambda s: s.a.drive(lane(7)),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "road 1 has no lane 7 from the right at s = 60.0 m",
     ),
     (
         lambda s: s.a.drive(change_lane(3, side="right")),
-        "a drive",
+        "a.drive",
         1.05,
         "there are not 3 driving lanes to the right of lane -3 of road 1 at s = 60.0 m",
     ),
     (
         lambda s: s.a.drive(change_lane(2, side="right"), lateral(0.3)),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "there is no such lane to the right of lane -3 of road 1 at s = 60.0 m",
     ),
     (
         lambda s: s.a.drive(lane(side_of=s.walker, side="left"), duration=3.0),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "walker is not on a road, so it has no lane",
     ),
     (
         lambda s: s.a.change_speed(MUST, target=60.0, duration=2.0),
-        "a change_speed",
+        "a.change_speed",
         AT_ONCE,
         "10.0 to 60.0 m/s in 2 s takes more than 4 m/s^2",
     ),
     (
         lambda s: s.a.change_acceleration(target=5.0),
-        "a change_acceleration",
+        "a.change_acceleration",
         AT_ONCE,
         "an acceleration of 5.00 m/s^2 is beyond the 4 m/s^2 it can do",
     ),
     (
         lambda s: s.a.drive(MUST, lane(3, at="end"), duration=0.5),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "3.5 m sideways in 0.5 s takes more than 3 m/s^2; 2.60 s are possible",
     ),
     (
         lambda s: s.a.change_lane(side="left", rate_peak=lambda: -1.0),
-        "a change_lane",
+        "a.change_lane",
         AT_ONCE,
         "rate_peak -1 m/s is not positive",
     ),
     (
         lambda s: s.a.change_lane(side="left", rate_peak=1.0, duration=3.0),
-        "a change_lane",
+        "a.change_lane",
         AT_ONCE,
         "with rate_peak 1 m/s it takes 6.56 s, not 3 s",  # 1.875 * 3.5 / 1
     ),
     (
         lambda s: s.a.change_lane(MUST, side="left", duration=1.0),
-        "a change_lane",
+        "a.change_lane",
         AT_ONCE,
         "3.5 m sideways in 1 s takes more than 3 m/s^2; 2.60 s are possible",
     ),
     (
         lambda s: s.a.change_lane(target=lane_of("2", -1)),
-        "a change_lane",
+        "a.change_lane",
         AT_ONCE,
         "a is on road 1, so it cannot change to lane -1 of road 2",
     ),
     (
         lambda s: s.a.follow_lane(target=lane_of("1", 2), duration=2.0),
-        "a follow_lane",
+        "a.follow_lane",
         AT_ONCE,
         "lane 2 of road 1 is not beside lane -3 at s = 60.0 m",
     ),
     (
         lambda s: s.a.drive(distance(-5.0)),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "the place it is to be at lies 5.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(20.0, at="end")),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "the place it is to be at lies 40.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(at_point=Point(30.0, -8.75), at="end")),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "the place it is to be at lies 30.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(at_point=Point(100.0, 8.75), at="end")),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "no lane leads from a to (100, 8.75)",
     ),
     (
         lambda s: s.a.change_position(target_odr=OdrPoint("9", "-1", 5.0)),
-        "a change_position",
+        "a.change_position",
         AT_ONCE,
         "there is no road `9`",
     ),
     (
         lambda s: s.a.change_position(target_xyz=Point(100.0, 60.0)),
-        "a change_position",
+        "a.change_position",
         AT_ONCE,
         "no driving lane is at (100, 60)",
     ),
     (
         lambda s: s.a.change_position(target_odr=OdrPoint("1", "-3", 30.0)),
-        "a change_position",
+        "a.change_position",
         AT_ONCE,
         "no way along lanes leads from lane -3 of road 1 to lane -3 of road 1, s = 30.0 m",
     ),
     (
         lambda s: s.a.assign_position(odr_point=OdrPoint("1", "-9", 5.0)),
-        "a assign_position",
+        "a.assign_position",
         AT_ONCE,
         "road `1` has no lane -9 at s = 5.000 m; it has -5, -4, -3, -2, -1, 1, 2, 3, 4",
     ),
     (
         lambda s: s.a.follow_path(absolute=Path((Pose(900.0, 0.0), Pose(950.0, 0.0)))),
-        "a follow_path",
+        "a.follow_path",
         AT_ONCE,
         "the path is 840 m away, too far to get there",
     ),
     (
         lambda s: s.a.follow_path(absolute=Path((Pose(70.0, -8.0),))),
-        "a follow_path",
+        "a.follow_path",
         AT_ONCE,
         "the path has no length: it needs two different points",
     ),
@@ -197,13 +197,13 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
             relative=RelativePathSt((RoutePoint(None, 0.0), RoutePoint(None, 20.0))),
             transform="lane_relative",
         ),
-        "walker follow_path",
+        "walker.follow_path",
         AT_ONCE,
         "the reference is on no road",
     ),
     (
         lambda s: s.a.drive(along(OFF_ROAD, start_offset=900.0)),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "start_offset 900 m and end_offset 0 m leave nothing of a path of",
     ),
@@ -211,7 +211,7 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.follow_trajectory(
             absolute=Trajectory((Pose(60.0, -8.75), Pose(90.0, -8.75)), (3.0, 1.0))
         ),
-        "a follow_trajectory",
+        "a.follow_trajectory",
         AT_ONCE,
         "the time stamps of a trajectory start at 0 s or later, and ascend",
     ),
@@ -219,37 +219,37 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.follow_trajectory(
             absolute=Trajectory((Pose(60.0, -8.75), Pose(900.0, -8.75)), (0.0, 4.0)),
         ),
-        "a follow_trajectory",
+        "a.follow_trajectory",
         15.1,
         "m from the end, 10 s after its time",
     ),
     (
         lambda s: s.a.keep_space_gap(reference=s.b, direction="lateral", duration=2.0),
-        "a keep_space_gap",
+        "a.keep_space_gap",
         AT_ONCE,
         "a is in the lane of b, so there is no gap to keep",
     ),
     (
         lambda s: s.a.change_time_gap(target=2.0, direction="right", reference=s.b),
-        "a change_time_gap",
+        "a.change_time_gap",
         AT_ONCE,
         "it is not to the right of b",
     ),
     (
         lambda s: s.a.disconnect_trailer(),
-        "a disconnect_trailer",
+        "a.disconnect_trailer",
         AT_ONCE,
         "a tows no trailer",
     ),
     (
         lambda s: s.a.drive(yaw(1.2), duration=2.0),
-        "a drive",
+        "a.drive",
         AT_ONCE,
         "a follows its lane and can turn 28.6 degrees from it, not 68.8",
     ),
     (
         lambda s: s.a.change_speed(target=14.0, duration=(0.1, 0.5)),
-        "a change_speed",
+        "a.change_speed",
         AT_ONCE,
         "10.0 to 14.0 m/s in 0.5 s takes more than 12 m/s^2",
     ),
@@ -268,9 +268,11 @@ def test_a_failure_says_what_where_when_and_why(
 
     done = run(Failing)
     assert done.result.status == "failure"
-    assert done.result.reason.startswith(f"{node} (two_cars.osc) failed at {time:.3f} s: ")
+    name, _, rest = done.result.reason.partition(" (two_cars.osc) ")
+    assert name.startswith(f"{node}(")
+    assert rest.startswith(f"failed at {time:.3f} s: ")
     assert why in done.result.reason
-    (line,) = done.actions(node, "fail")
+    (line,) = done.actions(node.replace(".", " "), "fail")
     assert line["t"] == pytest.approx(time)
     assert line["reason"] in done.result.reason
 
@@ -328,7 +330,7 @@ def test_a_reference_that_leaves_the_road(
         return Parallel("both", act, s.b.follow_path(absolute=far))
 
     done = run(scenario(body))
-    assert "a drive (two_cars.osc) failed at " in done.result.reason
+    assert done.result.reason.startswith("a.drive(*given, duration=time) (two_cars.osc) failed at ")
     assert why in done.result.reason
 
 

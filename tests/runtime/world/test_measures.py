@@ -12,6 +12,7 @@ from osc2tx_runtime.domain.actors import Person, StationaryObject, Vehicle
 from osc2tx_runtime.domain.modifiers import MODIFIERS
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.registry import methods
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
@@ -100,7 +101,7 @@ def test_reading_before_the_run_is_an_error() -> None:
 
 def test_unknown_names_have_suggestions() -> None:
     with pytest.raises(ScenarioError, match="did you mean change_lane"):
-        Vehicle().change_lan(side="left").setup()
+        methods.bind(Vehicle(), "change_lan")(side="left").setup()
     with pytest.raises(ScenarioError, match="vehicle_category `lorry` is none of car, van"):
         Vehicle(vehicle_category="lorry")
     with pytest.raises(TypeError, match="wheels"):

@@ -38,7 +38,7 @@ def test_no_way_back_where_it_is_monotonous(run: Run) -> None:
     back = own(lambda t: 10.0 * t - t * t, 8.0)
     done = run(scenario(lambda s: s.a.drive(distance(16.0, shape=back, movement_mode=MONOTONOUS))))
     assert "distance: it would have to turn back after 5.0 s" in done.result.reason
-    with pytest.raises(UnsupportedError, match="monotonous and prefer_non_physical exclude"):
+    with pytest.raises(UnsupportedError, match="`monotonous` and `prefer_non_physical` exclude"):
         run(scenario(lambda s: s.a.drive(distance(16.0, movement_mode=MONOTONOUS), JUMP)))
 
 

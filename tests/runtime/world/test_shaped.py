@@ -265,7 +265,7 @@ def test_what_does_not_hold_at_the_start_is_one(
 
     done = run(scenario(body))
     assert done.result.status == "failure"
-    assert "a drive (two_cars.osc) failed at 1.000 s: " in done.result.reason
+    assert " (two_cars.osc) failed at 1.000 s: " in done.result.reason
     assert reason in done.result.reason
 
 

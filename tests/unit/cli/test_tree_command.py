@@ -41,11 +41,11 @@ def tree(*arguments: str | Path) -> Result:
 
 def test_text(source: Path) -> None:
     assert tree(source).output == (
-        "parallel two_steps                           two_steps.osc:8\n"
-        "├─ serial steps                              two_steps.osc:9\n"
-        "│  ├─ ego.drive: duration: 3s, speed(10mps)  two_steps.osc:10\n"
-        "│  └─ wait @ready                            two_steps.osc:12\n"
-        "└─ emit ready                                two_steps.osc:13\n"
+        "parallel two_steps                                two_steps.osc:8\n"
+        "├─ serial steps                                   two_steps.osc:9\n"
+        "│  ├─ ego.drive(speed(10 * mps), duration=3 * s)  two_steps.osc:10\n"
+        "│  └─ wait @ready                                 two_steps.osc:12\n"
+        "└─ emit ready                                     two_steps.osc:13\n"
     )
 
 

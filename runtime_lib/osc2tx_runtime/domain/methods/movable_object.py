@@ -19,15 +19,11 @@ if TYPE_CHECKING:
         StartModifier,
         TurnModifier,
     )
-    from osc2tx_runtime.domain.modifiers import (
-        Distance,
-        KeepPosition,
-        Lane,
-        PhysicalMovement,
-        Position,
-        Speed,
-        Value,
-    )
+    from osc2tx_runtime.domain.modifiers import Value
+    from osc2tx_runtime.domain.modifiers.conduct import PhysicalMovement
+    from osc2tx_runtime.domain.modifiers.lane import Lane
+    from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition, Position
+    from osc2tx_runtime.domain.modifiers.speed import Speed
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.paths.path_values import (
         Path,

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
         SpeedModifier,
         StartModifier,
     )
-    from osc2tx_runtime.domain.modifiers import Distance, KeepPosition, Value
+    from osc2tx_runtime.domain.modifiers import Value
+    from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition
     from osc2tx_runtime.domain.objects.parts import Towable
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
