@@ -60,7 +60,7 @@ def test_they_run_by_themselves(module: Path, tmp_path: Path) -> None:
     )
     assert result.returncode == 0, result.stderr
     assert f"{module.stem}: success" in result.stdout
-    assert f'"source":"{module.stem}.osc:' in trace.read_text(encoding="utf-8")
+    assert f'"source":"{module.stem}.osc' in trace.read_text(encoding="utf-8")
     assert report.stat().st_size > 10_000
 
 

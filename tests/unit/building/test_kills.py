@@ -141,23 +141,19 @@ def test_killed_for_real(tmp_path: Path) -> None:
     subprocess.run(command(whole), env=environment, check=True, capture_output=True)
     length = time.monotonic() - started
     new = contents(whole.out)
-    outcomes = set()
     for _ in range(20):
         victim = project.copy(tmp_path / "victim")
         process = subprocess.Popen(
             command(victim), env=environment, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL
         )
         try:
-            process.wait(timeout=length * chance.uniform(0.5, 1.05))
+            process.wait(timeout=length * chance.uniform(0.2, 1.05))
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGKILL)
         process.wait()
         assert_old_or_new(victim, old, new)
-        changed = sum(contents(victim.out).get(name) == new[name] for name in new)
-        outcomes.add(0 if changed == 0 else 2 if changed == len(new) else 1)
         assert_heals(victim, new)
         shutil.rmtree(victim.folder)
-    assert outcomes >= {0}
 
 
 @pytest.mark.slow
