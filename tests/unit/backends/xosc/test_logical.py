@@ -314,7 +314,11 @@ def test_runs_of_a_choice_do_what_the_member_alone_does(tmp_path: Path) -> None:
     for run in runs(found):
         path = tmp_path / run["branch"] / "a.osc"
         path.parent.mkdir()
-        text = SCENARIO.format(then=f"{members[run['branch']]}{after}", **given)
+        alone = "".join(  # on the line that it has among the others
+            f"\n            {member if label == run['branch'] else '# another one'}"
+            for label, member in members.items()
+        )
+        text = SCENARIO.format(then=f"serial:{alone}{after}", **given)
         path.write_text(HEAD + text, encoding="utf-8")
         assert_runs_like(found, with_values(found, run), path, RunSettings(dt=0.05))
 
