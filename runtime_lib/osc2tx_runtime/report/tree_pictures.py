@@ -104,8 +104,10 @@ def _kind(node: Behaviour) -> str:
 
 
 def _text(node: Behaviour) -> str:
-    """The name, without what the kind says already."""
+    """The name, without what the kind says already; a label with what the action does."""
     kind = _kind(node)
+    if isinstance(node, Action) and node.label is not None:
+        return f"{node.label}: {node.action_name}"
     name = node.name.removeprefix(kind).lstrip(" ,")
     return "" if name == kind else name
 

@@ -23,6 +23,7 @@ scenario two_steps:
             ego.drive(duration: 3s) with:
                 speed(10mps)
             wait @ready
+            rest: ego.drive(duration: 1s)
         emit ready
 """
 
@@ -44,8 +45,9 @@ def test_text(source: Path) -> None:
         "parallel two_steps                                two_steps.osc:8\n"
         "├─ serial steps                                   two_steps.osc:9\n"
         "│  ├─ ego.drive(speed(10 * mps), duration=3 * s)  two_steps.osc:10\n"
-        "│  └─ wait @ready                                 two_steps.osc:12\n"
-        "└─ emit ready                                     two_steps.osc:13\n"
+        "│  ├─ wait @ready                                 two_steps.osc:12\n"
+        "│  └─ rest: ego drive                             two_steps.osc:13\n"
+        "└─ emit ready                                     two_steps.osc:14\n"
     )
 
 
@@ -56,7 +58,7 @@ def test_picture(source: Path) -> None:
     width, height = float(root.get("width", "")), float(root.get("height", ""))
     texts = [text for text in root.iterfind("{*}text") if text.text]
     assert [t.text for t in texts if t.text and ".osc:" in t.text] == [
-        f"two_steps.osc:{line}" for line in (8, 9, 10, 12, 13)
+        f"two_steps.osc:{line}" for line in (8, 9, 10, 12, 13, 14)
     ]
     assert all(0 < float(t.get("x", "")) < width for t in texts)
     assert all(0 < float(t.get("y", "")) < height for t in texts)
