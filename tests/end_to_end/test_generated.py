@@ -1,6 +1,7 @@
 """The committed modules: fresh, clean by every tool, and running by themselves."""
 
 import runpy
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 from py_trees.display import ascii_tree
 
 from osc2tx.testing import assert_build_fresh
-from tests.end_to_end.harness import REPOSITORY, SCENARIOS
+from tests.end_to_end.harness import REPOSITORY, SCENARIOS, generate
 from tests.processes import forked
 
 GENERATED = REPOSITORY / "generated"
@@ -52,15 +53,18 @@ def test_they_pass_strict_mypy() -> None:
 def test_they_run_by_themselves(module: Path, tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
     report = tmp_path / "report.html"
+    place = shutil.copy(module, tmp_path)  # its map is not committed
+    source_map = generate(SCENARIOS / f"{module.stem}.osc").source_map
+    Path(place).with_suffix(".map.json").write_text(source_map, encoding="utf-8")
     result = subprocess.run(
-        [sys.executable, str(module), "--trace", str(trace), "--report", str(report)],
+        [sys.executable, place, "--trace", str(trace), "--report", str(report)],
         capture_output=True,
         text=True,
         cwd=tmp_path,
     )
     assert result.returncode == 0, result.stderr
     assert f"{module.stem}: success" in result.stdout
-    assert f'"source":"{module.stem}.osc' in trace.read_text(encoding="utf-8")
+    assert f'"source":"{module.stem}.osc:' in trace.read_text(encoding="utf-8")
     assert report.stat().st_size > 10_000
 
 
