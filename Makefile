@@ -9,12 +9,15 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo test test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla test test-carla test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/
 	$(BIN)/osc2tx run scenarios/cut_in_and_evade.osc --trace out/cut_in_and_evade.jsonl --report out/cut_in_and_evade.html
 	@echo "Open out/cut_in_and_evade.html in a browser."
+
+# Bytecode is kept whatever the environment says: else each process of the tests compiles all anew.
+unexport PYTHONDONTWRITEBYTECODE
 
 # The files of the tests are shared out among the processors.
 PYTEST := $(BIN)/pytest -q -n auto --dist loadfile
@@ -24,6 +27,18 @@ test: lint
 
 test-slow: $(STAMP)
 	$(PYTEST) -m slow
+
+# Over CARLA's own client library, against a stand-in for its server.
+test-carla: $(VENV)/.carla
+	$(PYTEST) tests/carla
+
+# The case study in CARLA, without a server: reports in out/.
+demo-carla: $(VENV)/.carla
+	$(BIN)/python -m tests.carla.demo
+
+$(VENV)/.carla: $(STAMP)
+	$(INSTALL) -e ".[carla-test]"
+	touch $@
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

@@ -31,9 +31,9 @@ class CutIn(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
         self.v_ego = self.parameter("v_ego", 70 * kph)
 
         # Faster than the ego vehicle, but not by much

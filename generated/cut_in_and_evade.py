@@ -40,14 +40,16 @@ class CutInAndEvade(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         # Cast
-        self.highway = Map(map_file="highway.xodr")
-        self.env = Environment()
-        self.hero = Vehicle(vehicle_category="car")
-        self.npc = Vehicle(vehicle_category="truck")
-        self.obstacle = StationaryObject()
+        self.highway = self.cast("highway", Map(map_file="highway.xodr"))
+        self.env = self.cast("env", Environment())
+        self.hero = self.cast("hero", Vehicle(vehicle_category="car"))
+        self.npc = self.cast("npc", Vehicle(vehicle_category="truck"))
+        self.obstacle = self.cast("obstacle", StationaryObject())
 
         # The obstacle stands in the third lane from the right.
-        self.obstacle_pose = Pose(x=900 * m, y=-5.25 * m, z=0 * m, yaw=0 * deg)
+        self.obstacle_pose = self.argument(
+            "obstacle_pose", Pose(x=900 * m, y=-5.25 * m, z=0 * m, yaw=0 * deg)
+        )
 
         # Speeds and distances
         self.v_hero = self.parameter("v_hero", 60 * kph)

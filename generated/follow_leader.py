@@ -6,7 +6,16 @@ Made by osc2tx from follow_leader.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import kph, m, s
 
@@ -19,9 +28,9 @@ class FollowLeader(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.leader = Vehicle()
-        self.follower = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.leader = self.cast("leader", Vehicle())
+        self.follower = self.cast("follower", Vehicle())
         self.v_start = self.parameter("v_start", 60 * kph)
         self.v_low = self.parameter("v_low", 30 * kph)
 

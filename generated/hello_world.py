@@ -33,17 +33,21 @@ require_api(1)
 class HelloWorld(Scenario):
     name = "hello_world"
     source = "hello_world.osc"
+    first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
         # --- DEFINITIONS ---
-        self.carla_map = Map(map_file="Town06")
-        self.env = Environment()
-        self.hero = Vehicle(model="vehicle.tesla.model3", name="hero")
-        self.npc = Vehicle(
-            model="vehicle.carlamotors.european_hgv", name="npc", color=Rgb("0,128,0")
+        self.carla_map = self.cast("carla_map", Map(map_file="Town06"))
+        self.env = self.cast("env", Environment())
+        self.hero = self.cast("hero", Vehicle(model="vehicle.tesla.model3", name="hero"))
+        self.npc = self.cast(
+            "npc",
+            Vehicle(model="vehicle.carlamotors.european_hgv", name="npc", color=Rgb("0,128,0")),
         )
-        self.obstacle = StationaryObject(name="obstacle", model="static.prop.trafficwarning")
+        self.obstacle = self.cast(
+            "obstacle", StationaryObject(name="obstacle", model="static.prop.trafficwarning")
+        )
 
         # --- GLOBAL VARIABLES ---
         self.v_hero = 35 * kph

@@ -1,5 +1,5 @@
 """`python -m osc2tx`."""
 
-from osc2tx.cli import main
+from osc2tx.start import main
 
 main()

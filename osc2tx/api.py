@@ -11,7 +11,7 @@
 ...             speed(30kph)
 ... ''', name="cruise.osc")
 >>> result.ok, sorted(result.outputs)
-(True, ['cruise.map.json', 'cruise.py', 'cruise.xosc', 'cruise.xosc.report.json'])
+(True, ['cruise.map.json', 'cruise.py', 'cruise.xosc'])
 >>> "class Cruise(Scenario):" in result.python
 True
 """
@@ -20,14 +20,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import TypedDict, Unpack
 
-from osc2tx.building.jobs import find_jobs
+from osc2tx.building.jobs import find_jobs, options_of
+from osc2tx.building.manifest import beside
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.inputs import InputError
+from osc2tx.compilation.needed_modules import sibling_modules
+from osc2tx.compilation.products import files_of_module
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
+from osc2tx.support.output_names import MODULE
 
 __all__ = ["CompileResult", "compile_file", "compile_text"]
 
@@ -41,24 +47,22 @@ class CompileResult:
         diagnostics: What was reported and no comment suppresses, in order of place.
         outputs: Names of files to what they hold: the module, the map of its nodes to lines of
             the source, and for each scenario OpenSCENARIO XML, if that can say what it says, and
-            the report on it. Empty for a source with errors, or without scenarios.
+            the report on what is not exact; then the modules of imported files that the module
+            needs. Empty for a source with errors, or without scenarios.
         levels: Scenario to `abstract`, `logical` or `concrete` (§5.2).
+        python: The py_trees module; `None` if there is none.
     """
 
     name: str
     diagnostics: tuple[Diagnostic, ...]
     outputs: Mapping[str, str]
     levels: Mapping[str, str]
+    python: str | None
 
     @property
     def ok(self) -> bool:
         """Whether there are no errors; warnings are fine."""
         return all(found.severity is not Severity.ERROR for found in self.diagnostics)
-
-    @property
-    def python(self) -> str | None:
-        """The py_trees module; `None` if there is none."""
-        return next((text for name, text in self.outputs.items() if name.endswith(".py")), None)
 
     @property
     def xml(self) -> str | None:
@@ -73,30 +77,16 @@ class CompileResult:
             OSError: If a file cannot be written.
         """
         place = Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
         for name, text in self.outputs.items():
+            (place / name).parent.mkdir(parents=True, exist_ok=True)
             (place / name).write_text(text, encoding="utf-8", newline="\n")
         return [place / name for name in self.outputs]
 
 
-def compile_file(
-    path: str | Path,
-    *,
-    std: Standard | None = None,
-    dialect: Dialect | None = None,
-    one_of: OneOfPolicy | None = None,
-    target: Target | None = None,
-    xml_version: XmlVersion | None = None,
-    xml_profile: XmlProfile | None = None,
-    allow_approx: bool | None = None,
-) -> CompileResult:
-    """Compile a scenario file as `osc2tx build` does, without writing anything.
+class Options(TypedDict, total=False):
+    """What one may ask for; what is not given comes from settings files, then from the defaults.
 
-    What is not given comes from the nearest `osc2tx.toml` or `pyproject.toml`, then from the
-    defaults. The file may import what lies in its folder and in that of the settings file.
-
-    Args:
-        path: The file.
+    Attributes:
         std: Version of the standard.
         dialect: Dialect of the source.
         one_of: Meaning of `one_of`.
@@ -104,6 +94,31 @@ def compile_file(
         xml_version: Version of OpenSCENARIO XML.
         xml_profile: Tool that is to read the XML.
         allow_approx: Whether XML may mean nearly the same.
+        import_paths: Folders with libraries, where modules are looked for after the project.
+    """
+
+    std: Standard | None
+    dialect: Dialect | None
+    one_of: OneOfPolicy | None
+    target: Target | None
+    xml_version: XmlVersion | None
+    xml_profile: XmlProfile | None
+    allow_approx: bool | None
+    import_paths: tuple[str, ...] | None
+
+
+def compile_file(
+    path: str | Path,
+    **options: Unpack[Options],
+) -> CompileResult:
+    """Compile a scenario file as `osc2tx build` does, without writing anything.
+
+    The file may import what lies in its folder and in that of the settings file, the nearest
+    `osc2tx.toml` or `pyproject.toml`.
+
+    Args:
+        path: The file.
+        **options: See `Options`.
 
     Raises:
         InputError: If there is no such file.
@@ -111,8 +126,7 @@ def compile_file(
     """
     if Path(path).is_dir():
         raise InputError(f"{path}: is a folder; name one scenario file")
-    given = GivenOptions(std, dialect, one_of, target, xml_version, xml_profile, allow_approx)
-    (job,) = find_jobs([path], given, ConfigFiles())
+    (job,) = find_jobs([path], GivenOptions(**options), ConfigFiles())
     return _result(job.compilation())
 
 
@@ -121,13 +135,7 @@ def compile_text(
     *,
     name: str = "scenario.osc",
     folder: str | Path = ".",
-    std: Standard | None = None,
-    dialect: Dialect | None = None,
-    one_of: OneOfPolicy | None = None,
-    target: Target | None = None,
-    xml_version: XmlVersion | None = None,
-    xml_profile: XmlProfile | None = None,
-    allow_approx: bool | None = None,
+    **options: Unpack[Options],
 ) -> CompileResult:
     """Compile a text as if it were the file `name` of a folder; that file need not exist.
 
@@ -141,31 +149,32 @@ def compile_text(
         text: The text.
         name: How diagnostics and generated files call it.
         folder: Where imported files are looked for, and from where settings files.
-        std: Version of the standard.
-        dialect: Dialect of the source.
-        one_of: Meaning of `one_of`.
-        target: What to make.
-        xml_version: Version of OpenSCENARIO XML.
-        xml_profile: Tool that is to read the XML.
-        allow_approx: Whether XML may mean nearly the same.
+        **options: See `Options`.
 
     Raises:
         ConfigError: If a settings file is wrong.
     """
     path = Path(folder, name)
     config = ConfigFiles().for_source(path)
-    given = GivenOptions(std, dialect, one_of, target, xml_version, xml_profile, allow_approx)
-    options = config.options_for(path, given)
-    return _result(Compilation(path, name, options, roots=config.roots, text=text))
+    given = GivenOptions(**options)
+    chosen = config.options_for(path, given)
+    others = partial(options_of, given=given)
+    return _result(
+        Compilation(path, name, chosen, roots=config.roots, text=text, options_of=others)
+    )
 
 
 def _result(compilation: Compilation) -> CompileResult:
     outputs = {
         f"{compilation.stem}{output.suffix}": output.text for output in compilation.outputs()
     }
+    for sibling in sibling_modules(compilation):
+        for output in files_of_module(sibling):
+            outputs[beside(sibling.source, f"{sibling.stem}{output.suffix}")] = output.text
     return CompileResult(
         name=compilation.name,
         diagnostics=compilation.diagnostics,
         outputs=outputs,
         levels={entry.name: entry.level for entry in compilation.scenarios},
+        python=outputs.get(f"{compilation.stem}{MODULE}"),
     )

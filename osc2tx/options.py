@@ -57,6 +57,7 @@ class CompileOptions:
         target: What is made: modules, OpenSCENARIO XML, or both, XML then only where it can say
             what the scenario says.
         xml: What counts for OpenSCENARIO XML only.
+        import_paths: Folders with libraries: modules are looked for there, after the project.
     """
 
     standard: Standard = "2.1"
@@ -64,3 +65,4 @@ class CompileOptions:
     one_of: OneOfPolicy = "race"
     target: Target = "all"
     xml: XmlOptions = XmlOptions()
+    import_paths: tuple[str, ...] = ()

@@ -108,12 +108,14 @@ class Run:
         reason: Why it is not `success`.
         time: Simulated seconds.
         lines: The trace.
+        warnings: What is wrong with a run that goes on all the same.
     """
 
     status: str
     reason: str
     time: float
     lines: tuple[Line, ...]
+    warnings: tuple[str, ...]
 
     def of_kind(self, kind: str) -> list[Line]:
         """Return the lines of a kind, in order."""
@@ -176,7 +178,7 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
         chosen = choose_scenario(scenarios, scenario, path)
         result = run(chosen, replace(stated, **settings))
     lines = tuple(json.loads(line) for line in result.trace_lines)
-    return Run(result.status, result.reason, result.time, lines)
+    return Run(result.status, result.reason, result.time, lines, result.warnings)
 
 
 @contextmanager
@@ -184,6 +186,7 @@ def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.building.jobs import compile_all
     from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
     from osc2tx.compilation.inputs import find_inputs
+    from osc2tx.compilation.needed_modules import sibling_modules
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all
 
@@ -195,5 +198,5 @@ def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     (compilation,) = compile_all([path], GivenOptions())
     module = compilation.module
     assert module is not None, render_all(compilation.diagnostics) or f"{path} has no scenario"
-    with scenarios_of_module(module) as scenarios:
+    with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
         yield scenarios

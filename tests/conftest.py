@@ -1,5 +1,6 @@
 """Shared fixtures: golden files and the optional test data; how properties are tried."""
 
+import gc
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -32,14 +33,30 @@ def pytest_configure(config: pytest.Config) -> None:
         raise pytest.UsageError("--update-golden is refused when CI is set")
 
 
-@pytest.fixture
-def golden(request: pytest.FixtureRequest) -> Callable[[str, Path], None]:
-    """Compare a text with an expected file, or rewrite that file under --update-golden."""
+def pytest_collection_finish() -> None:
+    """Look for garbage as rarely as the command does, and not among what is there to stay."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(200_000, 30, 30)
 
-    def check(actual: str, expected: Path) -> None:
+
+@pytest.fixture
+def golden(request: pytest.FixtureRequest) -> Callable[[str | None, Path], None]:
+    """Compare a text with an expected file, or rewrite that file under --update-golden.
+
+    Where there is no text there is to be no file.
+    """
+
+    def check(actual: str | None, expected: Path) -> None:
         if request.config.getoption("--update-golden"):
+            if actual is None:
+                expected.unlink(missing_ok=True)
+                return
             expected.parent.mkdir(parents=True, exist_ok=True)
             expected.write_text(actual, encoding="utf-8", newline="\n")
+            return
+        if actual is None:
+            assert not expected.exists(), f"{expected} is left over"
             return
         if not expected.exists():
             pytest.fail(f"missing golden file {expected}; run pytest --update-golden")

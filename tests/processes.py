@@ -7,9 +7,9 @@ import signal
 import sys
 import traceback
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import NoReturn
 
 HANGING = 600
@@ -34,24 +34,30 @@ class Ended:
 def forked(main: Callable[[], object], folder: Path | None = None) -> Ended:
     """Call something that may end its process in a copy of this one; nothing is imported again.
 
+    What it prints goes through pipes, since a limit on the size of files must not touch it.
+
     Args:
         main: What to call.
         folder: The working directory, if not that of this process.
     """
-    with (
-        TemporaryFile("w+", encoding="utf-8") as out,
-        TemporaryFile("w+", encoding="utf-8") as err,
-    ):
-        process = os.fork()
-        if process == 0:
-            os.dup2(out.fileno(), 1)
-            os.dup2(err.fileno(), 2)
-            os.chdir(folder or os.curdir)
-            _end_with(main)
-        _, status = os.waitpid(process, 0)
-        out.seek(0)
-        err.seek(0)
-        return Ended(os.waitstatus_to_exitcode(status), out.read(), err.read())
+    pipes = os.pipe(), os.pipe()
+    process = os.fork()
+    if process == 0:
+        for number, (_, end) in enumerate(pipes, 1):
+            os.dup2(end, number)
+        os.chdir(folder or os.curdir)
+        _end_with(main)
+    for _, end in pipes:
+        os.close(end)
+    with ThreadPoolExecutor(len(pipes)) as readers:
+        out, err = readers.map(_read, (beginning for beginning, _ in pipes))
+    _, status = os.waitpid(process, 0)
+    return Ended(os.waitstatus_to_exitcode(status), out, err)
+
+
+def _read(pipe: int) -> str:
+    with open(pipe, encoding="utf-8") as text:
+        return text.read()
 
 
 def _end_with(main: Callable[[], object]) -> NoReturn:
@@ -68,6 +74,8 @@ def _end_with(main: Callable[[], object]) -> NoReturn:
     except BaseException:  # as the interpreter does it
         traceback.print_exc()
     finally:
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(code)
+        try:
+            sys.stdout.flush()
+            sys.stderr.flush()
+        finally:  # a copy of the tests must never go on as the tests
+            os._exit(code)

@@ -49,8 +49,10 @@ def _section(name: str) -> list[str]:
     lines += inspect.cleandoc(command.help or "").split("\n")
     rows = [
         record
-        for parameter in command.params
-        if isinstance(parameter, click.Option) and (record := parameter.get_help_record(inner))
+        for parameter in command.get_params(inner)
+        if isinstance(parameter, click.Option)
+        and "--help" not in parameter.opts
+        and (record := parameter.get_help_record(inner))
     ]
     lines += ["", "| option | |", "|---|---|"] if rows else []
     lines += [f"| `{_code(option)}` | {_words(help)} |" for option, help in rows]

@@ -61,7 +61,8 @@ def render() -> str:
             "## In `[scenarios.NAME.run]`\n",
             "Options of `osc2tx run`, written as on the command line. Lists are put together with",
             "those of the command line, item by item; of two values for one name that of the",
-            "command line counts. Paths are relative to the settings file.\n",
+            "command line counts. Paths are relative to the settings file. Where `world` names",
+            "another world than `embedded`, the options of that world are keys too.\n",
             _table(run),
         ]
     )

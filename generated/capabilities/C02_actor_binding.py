@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C02_actor_binding.osc: edit the scenario, not t
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, mpss, s
 
@@ -40,10 +49,10 @@ class ActorBinding(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.first = Vehicle()
-        self.second = Vehicle()
-        self.third = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.first = self.cast("first", Vehicle())
+        self.second = self.cast("second", Vehicle())
+        self.third = self.cast("third", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

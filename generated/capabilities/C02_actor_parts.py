@@ -35,29 +35,40 @@ class ActorParts(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.box = BoundingBox(length=5 * m, width=2 * m, height=1.6 * m)
-        self.ego = Vehicle(bounding_box=self.box, rear_overhang=1 * m, role="police")
-        self.front = Axle(
-            position_x=3 * m,
-            position_z=0.35 * m,
-            max_steering=35 * deg,
-            wheel_diameter=0.7 * m,
-            track_width=1.6 * m,
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.box = self.argument("box", BoundingBox(length=5 * m, width=2 * m, height=1.6 * m))
+        self.ego = self.cast(
+            "ego", Vehicle(bounding_box=self.box, rear_overhang=1 * m, role="police")
         )
-        self.rear = Axle(
-            position_x=0 * m,
-            position_z=0.35 * m,
-            max_steering=0 * deg,
-            wheel_diameter=0.7 * m,
-            track_width=1.6 * m,
+        self.front = self.argument(
+            "front",
+            Axle(
+                position_x=3 * m,
+                position_z=0.35 * m,
+                max_steering=35 * deg,
+                wheel_diameter=0.7 * m,
+                track_width=1.6 * m,
+            ),
         )
-        self.van = Vehicle(
-            vehicle_category="truck",
-            axles=[self.front, self.rear],
-            intended_infrastructure=["driving", "bus"],
+        self.rear = self.argument(
+            "rear",
+            Axle(
+                position_x=0 * m,
+                position_z=0.35 * m,
+                max_steering=0 * deg,
+                wheel_diameter=0.7 * m,
+                track_width=1.6 * m,
+            ),
         )
-        self.load = Trailer()
+        self.van = self.cast(
+            "van",
+            Vehicle(
+                vehicle_category="truck",
+                axles=[self.front, self.rear],
+                intended_infrastructure=["driving", "bus"],
+            ),
+        )
+        self.load = self.cast("load", Trailer())
 
         # Two lengths of the car behind the van
         self.distance = 2 * self.ego.bounding_box.length

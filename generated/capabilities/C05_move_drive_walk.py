@@ -30,12 +30,12 @@ class MoveDriveWalk(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.car = Vehicle()
-        self.ball = MovableObject()
-        self.walker = Person()
-        self.ball_place = Point(x=60 * m, y=-30 * m, z=0 * m)
-        self.walker_place = Point(x=40 * m, y=-30 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.car = self.cast("car", Vehicle())
+        self.ball = self.cast("ball", MovableObject())
+        self.walker = self.cast("walker", Person())
+        self.ball_place = self.argument("ball_place", Point(x=60 * m, y=-30 * m, z=0 * m))
+        self.walker_place = self.argument("walker_place", Point(x=40 * m, y=-30 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

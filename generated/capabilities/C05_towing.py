@@ -6,7 +6,16 @@ Made by osc2tx from capabilities/C05_towing.osc: edit the scenario, not this mod
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Trailer, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Trailer,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed, tow_trailer
 from osc2tx_runtime.units import m, mps, s
 
@@ -19,9 +28,9 @@ class Towing(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="curve.xodr")
-        self.car = Vehicle()
-        self.caravan = Trailer()
+        self.road = self.cast("road", Map(map_file="curve.xodr"))
+        self.car = self.cast("car", Vehicle())
+        self.caravan = self.cast("caravan", Trailer())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -31,9 +31,9 @@ class DrivingWithATrailer(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.truck = Vehicle(vehicle_category="truck")
-        self.load = Trailer()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.truck = self.cast("truck", Vehicle(vehicle_category="truck"))
+        self.load = self.cast("load", Trailer())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

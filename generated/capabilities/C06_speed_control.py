@@ -7,7 +7,15 @@ Made by osc2tx from capabilities/C06_speed_control.osc: edit the scenario, not t
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, mpss
 
@@ -20,10 +28,10 @@ class SpeedControl(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.even = Vehicle()
-        self.gentle = Vehicle()
-        self.hasty = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.even = self.cast("even", Vehicle())
+        self.gentle = self.cast("gentle", Vehicle())
+        self.hasty = self.cast("hasty", Vehicle())
         self.v_start = self.parameter("v_start", 10 * mps)
         self.v_target = self.parameter("v_target", 20 * mps)
 

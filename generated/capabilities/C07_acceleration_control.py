@@ -7,7 +7,15 @@ Made by osc2tx from capabilities/C07_acceleration_control.osc: edit the scenario
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, mpspsps, mpss, s
 
@@ -20,8 +28,8 @@ class AccelerationControl(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

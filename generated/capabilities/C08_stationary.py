@@ -6,7 +6,16 @@ Made by osc2tx from capabilities/C08_stationary.osc: edit the scenario, not this
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -19,9 +28,9 @@ class Stationary(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.parked = Vehicle()
-        self.arriving = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.parked = self.cast("parked", Vehicle())
+        self.arriving = self.cast("arriving", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

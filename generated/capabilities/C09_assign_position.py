@@ -30,10 +30,10 @@ class AssignPosition(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
-        self.target = Point(x=400 * m, y=-5.25 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
+        self.target = self.argument("target", Point(x=400 * m, y=-5.25 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -29,10 +29,12 @@ class AssignOrientation(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.walker = Person()
-        self.start_point = Point(x=100 * m, y=-40 * m, z=0 * m)
-        self.north_east = Orientation(yaw=60 * deg, pitch=0 * deg, roll=0 * deg)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.walker = self.cast("walker", Person())
+        self.start_point = self.argument("start_point", Point(x=100 * m, y=-40 * m, z=0 * m))
+        self.north_east = self.argument(
+            "north_east", Orientation(yaw=60 * deg, pitch=0 * deg, roll=0 * deg)
+        )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -31,11 +31,11 @@ class ChangePosition(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.car = Vehicle()
-        self.walker = Person()
-        self.begin = Point(x=100 * m, y=-30 * m, z=0 * m)
-        self.goal = Point(x=106 * m, y=-38 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.car = self.cast("car", Vehicle())
+        self.walker = self.cast("walker", Person())
+        self.begin = self.argument("begin", Point(x=100 * m, y=-30 * m, z=0 * m))
+        self.goal = self.argument("goal", Point(x=106 * m, y=-38 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

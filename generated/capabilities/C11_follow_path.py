@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C11_follow_path.osc: edit the scenario, not thi
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Pose, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Pose,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,12 +29,12 @@ class PathFollowing(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.begin = Pose(x=60 * m, y=-8.75 * m, z=0 * m)
-        self.middle = Pose(x=100 * m, y=-4 * m, z=0 * m)
-        self.end_point = Pose(x=140 * m, y=-8.75 * m, z=0 * m)
-        self.far = Pose(x=240 * m, y=-12.25 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.begin = self.argument("begin", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
+        self.middle = self.argument("middle", Pose(x=100 * m, y=-4 * m, z=0 * m))
+        self.end_point = self.argument("end_point", Pose(x=140 * m, y=-8.75 * m, z=0 * m))
+        self.far = self.argument("far", Pose(x=240 * m, y=-12.25 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -30,14 +30,17 @@ class RelativePath(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.one = Vehicle()
-        self.other = Vehicle()
-        self.here = Pose(x=0 * m, y=0 * m)
-        self.ahead = Pose(x=30 * m, y=0 * m)
-        self.aside = Pose(x=60 * m, y=-3.5 * m)
-        self.swerve = RelativePathPose3d(
-            points=[self.here, self.ahead, self.aside], interpolation="straight_line"
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.one = self.cast("one", Vehicle())
+        self.other = self.cast("other", Vehicle())
+        self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
+        self.ahead = self.argument("ahead", Pose(x=30 * m, y=0 * m))
+        self.aside = self.argument("aside", Pose(x=60 * m, y=-3.5 * m))
+        self.swerve = self.argument(
+            "swerve",
+            RelativePathPose3d(
+                points=[self.here, self.ahead, self.aside], interpolation="straight_line"
+            ),
         )
 
     def placement(self) -> None:

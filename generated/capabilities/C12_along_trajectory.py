@@ -29,15 +29,18 @@ class AlongTrajectory(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.begin = Pose(x=60 * m, y=-8.75 * m, z=0 * m)
-        self.middle = Pose(x=100 * m, y=-8.75 * m, z=0 * m)
-        self.end_point = Pose(x=160 * m, y=-8.75 * m, z=0 * m)
-        self.plan = Trajectory(
-            points=[self.begin, self.middle, self.end_point],
-            time_stamps=[0 * s, 4 * s, 9 * s],
-            interpolation="straight_line",
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.begin = self.argument("begin", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
+        self.middle = self.argument("middle", Pose(x=100 * m, y=-8.75 * m, z=0 * m))
+        self.end_point = self.argument("end_point", Pose(x=160 * m, y=-8.75 * m, z=0 * m))
+        self.plan = self.argument(
+            "plan",
+            Trajectory(
+                points=[self.begin, self.middle, self.end_point],
+                time_stamps=[0 * s, 4 * s, 9 * s],
+                interpolation="straight_line",
+            ),
         )
 
     def placement(self) -> None:

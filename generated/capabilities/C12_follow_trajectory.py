@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C12_follow_trajectory.osc: edit the scenario, n
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Pose, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Pose,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,12 +29,12 @@ class TrajectoryFollowing(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.p0 = Pose(x=60 * m, y=-8.75 * m, z=0 * m)
-        self.p1 = Pose(x=90 * m, y=-8.75 * m, z=0 * m)
-        self.p2 = Pose(x=130 * m, y=-8.75 * m, z=0 * m)
-        self.p3 = Pose(x=150 * m, y=-8.75 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.p0 = self.argument("p0", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
+        self.p1 = self.argument("p1", Pose(x=90 * m, y=-8.75 * m, z=0 * m))
+        self.p2 = self.argument("p2", Pose(x=130 * m, y=-8.75 * m, z=0 * m))
+        self.p3 = self.argument("p3", Pose(x=150 * m, y=-8.75 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -29,15 +29,18 @@ class RelativeTrajectory(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.here = Pose(x=0 * m, y=0 * m)
-        self.ahead = Pose(x=40 * m, y=0 * m)
-        self.aside = Pose(x=80 * m, y=3.5 * m)
-        self.shape = RelativeTrajectoryPose3d(
-            points=[self.here, self.ahead, self.aside],
-            time_stamps=[0 * s, 4 * s, 8 * s],
-            interpolation="straight_line",
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
+        self.ahead = self.argument("ahead", Pose(x=40 * m, y=0 * m))
+        self.aside = self.argument("aside", Pose(x=80 * m, y=3.5 * m))
+        self.shape = self.argument(
+            "shape",
+            RelativeTrajectoryPose3d(
+                points=[self.here, self.ahead, self.aside],
+                time_stamps=[0 * s, 4 * s, 8 * s],
+                interpolation="straight_line",
+            ),
         )
 
     def placement(self) -> None:

@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C13_careful_following.osc: edit the scenario, n
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import avoid_collisions, lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,9 +29,9 @@ class CarefulFollowing(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.slower = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.slower = self.cast("slower", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -32,9 +32,9 @@ class TimeGap(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.leader = Vehicle()
-        self.follower = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.leader = self.cast("leader", Vehicle())
+        self.follower = self.cast("follower", Vehicle())
         self.closed_up = Event()
 
     def placement(self) -> None:

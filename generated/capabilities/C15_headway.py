@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C15_headway.osc: edit the scenario, not this mo
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,10 +29,10 @@ class Headway(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.leader = Vehicle()
-        self.near = Vehicle()
-        self.far = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.leader = self.cast("leader", Vehicle())
+        self.near = self.cast("near", Vehicle())
+        self.far = self.cast("far", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

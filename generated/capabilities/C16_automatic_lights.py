@@ -33,10 +33,10 @@ class AutomaticLights(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment()
-        self.ego = Vehicle()
-        self.dark = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast("env", Environment())
+        self.ego = self.cast("ego", Vehicle())
+        self.dark = self.cast("dark", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -32,12 +32,12 @@ class FogScenario(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment()
-        self.early = Vehicle()
-        self.late = Vehicle()
-        self.standing = Vehicle()
-        self.broken = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast("env", Environment())
+        self.early = self.cast("early", Vehicle())
+        self.late = self.cast("late", Vehicle())
+        self.standing = self.cast("standing", Vehicle())
+        self.broken = self.cast("broken", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

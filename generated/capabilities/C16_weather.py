@@ -32,9 +32,9 @@ class WeatherControl(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment()
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast("env", Environment())
+        self.ego = self.cast("ego", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -37,16 +37,19 @@ class WeatherReadings(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment(
-            # A summer evening in Munich, 20 June 2024 at 19:00 UTC
-            datetime=1718910000 * s,
-            geodetic_position=GeodeticPosition(latitude=48.137 * deg, longitude=11.575 * deg),
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast(
+            "env",
+            Environment(
+                # A summer evening in Munich, 20 June 2024 at 19:00 UTC
+                datetime=1718910000 * s,
+                geodetic_position=GeodeticPosition(latitude=48.137 * deg, longitude=11.575 * deg),
+            ),
         )
-        self.ego = Vehicle()
+        self.ego = self.cast("ego", Vehicle())
 
         # A wind to beware of
-        self.storm = Wind(speed=15 * mps, direction=270 * deg)
+        self.storm = self.argument("storm", Wind(speed=15 * mps, direction=270 * deg))
         self.wet = Event(rise(lambda: self.env.weather.rain.intensity > 2 * mmph))
         self.hidden = Event(rise(lambda: self.env.weather.fog.visual_range < 100 * m))
         self.stormy = Event(rise(lambda: self.env.weather.wind.speed >= self.storm.speed))

@@ -35,12 +35,16 @@ class BehavioralModels(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="urban_crossing.xodr")
-        self.lights = TrafficLightController()
-        self.careful = BehavioralModel(bm_engine=BmEngine(name="careful_driver"))
-        self.steady = BehavioralModel(bm_engine=BmEngine(name="steady_driver"))
-        self.ego = Vehicle(initial_bm=self.careful)
-        self.ahead = TrafficLight(map_id="101")
+        self.road = self.cast("road", Map(map_file="urban_crossing.xodr"))
+        self.lights = self.cast("lights", TrafficLightController())
+        self.careful = self.argument(
+            "careful", BehavioralModel(bm_engine=BmEngine(name="careful_driver"))
+        )
+        self.steady = self.argument(
+            "steady", BehavioralModel(bm_engine=BmEngine(name="steady_driver"))
+        )
+        self.ego = self.cast("ego", Vehicle(initial_bm=self.careful))
+        self.ahead = self.argument("ahead", TrafficLight(map_id="101"))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

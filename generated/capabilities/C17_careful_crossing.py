@@ -33,12 +33,12 @@ class CarefulCrossing(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="crossing.xodr")
-        self.ego = Vehicle()
-        self.walker = Person()
+        self.road = self.cast("road", Map(map_file="crossing.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.walker = self.cast("walker", Person())
 
         # On the right sidewalk, in the middle of the road
-        self.curb = Point(x=250 * m, y=-5 * m, z=0 * m)
+        self.curb = self.argument("curb", Point(x=250 * m, y=-5 * m, z=0 * m))
         self.v_ego = self.parameter("v_ego", 40 * kph)
 
     def placement(self) -> None:

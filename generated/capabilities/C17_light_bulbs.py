@@ -39,25 +39,38 @@ class LightBulbs(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         # red for 12 s, then green
-        self.closed = TrafficLightPhase(
-            group=TrafficLightGroup(map_id="1"),
-            bulbs_state=["is_on", "is_off", "is_off"],
-            duration=12 * s,
+        self.closed = self.argument(
+            "closed",
+            TrafficLightPhase(
+                group=TrafficLightGroup(map_id="1"),
+                bulbs_state=["is_on", "is_off", "is_off"],
+                duration=12 * s,
+            ),
         )
-        self.free = TrafficLightPhase(
-            group=TrafficLightGroup(map_id="1"),
-            bulbs_state=["is_off", "is_off", "is_on"],
-            duration=20 * s,
+        self.free = self.argument(
+            "free",
+            TrafficLightPhase(
+                group=TrafficLightGroup(map_id="1"),
+                bulbs_state=["is_off", "is_off", "is_on"],
+                duration=20 * s,
+            ),
         )
-        self.cycle = TrafficLightCycle(phases=[self.closed, self.free])
-        self.road = Map(map_file="urban_crossing.xodr", traffic_light_control=[self.cycle])
-        self.ego = Vehicle()
-        self.lights = TrafficLightController()
-        self.east = TrafficLight(map_id="101")
+        self.cycle = self.argument("cycle", TrafficLightCycle(phases=[self.closed, self.free]))
+        self.road = self.cast(
+            "road", Map(map_file="urban_crossing.xodr", traffic_light_control=[self.cycle])
+        )
+        self.ego = self.cast("ego", Vehicle())
+        self.lights = self.cast("lights", TrafficLightController())
+        self.east = self.argument("east", TrafficLight(map_id="101"))
 
         # 49 m before the lights
-        self.line = TrafficLightStopLine(
-            traffic_light_group=self.east.group, offset=100 * m, primary_stop_line_marking="solid"
+        self.line = self.argument(
+            "line",
+            TrafficLightStopLine(
+                traffic_light_group=self.east.group,
+                offset=100 * m,
+                primary_stop_line_marking="solid",
+            ),
         )
         self.red_shines = Event(rise(lambda: self.east.bulbs[0].state == "is_on"))
         self.green_shines = Event(

@@ -30,21 +30,27 @@ class SignalCycles(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="urban_crossing.xodr")
-        self.lights = TrafficLightController()
-        self.east = TrafficLight(map_id="101")
-        self.main_road = TrafficLightGroup(map_id="1")
-        self.free = TrafficLightPhase(
-            group=self.main_road,
-            bulbs_state=self.east.semantic_state_to_state("go"),
-            duration=3 * s,
+        self.road = self.cast("road", Map(map_file="urban_crossing.xodr"))
+        self.lights = self.cast("lights", TrafficLightController())
+        self.east = self.argument("east", TrafficLight(map_id="101"))
+        self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
+        self.free = self.argument(
+            "free",
+            TrafficLightPhase(
+                group=self.main_road,
+                bulbs_state=self.east.semantic_state_to_state("go"),
+                duration=3 * s,
+            ),
         )
-        self.closed = TrafficLightPhase(
-            group=self.main_road,
-            bulbs_state=self.east.semantic_state_to_state("stop"),
-            duration=5 * s,
+        self.closed = self.argument(
+            "closed",
+            TrafficLightPhase(
+                group=self.main_road,
+                bulbs_state=self.east.semantic_state_to_state("stop"),
+                duration=5 * s,
+            ),
         )
-        self.cycle = TrafficLightCycle(phases=[self.free, self.closed])
+        self.cycle = self.argument("cycle", TrafficLightCycle(phases=[self.free, self.closed]))
 
     def behavior(self) -> Behaviour:
         return Serial(

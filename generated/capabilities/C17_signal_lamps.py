@@ -30,10 +30,10 @@ class SignalLamps(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="urban_crossing.xodr")
-        self.lights = TrafficLightController()
-        self.east = TrafficLight(map_id="101")
-        self.main_road = TrafficLightGroup(map_id="1")
+        self.road = self.cast("road", Map(map_file="urban_crossing.xodr"))
+        self.lights = self.cast("lights", TrafficLightController())
+        self.east = self.argument("east", TrafficLight(map_id="101"))
+        self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
 
     def behavior(self) -> Behaviour:
         return Serial(

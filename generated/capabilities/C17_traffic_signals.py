@@ -34,11 +34,11 @@ class TrafficSignals(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="urban_crossing.xodr")
-        self.lights = TrafficLightController()
-        self.ego = Vehicle()
-        self.ahead = TrafficLight(map_id="101")
-        self.across = TrafficLightGroup(map_id="2")
+        self.road = self.cast("road", Map(map_file="urban_crossing.xodr"))
+        self.lights = self.cast("lights", TrafficLightController())
+        self.ego = self.cast("ego", Vehicle())
+        self.ahead = self.argument("ahead", TrafficLight(map_id="101"))
+        self.across = self.argument("across", TrafficLightGroup(map_id="2"))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C18_braking_distances.osc: edit the scenario, n
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Environment, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Environment,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import celsius, m, mmph, mps, s
 
@@ -20,9 +29,9 @@ class BrakingDistances(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment()
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast("env", Environment())
+        self.ego = self.cast("ego", Vehicle())
         self.v_full = self.parameter("v_full", 15 * mps)
 
     def placement(self) -> None:

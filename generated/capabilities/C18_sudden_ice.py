@@ -35,12 +35,12 @@ class SuddenIce(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment()
-        self.fast = Vehicle()
-        self.slow = Vehicle()
-        self.walker = Person()
-        self.verge = Point(x=50 * m, y=4 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast("env", Environment())
+        self.fast = self.cast("fast", Vehicle())
+        self.slow = self.cast("slow", Vehicle())
+        self.walker = self.cast("walker", Person())
+        self.verge = self.argument("verge", Point(x=50 * m, y=4 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -6,7 +6,15 @@ Made by osc2tx from capabilities/C19_speed_modifier.osc: edit the scenario, not 
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import kph, m, mps, s
 
@@ -19,11 +27,11 @@ class SpeedModifier(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.pace = Vehicle()
-        self.faster = Vehicle()
-        self.slower = Vehicle()
-        self.scaled = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.pace = self.cast("pace", Vehicle())
+        self.faster = self.cast("faster", Vehicle())
+        self.slower = self.cast("slower", Vehicle())
+        self.scaled = self.cast("scaled", Vehicle())
         self.v_pace = self.parameter("v_pace", 54 * kph)
 
     def placement(self) -> None:

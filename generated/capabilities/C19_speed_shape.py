@@ -28,11 +28,15 @@ class VelocityProfile(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.even = Vehicle()
-        self.gentle = Vehicle()
-        self.even_shape = CommonSpeedShape(rate_profile="constant", rate_peak=1.6 * mpss)
-        self.gentle_shape = CommonSpeedShape(rate_profile="smooth", rate_peak=2 * mpss)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.even = self.cast("even", Vehicle())
+        self.gentle = self.cast("gentle", Vehicle())
+        self.even_shape = self.argument(
+            "even_shape", CommonSpeedShape(rate_profile="constant", rate_peak=1.6 * mpss)
+        )
+        self.gentle_shape = self.argument(
+            "gentle_shape", CommonSpeedShape(rate_profile="smooth", rate_peak=2 * mpss)
+        )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -28,9 +28,11 @@ class AccelerationProfile(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.build_up = CommonAccelerationShape(rate_profile="constant", rate_peak=0.5 * mpspsps)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.build_up = self.argument(
+            "build_up", CommonAccelerationShape(rate_profile="constant", rate_peak=0.5 * mpspsps)
+        )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -6,7 +6,17 @@ Made by osc2tx from capabilities/C21_along.osc: edit the scenario, not this modu
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Path, Pose, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Path,
+    Pose,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import along, lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -19,11 +29,13 @@ class AlongAPath(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.begin = Pose(x=70 * m, y=-8.75 * m, z=0 * m)
-        self.end_point = Pose(x=190 * m, y=-8.75 * m, z=0 * m)
-        self.way = Path(points=[self.begin, self.end_point], interpolation="straight_line")
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.begin = self.argument("begin", Pose(x=70 * m, y=-8.75 * m, z=0 * m))
+        self.end_point = self.argument("end_point", Pose(x=190 * m, y=-8.75 * m, z=0 * m))
+        self.way = self.argument(
+            "way", Path(points=[self.begin, self.end_point], interpolation="straight_line")
+        )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -30,10 +30,10 @@ class Ways(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.walker = Person()
-        self.corner = Point(x=80 * m, y=-30 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.walker = self.cast("walker", Person())
+        self.corner = self.argument("corner", Point(x=80 * m, y=-30 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

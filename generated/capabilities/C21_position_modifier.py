@@ -7,7 +7,15 @@ Made by osc2tx from capabilities/C21_position_modifier.osc: edit the scenario, n
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,11 +28,11 @@ class PositionModifier(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.front = Vehicle()
-        self.rear = Vehicle()
-        self.late = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.front = self.cast("front", Vehicle())
+        self.rear = self.cast("rear", Vehicle())
+        self.late = self.cast("late", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

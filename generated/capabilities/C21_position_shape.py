@@ -51,13 +51,13 @@ class PositionShape(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.stopping = Vehicle()
-        self.lead = Vehicle()
-        self.closing = Vehicle()
-        self.own = Vehicle()
-        self.smoothly = CommonPositionShape(rate_profile="smooth")
-        self.faster = Gaining(pace=10 * mps, more=4 * m, period=4 * s)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.stopping = self.cast("stopping", Vehicle())
+        self.lead = self.cast("lead", Vehicle())
+        self.closing = self.cast("closing", Vehicle())
+        self.own = self.cast("own", Vehicle())
+        self.smoothly = self.argument("smoothly", CommonPositionShape(rate_profile="smooth"))
+        self.faster = self.argument("faster", Gaining(pace=10 * mps, more=4 * m, period=4 * s))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

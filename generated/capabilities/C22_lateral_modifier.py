@@ -7,7 +7,15 @@ Made by osc2tx from capabilities/C22_lateral_modifier.osc: edit the scenario, no
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import change_lane, keep_lane, lane, lateral, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,11 +28,11 @@ class LateralModifiers(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.shifted = Vehicle()
-        self.changing = Vehicle()
-        self.joining = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.shifted = self.cast("shifted", Vehicle())
+        self.changing = self.cast("changing", Vehicle())
+        self.joining = self.cast("joining", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -53,11 +53,11 @@ class LateralSpeeds(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.drifting = Vehicle()
-        self.bulging = Vehicle()
-        self.leaning = Vehicle()
-        self.out = Bulge(reach=0.8 * m, length=4 * s)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.drifting = self.cast("drifting", Vehicle())
+        self.bulging = self.cast("bulging", Vehicle())
+        self.leaning = self.cast("leaning", Vehicle())
+        self.out = self.argument("out", Bulge(reach=0.8 * m, length=4 * s))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

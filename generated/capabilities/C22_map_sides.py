@@ -6,7 +6,15 @@ Made by osc2tx from capabilities/C22_map_sides.osc: edit the scenario, not this 
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -19,8 +27,8 @@ class MapSides(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="left_hand.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="left_hand.xodr"))
+        self.ego = self.cast("ego", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

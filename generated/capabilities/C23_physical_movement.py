@@ -7,7 +7,15 @@ Made by osc2tx from capabilities/C23_physical_movement.osc: edit the scenario, n
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, physical_movement, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,9 +28,9 @@ class PhysicalMovements(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.bound = Vehicle()
-        self.free = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.bound = self.cast("bound", Vehicle())
+        self.free = self.cast("free", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -31,8 +31,8 @@ class TemporalModifiers(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.delay = self.parameter("delay", 1.5 * s)
 
     def placement(self) -> None:

@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C25_relative_modifiers.osc: edit the scenario, 
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,9 +29,9 @@ class RelativeModifiers(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.lead = Vehicle()
-        self.wing = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.lead = self.cast("lead", Vehicle())
+        self.wing = self.cast("wing", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C26_orientation_modifiers.osc: edit the scenari
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Person, Point, Scenario, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Person,
+    Point,
+    Scenario,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import orientation, position, speed, yaw
 from osc2tx_runtime.units import deg, m, mps, s
 
@@ -20,13 +29,13 @@ class OrientationModifiers(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.along = Person()
-        self.guide = Person()
-        self.opposite = Person()
-        self.along_place = Point(x=100 * m, y=-30 * m, z=0 * m)
-        self.guide_place = Point(x=100 * m, y=-40 * m, z=0 * m)
-        self.opposite_place = Point(x=100 * m, y=-50 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.along = self.cast("along", Person())
+        self.guide = self.cast("guide", Person())
+        self.opposite = self.cast("opposite", Person())
+        self.along_place = self.argument("along_place", Point(x=100 * m, y=-30 * m, z=0 * m))
+        self.guide_place = self.argument("guide_place", Point(x=100 * m, y=-40 * m, z=0 * m))
+        self.opposite_place = self.argument("opposite_place", Point(x=100 * m, y=-50 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

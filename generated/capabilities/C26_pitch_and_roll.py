@@ -37,15 +37,18 @@ class PitchAndRoll(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="curve.xodr")
-        self.car = Vehicle()
-        self.box = MovableObject()
-        self.sign = StationaryObject()
-        self.box_place = Point(x=5 * m, y=40 * m, z=0 * m)
-        self.sign_pose = Pose(
-            x=5 * m, y=50 * m, z=0 * m, yaw=30 * deg, pitch=0 * deg, roll=10 * deg
+        self.road = self.cast("road", Map(map_file="curve.xodr"))
+        self.car = self.cast("car", Vehicle())
+        self.box = self.cast("box", MovableObject())
+        self.sign = self.cast("sign", StationaryObject())
+        self.box_place = self.argument("box_place", Point(x=5 * m, y=40 * m, z=0 * m))
+        self.sign_pose = self.argument(
+            "sign_pose",
+            Pose(x=5 * m, y=50 * m, z=0 * m, yaw=30 * deg, pitch=0 * deg, roll=10 * deg),
         )
-        self.on_its_side = Orientation(yaw=20 * deg, pitch=0 * deg, roll=90 * deg)
+        self.on_its_side = self.argument(
+            "on_its_side", Orientation(yaw=20 * deg, pitch=0 * deg, roll=90 * deg)
+        )
         self.up_hill = Event(rise(lambda: self.car.pose.orientation.pitch < -1 * deg))
 
     def placement(self) -> None:

@@ -31,8 +31,8 @@ class PointDistance(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.near = Event(
             fall(
                 lambda: self.ego.distance_to_xyz_point(

@@ -33,11 +33,13 @@ class WorldCoordinates(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.barrier = StationaryObject()
-        self.walker = Person()
-        self.barrier_pose = Pose(x=130 * m, y=-24 * m, z=0 * m, yaw=90 * deg)
-        self.curb = Point(x=100 * m, y=-20 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.barrier = self.cast("barrier", StationaryObject())
+        self.walker = self.cast("walker", Person())
+        self.barrier_pose = self.argument(
+            "barrier_pose", Pose(x=130 * m, y=-24 * m, z=0 * m, yaw=90 * deg)
+        )
+        self.curb = self.argument("curb", Point(x=100 * m, y=-20 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -34,10 +34,10 @@ class RelativeCoordinates(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.walker = Person()
-        self.car = Vehicle()
-        self.spot = Point(x=150 * m, y=-25 * m, z=0 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.walker = self.cast("walker", Person())
+        self.car = self.cast("car", Vehicle())
+        self.spot = self.argument("spot", Point(x=150 * m, y=-25 * m, z=0 * m))
         self.abreast = Event(
             fall(
                 lambda: self.walker.object_distance(reference=self.car, direction="lateral") > 0 * m

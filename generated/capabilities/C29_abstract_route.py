@@ -7,7 +7,16 @@ Made by osc2tx from capabilities/C29_abstract_route.osc: edit the scenario, not 
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, LaneSection, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    LaneSection,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import along, number_of_lanes, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,9 +29,9 @@ class AbstractRoute(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.way = LaneSection()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.way = self.argument("way", LaneSection())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

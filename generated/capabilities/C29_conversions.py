@@ -7,7 +7,17 @@ Made by osc2tx from capabilities/C29_conversions.osc: edit the scenario, not thi
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Emit, Event, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Emit,
+    Event,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import m, mps, s
 
@@ -20,8 +30,8 @@ class Conversions(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.later = Event()
         self.s_of_point = self.sample(
             lambda: self.road.xyz_to_route_point(x=300 * m, y=-5 * m, z=0 * m).s, self.later, 0 * m

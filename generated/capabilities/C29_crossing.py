@@ -34,22 +34,22 @@ class CrossingTheStreet(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="crossing.xodr")
-        self.walker = Person()
-        self.other = Person()
-        self.near_side = Lane(lane_type="pedestrian")
-        self.far_side = Lane(lane_type="pedestrian")
+        self.road = self.cast("road", Map(map_file="crossing.xodr"))
+        self.walker = self.cast("walker", Person())
+        self.other = self.cast("other", Person())
+        self.near_side = self.argument("near_side", Lane(lane_type="pedestrian"))
+        self.far_side = self.argument("far_side", Lane(lane_type="pedestrian"))
 
         # where the map has a crosswalk
-        self.zebra = Crossing(crossing_type=CrossingType(marking="zebra"))
+        self.zebra = self.argument("zebra", Crossing(crossing_type=CrossingType(marking="zebra")))
 
         # where the scenario says
-        self.shortcut = Crossing(width=2 * m)
+        self.shortcut = self.argument("shortcut", Crossing(width=2 * m))
 
         # 20 m before the zebra crossing, and 10 m behind it on the other side
-        self.begin = RoutePoint(route=self.near_side, s=230 * m, t=0 * m)
-        self.goal = RoutePoint(route=self.far_side, s=260 * m, t=0 * m)
-        self.way = self.road.create_route([self.begin, self.zebra, self.goal])
+        self.begin = self.argument("begin", RoutePoint(route=self.near_side, s=230 * m, t=0 * m))
+        self.goal = self.argument("goal", RoutePoint(route=self.far_side, s=260 * m, t=0 * m))
+        self.way = self.argument("way", self.road.create_route([self.begin, self.zebra, self.goal]))
         self.on_zebra = Event(rise(lambda: self.walker.pose.position.y > 0 * m))
         self.width = self.sample(lambda: self.zebra.width, self.on_zebra, 0 * m)
         self.starts_at = self.sample(lambda: self.zebra.start_s_coord, self.on_zebra, 0 * m)
@@ -80,8 +80,8 @@ class CrossingTheStreet(Scenario):
                 start_angle=60 * deg,
             ),
         )
-        self.place(self.walker, along(self.way), speed(1.5 * mps))
-        self.place(self.other, along(self.shortcut), speed(1 * mps))
+        self.place(self.walker, along(self.way), speed(1.5 * mps), throughout=True)
+        self.place(self.other, along(self.shortcut), speed(1 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Parallel(

@@ -28,15 +28,19 @@ class GeodeticPoints(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.begin = GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.001 * deg)
-        self.goal = GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.003 * deg)
-        self.way = self.road.create_route([self.begin, self.goal])
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.begin = self.argument(
+            "begin", GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.001 * deg)
+        )
+        self.goal = self.argument(
+            "goal", GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.003 * deg)
+        )
+        self.way = self.argument("way", self.road.create_route([self.begin, self.goal]))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, along(self.way), speed(20 * mps))
+        self.place(self.ego, along(self.way), speed(20 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Serial(

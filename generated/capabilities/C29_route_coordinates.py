@@ -31,14 +31,14 @@ class RouteCoordinates(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="curve.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="curve.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.passed = Event(rise(lambda: self.ego.get_s_coord() >= 250 * m))
         self.t_there = self.sample(lambda: self.ego.get_t_coord(), self.passed, 0 * m)
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(15 * mps))
+        self.place(self.ego, speed(15 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Serial(

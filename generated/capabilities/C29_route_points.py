@@ -31,8 +31,8 @@ class RoutePoints(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.half_way = Event(
             rise(
                 lambda: self.ego.distance_to_odr_point(

@@ -31,14 +31,14 @@ class RouteValues(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="urban_crossing.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="urban_crossing.xodr"))
+        self.ego = self.cast("ego", Vehicle())
 
         # from the east to the south
-        self.arm = Road(anchors=["east"])
-        self.onward = Road()
-        self.middle = Junction()
-        self.way = self.road.create_route([self.arm, self.onward])
+        self.arm = self.argument("arm", Road(anchors=["east"]))
+        self.onward = self.argument("onward", Road())
+        self.middle = self.argument("middle", Junction())
+        self.way = self.argument("way", self.road.create_route([self.arm, self.onward]))
         self.away = Event(rise(lambda: self.ego.pose.position.x <= 120 * m))
         self.arm_length = self.sample(lambda: self.arm.length, self.away, 0 * m)
         self.way_length = self.sample(lambda: self.way.length, self.away, 0 * m)
@@ -73,7 +73,10 @@ class RouteValues(Scenario):
             ),
         )
         self.place(
-            self.ego, along(self.way, start_offset=20 * m, end_offset=20 * m), speed(10 * mps)
+            self.ego,
+            along(self.way, start_offset=20 * m, end_offset=20 * m),
+            speed(10 * mps),
+            throughout=True,
         )
 
     def behavior(self) -> Behaviour:

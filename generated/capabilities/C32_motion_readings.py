@@ -31,8 +31,8 @@ class MotionReadings(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="curve.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="curve.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.bend = Event(rise(lambda: self.ego.velocity.angular.yaw > 0.1 * radps))
         self.out_of_it = Event(fall(lambda: self.ego.acceleration.translational.y > 1 * mpsps))
         self.braking = Event(rise(lambda: self.ego.acceleration.translational.norm() > 2.5 * mpsps))

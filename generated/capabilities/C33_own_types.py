@@ -10,7 +10,15 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.units import Acceleration, Speed, m, mps, mpss, s
 
@@ -38,9 +46,9 @@ class OwnTypes(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.quiet = Plan(cruise=20 * knot, mood="calm", peak=1 * mpss)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.quiet = self.argument("quiet", Plan(cruise=20 * knot, mood="calm", peak=1 * mpss))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -31,8 +31,8 @@ class ConflictResolution(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -33,9 +33,9 @@ class SemanticValidation(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
         self.v_ego = self.parameter("v_ego", within(10 * mps, 20 * mps))
         self.v_other = self.parameter("v_other", 12 * mps)
         self.gap = self.parameter("gap", 15 * m)

@@ -33,8 +33,8 @@ class RisingEdge(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.fast = Event(rise(lambda: self.ego.speed > 12.05 * mps))
         self.fast_again = Event(rise(lambda: self.ego.speed > 12.05 * mps))
 

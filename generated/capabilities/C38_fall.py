@@ -31,9 +31,9 @@ class FallingEdge(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.slow = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.slow = self.cast("slow", Vehicle())
         self.caught_up = Event(
             fall(lambda: self.slow.space_gap(reference=self.ego, direction="longitudinal") > 10 * m)
         )

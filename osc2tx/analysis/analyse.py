@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx.analysis.constant_conditions import report_conditions
 from osc2tx.analysis.constraints import ConstraintAnalysis, analyse_constraints
+from osc2tx.analysis.contradictory_durations import report_durations
 from osc2tx.analysis.levels import ScenarioLevel, find_levels
 from osc2tx.analysis.liveness import report_liveness
 from osc2tx.analysis.recursive_scenarios import report_recursion
@@ -29,19 +30,28 @@ class Analysis:
     levels: tuple[ScenarioLevel, ...]
 
 
-def analyse(model: SemanticModel, sink: DiagnosticSink, one_of: OneOfPolicy = "race") -> Analysis:
+def analyse(
+    model: SemanticModel,
+    sink: DiagnosticSink,
+    one_of: OneOfPolicy = "race",
+    *,
+    first_come: bool = False,
+) -> Analysis:
     """Analyse a program without errors; report contradictions, and what can never happen.
 
     Args:
         model: The checked program.
         sink: Where reports go.
         one_of: Which member of a `one_of` counts.
+        first_come: A duration and an `until` end with whichever comes first (dialect `carla`).
     """
     usage = find_usage(model)
     constraints = analyse_constraints(model)
     report_constraints(model, constraints, usage, sink)
     endings = find_endings(model)
     report_recursion(model, sink)
+    if not first_come:
+        report_durations(model, endings, sink)
     report_liveness(model, endings, frozenset(usage.invoked), sink)
     report_usage(model, usage, sink)
     report_conditions(model, usage, sink)

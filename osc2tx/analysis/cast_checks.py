@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import field
 
 from osc2tx.analysis.applied_modifiers import library_modifiers
-from osc2tx.analysis.constraints import ConstraintAnalysis, State
+from osc2tx.analysis.constraints import ConstraintAnalysis, State, analyse_global
 from osc2tx.analysis.library_facts import entry_of, is_library_actor
 from osc2tx.analysis.tree_walk import do_directives, do_members
 from osc2tx.catalogue import catalogue
@@ -45,7 +45,7 @@ def openings_of_cast(
     """Yield what is open about the actors of a scenario."""
     if scenario.actor is not None:
         yield f"the {scenario.actor.name} that does it", scenario.node.name.span
-    cast = _find_cast(scenario)
+    cast = _find_cast(model, scenario)
     for ancestor in supertypes(scenario):
         for statement in ancestor.statements:
             if isinstance(statement, ast.ModifierApplication):
@@ -55,7 +55,7 @@ def openings_of_cast(
         for member in do_members(directive.member):
             if isinstance(member, ast.Invocation):
                 _look_at_invocation(model, cast, member)
-    if cast.parts and not any(_has_file(scenario, m, constraints) for m in cast.maps):
+    if cast.parts and not any(_has_file(model, scenario, m, constraints) for m in cast.maps):
         yield "map file", scenario.node.name.span
     for actor, part in cast.parts.items():
         if not part.has_place and not _has_pose(scenario, actor, constraints):
@@ -64,21 +64,18 @@ def openings_of_cast(
             yield f"speed of {actor.name}", actor.span
 
 
-def _find_cast(scenario: sym.ScenarioSymbol) -> _Cast:
+def _find_cast(model: SemanticModel, scenario: sym.ScenarioSymbol) -> _Cast:
     cast = _Cast()
-    for ancestor in reversed(list(supertypes(scenario))):
-        for member in ancestor.members.values():
-            if not isinstance(member, sym.FieldSymbol):
-                continue
-            if not isinstance(member.type, types.ActorType):
-                continue
-            actor = member.type.symbol
-            if is_library_actor(actor, "map"):
-                cast.maps.append(member)
-            elif is_library_actor(actor, "physical_object"):
-                cast.parts[member] = _Part(
-                    has_pace=not is_library_actor(actor, "movable_object"),
-                )
+    own = (m for t in reversed(list(supertypes(scenario))) for m in t.members.values())
+    for member in (*model.global_parameters, *own):
+        if not isinstance(member, sym.FieldSymbol) or not isinstance(member.type, types.ActorType):
+            continue
+        actor = member.type.symbol
+        if is_library_actor(actor, "map"):
+            cast.maps.append(member)
+        elif is_library_actor(actor, "physical_object"):
+            has_pace = not is_library_actor(actor, "movable_object")
+            cast.parts[member] = _Part(has_pace=has_pace)
     return cast
 
 
@@ -137,21 +134,26 @@ def _settle(part: _Part | None) -> None:
 
 
 def _has_file(
-    scenario: sym.ScenarioSymbol, map_: sym.FieldSymbol, constraints: ConstraintAnalysis
+    model: SemanticModel,
+    scenario: sym.ScenarioSymbol,
+    map_: sym.FieldSymbol,
+    constraints: ConstraintAnalysis,
 ) -> bool:
     """Whether something says which road network it is."""
-    found = constraints.types[scenario]
-    for key in found.by_key:
-        match key:
-            case (root, sym.FieldSymbol(name="map_file") as file) if root is map_:
-                return found.parameter(key, file.type).state is not State.FREE
-            case _:
-                continue
+    is_global = map_ in model.global_parameters
+    of_global = [analyse_global(model, map_)] if is_global else []
+    for found in (constraints.types[scenario], *of_global):
+        for key in found.by_key:
+            match key:
+                case (root, sym.FieldSymbol(name="map_file") as file) if root is map_:
+                    return found.parameter(key, file.type).state is not State.FREE
+                case _:
+                    continue
     return any(
         isinstance(statement, ast.ModifierApplication)
         and statement.modifier.text == "set_map_file"
         and statement.actor is not None
-        and statement.actor.span.text == map_.name
+        and model.symbol_of(statement.actor) is map_
         for ancestor in supertypes(scenario)
         for statement in ancestor.statements
     )

@@ -104,9 +104,8 @@ class Collector:
         place = Place(model=self._model, owner=None, prefix=(), it=None)
         return [
             entry
-            for symbol in self._model.symbols
-            if isinstance(symbol, sym.FieldSymbol)
-            and isinstance(symbol.node, ast.ParameterDeclaration)
+            for symbol in self._model.global_parameters
+            if isinstance(symbol.node, ast.ParameterDeclaration)
             for entry in self._of_field(place, symbol, symbol.node, depth=0)
         ]
 
@@ -153,7 +152,7 @@ class Collector:
     ) -> Iterator[Entry]:
         match statement:
             case ast.ParameterDeclaration():
-                for member in ancestor.members.values():
+                for member in (m for name in statement.names for m in ancestor.named(name.text)):
                     if isinstance(member, sym.FieldSymbol) and member.node is statement:
                         yield from self._of_field(place, member, statement, depth)
             case ast.KeepConstraint() | ast.RemoveDefault():

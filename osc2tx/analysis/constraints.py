@@ -15,9 +15,10 @@ expression in force, all overriding done, so that a backend can write it as auth
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import field, replace
 from enum import Enum
+from functools import partial
 
 from osc2tx.analysis.collect import Collector, Constraint, Entry
 from osc2tx.analysis.constraint_overrides import EffectiveConstraints, apply_overrides
@@ -176,18 +177,26 @@ def analyse_constraints(model: SemanticModel) -> ConstraintAnalysis:
     """Collect and propagate the constraints of every type in the user's files."""
     conditions = conditions_of(model)
     return ConstraintAnalysis(
-        {owner: _analyse_type(model, owner, conditions) for owner in declared_types(model)}
+        {
+            owner: _analyse_objects(
+                model, owner, partial(Collector.collect, owner=owner), conditions
+            )
+            for owner in declared_types(model)
+        }
     )
 
 
-def _analyse_type(
-    model: SemanticModel, owner: sym.TypeSymbol, conditions: tuple[Condition, ...]
+def _analyse_objects(
+    model: SemanticModel,
+    owner: sym.TypeSymbol | None,
+    collect: Callable[[Collector], list[Entry]],
+    conditions: tuple[Condition, ...],
 ) -> TypeConstraints:
-    """Analyse a type, again while more turns out about what its objects are."""
+    """Analyse constraints, again while more turns out about what their objects are."""
     special: dict[Key, tuple[Special, ...]] = {}
     while True:
         collector = Collector(model, special)
-        found = _analyse(owner, collector.collect(owner))
+        found = _analyse(owner, collect(collector))
         more = specialised(conditions, collector.objects, found.domains, special)
         if more == special or found.conflicts:
             break
@@ -203,7 +212,8 @@ def _analyse_type(
 
 def analyse_global(model: SemanticModel, parameter: sym.FieldSymbol) -> TypeConstraints:
     """Collect and propagate what constrains a global parameter."""
-    return _analyse(None, Collector(model).collect_global(parameter))
+    collect = partial(Collector.collect_global, parameter=parameter)
+    return _analyse_objects(model, None, collect, conditions_of(model))
 
 
 def analyse_globals(model: SemanticModel) -> TypeConstraints:

@@ -20,6 +20,7 @@ from osc2tx.analysis.domains import (
     intersect,
 )
 from osc2tx.analysis.forward import evaluate
+from osc2tx.analysis.linear_equations import linear_solutions
 from osc2tx.analysis.operation_list import Key, OperationList
 from osc2tx.analysis.order_constraints import find_contradiction
 from osc2tx.support.light_dataclass import dataclass
@@ -77,6 +78,10 @@ def solve(expressions: Sequence[OperationList], active: Sequence[int]) -> Soluti
             changed = _revise(state, index)
         except EmptyDomainError:
             return Solution(state.domains, _positions(_blamed(state, index)))
+        if not queue and not changed:
+            solved = dict(linear_solutions(expressions, active, state.domains))
+            state.domains.update(solved)
+            changed = list(solved)
         for key in changed:
             for user in users[key]:
                 if user not in waiting:

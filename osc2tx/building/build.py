@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
-from osc2tx.building.manifest import MANIFEST_NAME, Entry, Manifest, read_manifest
+from osc2tx.building.manifest import MANIFEST_NAME, read_manifest
 from osc2tx.building.plan import (
     PROTECTED,
     Folder,
@@ -18,8 +18,9 @@ from osc2tx.building.plan import (
 )
 from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult
-from osc2tx.building.workers import compile_jobs
+from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.building.write import Update, update_folder
+from osc2tx.building.written_digests import read_digests
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.output_names import is_committed
@@ -34,7 +35,7 @@ class BuildOptions:
     Attributes:
         check_only: Write nothing, only find out what would change.
         force: Write also over what was edited by hand or is not ours.
-        prune: Remove outputs that no source makes any more.
+        prune: Remove outputs whose source has vanished.
         workers: How many processes may compile.
         want_texts: Get the texts of all outputs that differ, even if they will not be written.
     """
@@ -130,23 +131,26 @@ class _Build:
         self.out_dir = out_dir
         self.options = options
         self.progress = progress
-        self.folder = Folder(out_dir)
-        self.stored = read_manifest(out_dir)
-        self.manifest: Manifest = self.stored.settled(self.folder.has)
+        self.manifest = read_manifest(out_dir)
+        self.written = read_digests(out_dir)
+        self.folder = Folder(out_dir, self.written)
+        self.memory = ResultCache("builds", out_dir)
         self.failures: list[str] = []
 
     def run(self, jobs: Sequence[Job], folders: Sequence[Path]) -> BuildResult:
         results = self._compile(jobs)
-        placed, collisions = place_outputs(results)
+        made = with_siblings(results, self._compile)
+        results += [sibling for sibling in made[len(results) :] if sibling.bug]
+        placed, collisions = place_outputs(made)
         states = self._states(placed)
-        orphans = list(find_orphans(self.manifest, placed, results, folders, self.folder))
+        orphans = list(find_orphans(self.manifest, placed, made, folders, self.folder))
         changes = self._changes(placed, states, orphans)
         written: list[str] = []
         if self.options.check_only:
             changes += self._changes_of_manifest(placed, states)
         else:
             update = self._update(placed, states, orphans)
-            written, failures = update_folder(self.out_dir, self.stored, update)
+            written, failures = update_folder(self.out_dir, self.manifest, self.written, update)
             self.failures += failures
         return BuildResult(
             results=tuple(results),
@@ -159,8 +163,7 @@ class _Build:
 
     def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
         """Return the results of all jobs, with texts of all outputs that may be written."""
-        memory = ResultCache("builds", self.out_dir)
-        recalled = {job: memory.load(job) for job in jobs}
+        recalled = {job: self.memory.load(job) for job in jobs}
         known = {job: result for job, result in recalled.items() if result is not None}
         placed, _ = place_outputs(list(known.values()))
         for planned in placed:
@@ -172,7 +175,7 @@ class _Build:
         )
         if made:
             self.folder.look_again()
-            memory.keep(made)
+            self.memory.keep(made)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]
 
@@ -207,7 +210,11 @@ class _Build:
         self, placed: Sequence[Planned], states: dict[str, State], orphans: Sequence[Orphan]
     ) -> Update:
         force, prune = self.options.force, self.options.prune
-        removals = [orphan for orphan in orphans if prune and (orphan.is_untouched or force)]
+        removals = [
+            orphan
+            for orphan in orphans
+            if (prune or orphan.is_outdated) and (orphan.is_untouched or force)
+        ]
         listed = {planned.listed for planned in placed} | {orphan.path for orphan in orphans}
         return Update(
             current=[p for p in placed if states.get(p.path) is State.CURRENT],
@@ -220,14 +227,10 @@ class _Build:
                 and (force or state not in PROTECTED)
             ],
             removals=removals,
-            forgotten=[p for p in self.manifest.outputs if p not in listed and self._is_gone(p)],
+            forgotten=[
+                p for p in self.manifest.outputs if p not in listed and self.folder.is_missing(p)
+            ],
         )
-
-    def _is_gone(self, path: str) -> bool:
-        try:
-            return self.folder.digest_of(path) is None
-        except OSError:
-            return False
 
     def _changes(
         self, placed: Sequence[Planned], states: dict[str, State], orphans: Sequence[Orphan]
@@ -254,15 +257,9 @@ class _Build:
         self, placed: Sequence[Planned], states: dict[str, State]
     ) -> list[Change]:
         """Return the manifest if it does not list what is current; a build that writes fixes it."""
-        current = [
-            planned
+        is_listed = all(
+            self.manifest.outputs.get(planned.path) == planned.result.job.name
             for planned in placed
             if planned.is_committed and states.get(planned.path) is State.CURRENT
-        ]
-        if all(map(self._is_listed, current)) and not self.stored.unfinished:
-            return []
-        return [Change(self.out_dir / MANIFEST_NAME, State.STALE)]
-
-    def _is_listed(self, planned: Planned) -> bool:
-        entry = self.stored.outputs.get(planned.path)
-        return entry == Entry(planned.result.job.name, planned.made.digest)
+        )
+        return [] if is_listed else [Change(self.out_dir / MANIFEST_NAME, State.STALE)]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from osc2tx.building.jobs import find_jobs
 from osc2tx.building.plan import place_outputs
 from osc2tx.building.results import FileResult
 from osc2tx.building.revision import checked_out
-from osc2tx.building.workers import compile_jobs
+from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
 from osc2tx.support.light_dataclass import dataclass
@@ -62,13 +63,15 @@ def compare_with(
         InputError, ConfigError: If either cannot be read.
     """
     new_jobs = find_jobs(paths, given, ConfigFiles())
-    with checked_out(paths, revision) as old_paths:
-        old_jobs = find_jobs(old_paths, given, ConfigFiles())
+    libraries = given.import_paths or ()
+    with checked_out(paths, revision, libraries) as (old_paths, old_libraries):
+        old_given = replace(given, import_paths=old_libraries or None)
+        old_jobs = find_jobs(old_paths, old_given, ConfigFiles())
         jobs = (*old_jobs, *new_jobs)
         results = compile_jobs(jobs, workers, lambda done: progress(done, len(jobs)))
-    old, new = results[: len(old_jobs)], results[len(old_jobs) :]
-    old_texts, _ = _texts(old)
-    new_texts, problems = _texts(new)
+        old, new = results[: len(old_jobs)], results[len(old_jobs) :]
+        old_texts, _ = _texts(with_siblings(old, lambda more: compile_jobs(more, workers)))
+    new_texts, problems = _texts(with_siblings(new, lambda more: compile_jobs(more, workers)))
     problems += [
         f"{revision}: {result.job.name} has errors and makes nothing"
         for result in old

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from traceback import format_exception
 from typing import TYPE_CHECKING
@@ -10,9 +12,10 @@ from typing import TYPE_CHECKING
 from osc2tx.compilation.inputs import find_inputs
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx_text import visible
 
 if TYPE_CHECKING:
-    from osc2tx.compilation.driver import Compilation
+    from osc2tx.compilation.driver import Compilation, Memory
     from osc2tx.config import ConfigFiles, GivenOptions
     from osc2tx.options import CompileOptions
 
@@ -27,6 +30,7 @@ class Job:
         options: How to compile it.
         roots: Folders whose files it may import.
         is_asked: Whether somebody named this very file, and not a folder that holds it.
+        given: Options that go before those of settings files.
     """
 
     path: Path
@@ -34,14 +38,41 @@ class Job:
     options: CompileOptions
     roots: tuple[Path, ...]
     is_asked: bool
+    given: GivenOptions
 
-    def compilation(self) -> Compilation:
-        """Return its compilation; no stage has run yet."""
+    def compilation(self, memory: Memory | None = None) -> Compilation:
+        """Return its compilation; no stage has run yet.
+
+        Args:
+            memory: What compilations of other jobs may have found out about imported files.
+        """
         from osc2tx.compilation.driver import Compilation
 
         return Compilation(
-            self.path, self.name, self.options, roots=self.roots, is_trusted=self.is_asked
+            self.path,
+            self.name,
+            self.options,
+            roots=self.roots,
+            is_trusted=self.is_asked,
+            options_of=partial(options_of, given=self.given),
+            memory=memory,
         )
+
+    def for_module_of(self, path: Path, name: str) -> Job:
+        """Return the job for an imported file whose module the one of this file needs."""
+        options = replace(options_of(path, given=self.given), target="py")
+        return Job(path, name, options, self.roots, is_asked=False, given=self.given)
+
+
+def options_of(path: Path, *, given: GivenOptions) -> CompileOptions:
+    """Return the options for a file, which need not be among those that were asked for.
+
+    Raises:
+        ConfigError: If its settings file is wrong.
+    """
+    from osc2tx.config import ConfigFiles
+
+    return ConfigFiles().for_source(path).options_for(path, given)
 
 
 def find_jobs(
@@ -66,7 +97,7 @@ def find_jobs(
         config = configs.for_source(item.path)
         options = config.options_for(item.path, given)
         roots = (item.folder, *config.roots)
-        jobs.append(Job(item.path, item.name, options, roots, item.is_asked))
+        jobs.append(Job(item.path, item.name, options, roots, item.is_asked, given))
     return tuple(jobs)
 
 
@@ -103,7 +134,7 @@ def find_bug(
         stages: What to do with it.
         place: What the stages make, if only some of them run.
     """
-    told = f"{compilation.path}: internal error{place and f' in {place}'}"
+    told = f"{visible(str(compilation.path))}: internal error{place and f' in {place}'}"
     try:
         stages(compilation)
     except InternalCompilerError as error:

@@ -1,35 +1,35 @@
-"""The manifest: files of the output folder that osc2tx wrote, with digests.
+"""The manifest: which files of the output folder osc2tx made, and from which source.
 
 It lies in the output folder, belongs into version control with the outputs, and is the same on
 every machine: one line for each source, sorted, so that git merges two changes of different files.
 
     {
-      "format": 2,
-      "tool": "osc2tx 0.1.0",
+      "format": 3,
       "outputs": {
-        "urban/cut_in.osc": {"cut_in.py": "…", "cut_in.xosc": "…"}
+        "urban/cut_in.osc": ["cut_in.py", "cut_in.xosc"]
       }
     }
 
-Sources are relative to their folder. Outputs lie in the same folder below that of the outputs, each
-with the digest of what was written. Source maps are not listed: nobody commits them, and one beside
-a listed module belongs to it. While a build writes, `unfinished` lists what it is about to write,
-so that after a sudden end the next build knows its own work from that of others. A manifest may
-come from a stranger's branch: a path that leaves the folder makes it invalid.
+Sources are relative to their folder. Outputs lie in the same folder below that of the outputs. A
+line changes when a source makes other files, not when it makes other texts: what those were is
+known from `written_digests` and from version control. Source maps are not listed: nobody commits
+them, and one beside a listed module belongs to it. A manifest may come from a stranger's branch: a
+path that leaves the folder makes it invalid.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.version import __version__
+from osc2tx_text import in_json
 
 MANIFEST_NAME = ".osc2tx-manifest.json"
-FORMAT = 2
+FORMAT = 3
 
 
 class ManifestError(Exception):
@@ -37,49 +37,25 @@ class ManifestError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
-    """One output.
-
-    Attributes:
-        source: Name of the source that makes it.
-        digest: Of what was written.
-    """
-
-    source: str
-    digest: str
-
-
-@dataclass(frozen=True, slots=True)
 class Manifest:
     """What a manifest says.
 
     Attributes:
-        outputs: Path of an output to its entry.
-        unfinished: The same for what a build was about to write when it was killed.
+        outputs: Path of an output to the name of the source that makes it.
     """
 
-    outputs: Mapping[str, Entry] = field(default_factory=dict)
-    unfinished: Mapping[str, Entry] = field(default_factory=dict)
-
-    def settled(self, has: Callable[[str, str], bool]) -> Manifest:
-        """Return the manifest as the unfinished build would have left it had it stopped by itself.
-
-        Args:
-            has: Whether the file at a path has a digest.
-        """
-        written = {p: e for p, e in self.unfinished.items() if has(p, e.digest)}
-        return Manifest({**self.outputs, **written})
+    outputs: Mapping[str, str] = field(default_factory=dict)
 
     def render(self) -> str:
         """Return the text of the file."""
-        parts = [
-            f'  "format": {FORMAT}',
-            f'  "tool": {_quoted(f"osc2tx {__version__}")}',
-            _table("outputs", self.outputs),
-        ]
-        if self.unfinished:
-            parts.append(_table("unfinished", self.unfinished))
-        return "{\n" + ",\n".join(parts) + "\n}\n"
+        by_source: dict[str, list[str]] = {}
+        for path, source in sorted(self.outputs.items()):
+            by_source.setdefault(source, []).append(path.rpartition("/")[2])
+        lines = ",\n".join(
+            f"    {_json(source)}: {_json(names)}" for source, names in sorted(by_source.items())
+        )
+        table = f"{{\n{lines}\n  }}" if lines else "{}"
+        return f'{{\n  "format": {FORMAT},\n  "outputs": {table}\n}}\n'
 
 
 def read_manifest(out_dir: Path) -> Manifest:
@@ -98,7 +74,7 @@ def read_manifest(out_dir: Path) -> Manifest:
         return Manifest()
     except OSError as error:
         raise ManifestError(f"{path}: cannot be read: {error.strerror}") from None
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise ManifestError(
             f"{path}: is damaged ({error}); restore it, or remove it: "
             "outputs that are up to date are then entered again"
@@ -108,17 +84,23 @@ def read_manifest(out_dir: Path) -> Manifest:
 def _manifest(document: Mapping[str, object]) -> Manifest:
     if document["format"] != FORMAT:
         raise ValueError(f"form {document['format']!r} is not known to osc2tx {__version__}")
-    return Manifest(_entries(document["outputs"]), _entries(document.get("unfinished", {})))
-
-
-def _entries(table: object) -> dict[str, Entry]:
+    table = document["outputs"]
     if not isinstance(table, dict):
-        raise ValueError("a table is missing")
-    return {
-        _checked(beside(source, name)): Entry(source, _text(digest))
-        for source, outputs in table.items()
-        for name, digest in outputs.items()
-    }
+        raise ValueError("the table of outputs is missing")
+    return Manifest(
+        {
+            _checked(beside(source, name)): source
+            for source in table
+            for name in _names(table, source)
+        }
+    )
+
+
+def _names(table: Mapping[str, object], source: str) -> list[str]:
+    names = table[source]
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise ValueError(f"{source!r} has no list of outputs")
+    return names
 
 
 def beside(source: str, name: str) -> str:
@@ -143,23 +125,5 @@ def _checked(path: str) -> str:
     return path
 
 
-def _text(value: object) -> str:
-    if not isinstance(value, str):
-        raise ValueError(f"{value!r} is no text")
-    return value
-
-
-def _table(name: str, entries: Mapping[str, Entry]) -> str:
-    by_source: dict[str, list[str]] = {}
-    for path, entry in sorted(entries.items()):
-        output = f"{_quoted(path.rpartition('/')[2])}: {_quoted(entry.digest)}"
-        by_source.setdefault(entry.source, []).append(output)
-    lines = ",\n".join(
-        f"    {_quoted(source)}: {{{', '.join(outputs)}}}"
-        for source, outputs in sorted(by_source.items())
-    )
-    return f'  "{name}": {{\n{lines}\n  }}' if lines else f'  "{name}": {{}}'
-
-
-def _quoted(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False)
+def _json(value: object) -> str:
+    return in_json(json.dumps(value, ensure_ascii=False))

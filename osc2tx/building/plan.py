@@ -6,13 +6,15 @@ import os
 import stat
 import unicodedata
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
 from pathlib import Path
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.manifest import Manifest, beside
 from osc2tx.building.results import FileResult, OutputRecord
+from osc2tx.building.version_control import committed_objects, is_object
+from osc2tx.building.written_digests import Digests
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.output_names import (
     LOSS_REPORT,
@@ -72,19 +74,23 @@ class Orphan:
         path: Where it is, relative to the output folder.
         source: The source that made it.
         is_untouched: Whether it still is as osc2tx wrote it.
+        is_outdated: Whether the source was compiled, and makes other files now.
     """
 
     path: str
     source: str
     is_untouched: bool
+    is_outdated: bool
 
 
 class Folder:
     """An output folder as it is; its outputs may be links into the rest of the world."""
 
-    def __init__(self, out_dir: Path) -> None:
-        """Take the folder."""
+    def __init__(self, out_dir: Path, written: Digests | None = None) -> None:
+        """Take the folder, and digests of what osc2tx wrote there."""
         self._out_dir = out_dir
+        self._written = written or {}
+        self._committed: Mapping[str, str] | None = None
         self._is_inside: dict[str, bool] = {}
         self._digests: dict[str, str | None] = {}
 
@@ -130,10 +136,10 @@ class Folder:
         if not self._is_inside[folder]:
             raise OSError(0, "a folder on the way is a link")
 
-    def has(self, path: str, expected: str | None) -> bool:
-        """Return whether a file has this digest; none if it is missing."""
+    def is_missing(self, path: str) -> bool:
+        """Return whether there is certainly no such file."""
         try:
-            return self.digest_of(path) == expected
+            return self.digest_of(path) is None
         except OSError:
             return False
 
@@ -148,12 +154,27 @@ class Folder:
             return State.MISSING
         if present == planned.made.digest:
             return State.CURRENT
-        entry = manifest.outputs.get(planned.listed)
-        if entry is None:
+        if planned.listed not in manifest.outputs:
             return State.FOREIGN
-        if not planned.is_committed:
-            return State.STALE
-        return State.STALE if entry.digest == present else State.EDITED
+        may_be_replaced = not planned.is_committed or self.is_untouched(planned.path)
+        return State.STALE if may_be_replaced else State.EDITED
+
+    def is_untouched(self, path: str) -> bool:
+        """Return whether an output is as osc2tx wrote it, as it was committed, or missing.
+
+        Raises:
+            OSError: As `digest_of`.
+        """
+        present = self.digest_of(path)
+        if not present:
+            return present is None
+        return present in self._written.get(path, ()) or self._is_committed(path)
+
+    def _is_committed(self, path: str) -> bool:
+        if self._committed is None:
+            self._committed = committed_objects(self._out_dir)
+        name = self._committed.get(path)
+        return name is not None and is_object((self._out_dir / path).read_bytes(), name)
 
 
 def place_outputs(results: Sequence[FileResult]) -> tuple[list[Planned], list[str]]:
@@ -211,23 +232,21 @@ def find_orphans(
     }
     compiled = {r.job.name for r in results} - failed
     targets = {result.job.name: result.job.options.target for result in results}
-    for path, entry in sorted(manifest.outputs.items()):
-        if path in made or entry.source in failed:
+    for path, source in sorted(manifest.outputs.items()):
+        if path in made or source in failed:
             continue
-        if targets.get(entry.source, "all") not in ("all", _target_of(path)):
+        if targets.get(source, "all") not in ("all", _target_of(path)):
             continue  # nobody asked for such files today
-        is_gone = folders and not any(_is_source(each, entry.source) for each in folders)
-        if entry.source not in compiled and not is_gone:
+        is_gone = folders and not any(_is_source(each, source) for each in folders)
+        if source not in compiled and not is_gone:
             continue
         try:
-            present = folder.digest_of(path)
+            is_untouched = folder.is_untouched(path)
         except OSError:
-            present = ""
-        is_untouched = present in (None, entry.digest)
-        if path.endswith(MODULE) and not folder.has(source_map_of(path), None):
-            yield Orphan(source_map_of(path), entry.source, is_untouched)
-        if present is not None:
-            yield Orphan(path, entry.source, is_untouched)
+            is_untouched = False
+        for each in (source_map_of(path), path) if path.endswith(MODULE) else (path,):
+            if not folder.is_missing(each):
+                yield Orphan(each, source, is_untouched, source in compiled)
 
 
 def _target_of(path: str) -> str:

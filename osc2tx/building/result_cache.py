@@ -16,14 +16,14 @@ from pathlib import Path
 from typing import Any, Literal
 
 from osc2tx.building.fingerprint import digest, tool_stamp
-from osc2tx.building.jobs import Job
-from osc2tx.building.results import Dependency, FileResult, OutputRecord
+from osc2tx.building.jobs import Job, options_of
+from osc2tx.building.results import Dependency, FileResult, ImportedFile, OutputRecord
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import SourceFile
 from osc2tx.support.user_cache import cache_folder, read_own, write_own
 
-FORMAT = 2
+FORMAT = 3
 MOST_KEPT = 64  # folders that are remembered, of each kind
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
@@ -63,6 +63,7 @@ class ResultCache:
             if result.dependencies is not None:
                 records[key] = self._record(result)
         if records != self._records:
+            self._records = records
             document = {
                 "format": FORMAT,
                 "stamp": self._stamp,
@@ -81,7 +82,7 @@ class ResultCache:
                 return {}
             self._library = dict(document["library"])
             return dict(document["results"])
-        except (ValueError, KeyError, TypeError, AttributeError):
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return {}
 
     def _key(self, job: Job) -> list[Any]:
@@ -95,6 +96,7 @@ class ResultCache:
             "job": self._key(result.job),
             "text": digest(result.source.text.encode()),
             "dependencies": [[d.asked, d.found, d.digest] for d in result.dependencies],
+            "imported": [[i.path, i.name, i.options, i.is_needed] for i in result.imported],
             "is_complete": result.is_complete,
             "stem": result.stem,
             "outputs": [[made.suffix, made.digest] for made in result.outputs],
@@ -111,6 +113,9 @@ class ResultCache:
         dependencies = tuple(Dependency(*entry) for entry in record["dependencies"])
         if not all(self._holds(dependency) for dependency in dependencies):
             return None
+        imported = tuple(ImportedFile(*entry) for entry in record["imported"])
+        if any(repr(options_of(Path(i.path), given=job.given)) != i.options for i in imported):
+            return None
         source = SourceFile(job.name, text.decode(), job.path)
         reader = ReportReader(source, record["sources"], self._text, self._library)
         return FileResult(
@@ -123,6 +128,7 @@ class ResultCache:
             outputs=tuple(OutputRecord(suffix, found, None) for suffix, found in record["outputs"]),
             losses=tuple(LossEntry(*entry) for entry in record["losses"]),
             dependencies=dependencies,
+            imported=imported,
         )
 
     def _holds(self, dependency: Dependency) -> bool:

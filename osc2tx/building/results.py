@@ -13,7 +13,7 @@ from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.support.light_dataclass import dataclass
 
 if TYPE_CHECKING:
-    from osc2tx.compilation.driver import Compilation, Output
+    from osc2tx.compilation.driver import Compilation, Memory, Output
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +47,23 @@ class Dependency:
 
 
 @dataclass(frozen=True, slots=True)
+class ImportedFile:
+    """A file that was compiled for itself, as another one imports what it declares.
+
+    Attributes:
+        path: The file.
+        name: What it is called.
+        options: The options it was compiled with, spelled out.
+        is_needed: Whether its module is needed.
+    """
+
+    path: str
+    name: str
+    options: str
+    is_needed: bool
+
+
+@dataclass(frozen=True, slots=True)
 class FileResult:
     """What came of one source file.
 
@@ -62,6 +79,7 @@ class FileResult:
         dependencies: Where imports were looked for; `None` if the result depends on more than
             that, so that it must not be used again.
         bug: A mistake of osc2tx itself that came to light.
+        imported: The files that the module imports from, or would if it could.
     """
 
     job: Job
@@ -74,6 +92,7 @@ class FileResult:
     losses: tuple[LossEntry, ...]
     dependencies: tuple[Dependency, ...] | None
     bug: str = ""
+    imported: tuple[ImportedFile, ...] = ()
 
     @property
     def start(self) -> Span:
@@ -81,9 +100,14 @@ class FileResult:
         return Span(self.source or SourceFile(self.job.name, "", self.job.path), 0, 0)
 
 
-def compile_job(job: Job) -> FileResult:
-    """Compile a file to its outputs; a mistake of one back end costs only what that one makes."""
-    compilation = job.compilation()
+def compile_job(job: Job, memory: Memory | None = None) -> FileResult:
+    """Compile a file to its outputs; a mistake of one back end costs only what that one makes.
+
+    Args:
+        job: What to compile.
+        memory: What other jobs found out about imported files; it grows.
+    """
+    compilation = job.compilation(memory)
     bug = find_bug(compilation, lambda item: item.is_supported)
     if bug:
         return _result(job, compilation, bug)
@@ -136,11 +160,25 @@ def _result(
         losses=losses,
         dependencies=None if bug else _dependencies(compilation),
         bug=bug,
+        imported=() if bug else _imported(compilation),
+    )
+
+
+def _imported(compilation: Compilation) -> tuple[ImportedFile, ...]:
+    from osc2tx.compilation.needed_modules import all_compiled_alone, siblings_of
+
+    alone = all_compiled_alone(compilation)
+    needed = {each.name for each in siblings_of(compilation)} if alone else set()
+    return tuple(
+        ImportedFile(str(each.path), each.name, repr(each.options), each.name in needed)
+        for each in alone
     )
 
 
 def _dependencies(compilation: Compilation) -> tuple[Dependency, ...] | None:
-    lookups = compilation.lookups
+    lookups = dict(compilation.lookups)
+    for alone in compilation.compiled_alone.values():
+        lookups |= alone.lookups
     if compilation.source is None or any(lookup.is_refused for lookup in lookups.values()):
         return None
     return tuple(

@@ -10,14 +10,17 @@ from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 
 from osc2tx.compilation.inputs import InputError
+from osc2tx.support.real_paths import real_path
 
 SETTINGS = ("osc2tx.toml", "pyproject.toml")
 LINK = "120000"
 
 
 @contextmanager
-def checked_out(paths: Sequence[str | Path], revision: str) -> Iterator[list[Path]]:
-    """Lay out scenario and settings files of a revision; yield where the paths are then.
+def checked_out(
+    paths: Sequence[str | Path], revision: str, import_paths: Sequence[str]
+) -> Iterator[tuple[list[Path], tuple[str, ...]]]:
+    """Lay out scenario and settings files of a revision; yield where paths and libraries are.
 
     Nothing of the repository's own folder is touched, and no command of its settings is run: the
     files are read as git stores them.
@@ -26,6 +29,7 @@ def checked_out(paths: Sequence[str | Path], revision: str) -> Iterator[list[Pat
         paths: Files and folders as they are named today; those that the revision does not have
             are left out.
         revision: A commit, in any way git understands.
+        import_paths: Folders with libraries; those outside of the repository stay what they are.
 
     Raises:
         InputError: If the paths are in no repository, or it has no such revision.
@@ -44,7 +48,14 @@ def checked_out(paths: Sequence[str | Path], revision: str) -> Iterator[list[Pat
         top = Path(os.path.realpath(folder))
         _lay_out(root, commit.decode().strip(), top)
         inside = [top / _place(path).relative_to(root) for path in paths]
-        yield [path for path in inside if path.exists() and _has_source(path)]
+        libraries = [(str(path), _place(path)) for path in import_paths]
+        yield (
+            [path for path in inside if path.exists() and _has_source(path)],
+            tuple(
+                str(top / place.relative_to(root)) if place.is_relative_to(root) else written
+                for written, place in libraries
+            ),
+        )
 
 
 def _has_source(path: Path) -> bool:
@@ -65,7 +76,7 @@ def _repository(paths: Sequence[str | Path]) -> Path:
 def _place(path: str | Path) -> Path:
     """Return the absolute path; a link stays a link, as it does in the repository."""
     path = Path(path)
-    return Path(os.path.realpath(path.parent), path.name) if path.name else path.resolve()
+    return Path(os.path.realpath(path.parent), path.name) if path.name else real_path(path)
 
 
 def _lay_out(root: Path, commit: str, top: Path) -> None:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from osc2tx.building.results import FileResult
+from osc2tx.support.real_paths import real_path
 
 SETTINGS = ("osc2tx.toml", "pyproject.toml")
 
@@ -50,7 +51,7 @@ def _snapshot(paths: Sequence[str | Path], files: Iterable[str]) -> Snapshot:
     found = {file: _stamp(file) for file in files}
     for path in map(Path, paths):
         found[str(path)] = None if path.is_dir() else _stamp(str(path))
-        for parent in (path, *path.resolve().parents):
+        for parent in (path, *real_path(path).parents):
             for name in SETTINGS:
                 found[str(parent / name)] = _stamp(str(parent / name))
         for folder, folders, names in os.walk(path):

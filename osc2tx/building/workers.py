@@ -9,13 +9,21 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, compile_job, failed_job
 
+if TYPE_CHECKING:
+    from osc2tx.compilation.driver import Memory
+
 FEWEST_FILES = 8  # for a second process: starting one takes as long as compiling a few files
 
 Progress = Callable[[int], None]
+
+_memory: Memory = {}
+"""Of a worker, which ends with the build."""
 
 
 def processors() -> int:
@@ -36,9 +44,10 @@ def compile_jobs(
         progress: Is told now and then how many files are done.
     """
     if workers == 1 or len(jobs) < FEWEST_FILES:
-        results = []
+        results: list[FileResult] = []
+        memory: Memory = {}
         for job in jobs:
-            results.append(compile_job(job))
+            results.append(compile_job(job, memory))
             progress(len(results))
         return results
     first = compile_job(jobs[0])  # loads the compiler, which forked processes then share
@@ -47,13 +56,38 @@ def compile_jobs(
     return [first, *(found.get(job) or _compile_alone(job) for job in jobs[1:])]
 
 
+def with_siblings(
+    results: Sequence[FileResult], compile: Callable[[Sequence[Job]], list[FileResult]]
+) -> list[FileResult]:
+    """Return results, and those of imported files whose modules they need and that are not there.
+
+    Args:
+        results: What came of some files.
+        compile: Gives the results of jobs.
+    """
+    found = list(results)
+    known = {os.path.realpath(result.job.path) for result in results}
+    new = found
+    while new:
+        jobs: dict[str, Job] = {}
+        for result in new:
+            for each in result.imported:
+                place = os.path.realpath(each.path)
+                if each.is_needed and place not in known:
+                    jobs[place] = result.job.for_module_of(Path(each.path), each.name)
+        known |= jobs.keys()
+        new = compile(list(jobs.values())) if jobs else []
+        found += new
+    return found
+
+
 def _compile_in_pool(
     jobs: Sequence[Job], workers: int, progress: Progress
 ) -> dict[Job, FileResult]:
     """Return the results that came in before a process died, if one did."""
     found: dict[Job, FileResult] = {}
     with _pool(min(workers, len(jobs))) as pool:
-        futures = {pool.submit(compile_job, job): job for job in jobs}
+        futures = {pool.submit(_compile_in_worker, job): job for job in jobs}
         try:
             for future in as_completed(futures):
                 found[futures[future]] = future.result()
@@ -64,6 +98,10 @@ def _compile_in_pool(
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return found
+
+
+def _compile_in_worker(job: Job) -> FileResult:
+    return compile_job(job, _memory)
 
 
 def _rescued(futures: dict[Future[FileResult], Job]) -> dict[Job, FileResult]:

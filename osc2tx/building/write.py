@@ -1,21 +1,32 @@
 """Writes outputs atomically: no file is ever half written.
 
-First the manifest says what is about to be written, then every output is put in place in one step,
-then the manifest says that it is done. A build that is killed in between leaves each output old or
-new, and the next one knows both for its own. One build at a time writes to a folder.
+First the digests and the manifest say what is about to be written, then every output is put in
+place in one step, then they say that it is done. A build that is killed in between leaves each
+output old or new, and the next one knows both for its own. One build at a time writes to a folder.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
-from osc2tx.building.manifest import MANIFEST_NAME, Entry, Manifest
+from osc2tx.building.manifest import MANIFEST_NAME, Manifest
 from osc2tx.building.plan import Folder, Orphan, Planned
+from osc2tx.building.written_digests import (
+    DIGESTS_NAME,
+    IGNORE_NAME,
+    IGNORE_TEXT,
+    Digests,
+    render_digests,
+)
 from osc2tx.support.light_dataclass import dataclass
 
 TEMPORARY = ".osc2tx-tmp"
+SYNCS_AT_ONCE = 16
+RECORDS = (MANIFEST_NAME, DIGESTS_NAME, IGNORE_NAME)
 _WRITE_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
 
 
@@ -36,49 +47,88 @@ class Update:
     forgotten: Sequence[str]
 
 
-def update_folder(out_dir: Path, manifest: Manifest, update: Update) -> tuple[list[str], list[str]]:
-    """Write, remove, and keep the manifest true all the while.
+def update_folder(
+    out_dir: Path, manifest: Manifest, written: Digests, update: Update
+) -> tuple[list[str], list[str]]:
+    """Write and remove, and keep it known all the while what osc2tx wrote.
 
     Args:
         out_dir: The output folder.
         manifest: The manifest that is in it.
+        written: The digests that are known of it.
         update: What to do.
 
     Returns:
         The paths that were written or removed, and a sentence for each that could not be.
     """
     writer = _Writer(out_dir)
-    outputs = dict(manifest.settled(Folder(out_dir).has).outputs)
-    for path in update.forgotten:
-        outputs.pop(path, None)
-    outputs |= _entries(update.current)
+    records = _Records(writer, manifest, written)
+    records.forget(update.forgotten)
+    for planned in update.current:
+        records.enter(planned)
     if update.writes:
-        unfinished = _entries(planned for planned, _ in update.writes)
-        writer.write(MANIFEST_NAME, Manifest(outputs, unfinished).render())
+        records.announce([planned for planned, _ in update.writes])
         if writer.failures:
             return [], writer.failures
-    for planned, text in sorted(update.writes, key=lambda pair: not pair[0].is_committed):
-        if planned.is_committed:
-            if writer.write(planned.path, text):
-                outputs |= _entries([planned])
-        elif planned.listed in outputs:  # a source map comes after its module, or not at all
-            writer.write(planned.path, text)
+    writer.stage({planned.path: text for planned, text in update.writes})
+    for planned, _ in sorted(update.writes, key=lambda pair: not pair[0].is_committed):
+        is_wanted = planned.is_committed or records.has(planned.listed)  # a map needs its module
+        if is_wanted and writer.put(planned.path):
+            records.enter(planned)
     for orphan in update.removals:
         if writer.remove(orphan.path):
-            outputs.pop(orphan.path, None)
-    final = Manifest(outputs)
-    if update.writes or final != manifest:
-        writer.write(MANIFEST_NAME, final.render())
-    return [path for path in writer.done if path != MANIFEST_NAME], writer.failures
+            records.forget([orphan.path])
+    records.save()
+    writer.end()
+    return [path for path in writer.done if path not in RECORDS], writer.failures
 
 
-def _entries(outputs: Iterable[Planned]) -> dict[str, Entry]:
-    """Return what the manifest lists of outputs."""
-    return {
-        planned.path: Entry(planned.result.job.name, planned.made.digest)
-        for planned in outputs
-        if planned.is_committed
-    }
+class _Records:
+    """Manifest and digests of a folder while it changes."""
+
+    def __init__(self, writer: _Writer, manifest: Manifest, written: Digests) -> None:
+        self._writer = writer
+        self._stored = (manifest.outputs, written)
+        self._outputs = dict(manifest.outputs)
+        self._digests = dict(written)
+
+    def has(self, path: str) -> bool:
+        """Return whether an output is listed."""
+        return path in self._outputs
+
+    def enter(self, planned: Planned) -> None:
+        """List an output that is as it should be."""
+        if planned.is_committed:
+            self._outputs[planned.path] = planned.result.job.name
+            self._digests[planned.path] = (planned.made.digest,)
+
+    def forget(self, paths: Iterable[str]) -> None:
+        """List outputs no more."""
+        for path in paths:
+            self._outputs.pop(path, None)
+            self._digests.pop(path, None)
+
+    def announce(self, writes: Iterable[Planned]) -> None:
+        """Save what is about to be written, beside what is there."""
+        committed = [planned for planned in writes if planned.is_committed]
+        coming = {p.path: p.result.job.name for p in committed}
+        digests = {p.path: (*self._digests.get(p.path, ()), p.made.digest) for p in committed}
+        self._save(self._outputs | coming, self._digests | digests)
+
+    def save(self) -> None:
+        """Save what there is now."""
+        self._save(self._outputs, self._digests)
+
+    def _save(self, outputs: Mapping[str, str], digests: Digests) -> None:
+        """Write the files that are not yet so, the digests first: alone they protect nothing."""
+        listed, known = self._stored
+        files = []
+        if digests != known:
+            files += [(IGNORE_NAME, IGNORE_TEXT), (DIGESTS_NAME, render_digests(digests))]
+        if outputs != listed:
+            files += [(MANIFEST_NAME, Manifest(outputs).render())]
+        if all(self._writer.write(path, text) for path, text in files):
+            self._stored = (dict(outputs), dict(digests))
 
 
 class _Writer:
@@ -90,20 +140,47 @@ class _Writer:
         self._out_dir = out_dir
         self._folder = Folder(out_dir)
         self._swept: set[Path] = set()
+        self._staged: dict[str, Path] = {}
 
     def write(self, path: str, text: str) -> bool:
         """Put a file in place."""
-        place = self._out_dir / path
+        self.stage({path: text})
+        return self.put(path)
+
+    def stage(self, texts: Mapping[str, str]) -> None:
+        """Write files beside their places, all on the disk when this returns."""
+        for path, text in texts.items():
+            place = self._out_dir / path
+            try:
+                self._folder.require_inside(path)
+                place.parent.mkdir(parents=True, exist_ok=True)
+                self._sweep(place.parent)
+                self._staged[path] = stage_file(place, text.encode())
+            except OSError as error:
+                self._fail(place, error)
+        sync(self._staged.values())
+
+    def put(self, path: str) -> bool:
+        """Move a file that is staged to its place; return whether it is there."""
+        staged = self._staged.pop(path, None)
+        if staged is None:
+            return False
         try:
-            self._folder.require_inside(path)
-            place.parent.mkdir(parents=True, exist_ok=True)
-            self._sweep(place.parent)
-            replace_file(place, text.encode())
+            put_file(staged, self._out_dir / path)
         except OSError as error:
-            self.failures.append(f"{place}: cannot be written: {error.strerror}")
+            self._fail(self._out_dir / path, error)
             return False
         self.done.append(path)
         return True
+
+    def _fail(self, place: Path, error: OSError) -> None:
+        self.failures.append(f"{place}: cannot be written: {error.strerror}")
+
+    def end(self) -> None:
+        """Remove what was staged for nothing; let the disk have the names of what is in place."""
+        for staged in self._staged.values():
+            staged.unlink(missing_ok=True)
+        sync({(self._out_dir / path).parent for path in self.done})
 
     def remove(self, path: str) -> bool:
         """Remove a file, and the folders that it leaves empty."""
@@ -135,11 +212,19 @@ class _Writer:
 
 
 def replace_file(path: Path, data: bytes) -> None:
-    """Write a file beside its place and move it there; permissions stay.
+    """Write a file beside its place and move it there, once it is on the disk; permissions stay.
 
     Raises:
         OSError: If that is not possible; nothing has changed then.
     """
+    staged = stage_file(path, data)
+    sync([staged])
+    put_file(staged, path)
+    sync([path.parent])
+
+
+def stage_file(path: Path, data: bytes) -> Path:
+    """Write a file beside its place; return where."""
     temporary = path.with_name(f".{path.name}{TEMPORARY}")
     try:
         descriptor = os.open(temporary, _WRITE_FLAGS, 0o666)
@@ -147,7 +232,38 @@ def replace_file(path: Path, data: bytes) -> None:
             file.write(data)
         if path.exists() and not path.is_symlink():
             os.chmod(temporary, path.stat().st_mode & 0o777)
-        os.replace(temporary, path)
     except OSError:
         temporary.unlink(missing_ok=True)
         raise
+    return temporary
+
+
+def put_file(staged: Path, path: Path) -> None:
+    """Move a staged file to its place."""
+    try:
+        os.replace(staged, path)
+    except OSError:
+        staged.unlink(missing_ok=True)
+        raise
+
+
+def sync(paths: Collection[Path]) -> None:
+    """Return once files and folders are on the disk, where the system can tell.
+
+    A disk writes many files in nearly the time of one if it is asked for all of them at once.
+    """
+    if len(paths) > 1:
+        with ThreadPoolExecutor(SYNCS_AT_ONCE) as pool:
+            list(pool.map(_sync, paths))
+    else:
+        for path in paths:
+            _sync(path)
+
+
+def _sync(path: Path) -> None:
+    with suppress(OSError):  # not every system syncs folders, nor every file system at all
+        descriptor = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

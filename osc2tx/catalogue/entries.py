@@ -24,8 +24,8 @@ class ActionEntry:
         moves: Whether it moves as its modifiers say, so that they must go together.
         physical: Whether it cannot let the actor jump.
         slots: What it controls of the actor itself: `longitudinal`, `lateral`.
-        ends: At its `goal`, in the `instant` it starts, at the next `step`, or `open`: only with
-            its surroundings.
+        ends: At its `goal`, `at_once` with a goal that takes no time, in the `instant` it starts,
+            or `open`: only with its surroundings.
         places: Whether its arguments say where the actor is.
         paces: Whether it sets or holds the speed of the actor.
         needs: What a world must have to carry it out.
@@ -40,7 +40,7 @@ class ActionEntry:
     moves: bool
     physical: bool
     slots: tuple[str, ...]
-    ends: Literal["goal", "open", "instant", "step"]
+    ends: Literal["goal", "open", "instant", "at_once"]
     places: bool
     paces: bool
     needs: tuple[str, ...]
@@ -49,8 +49,8 @@ class ActionEntry:
 
     @property
     def is_momentary(self) -> bool:
-        """Whether it has no course over time: it is over at once, or at the next step."""
-        return self.ends in ("instant", "step")
+        """Whether it takes no time."""
+        return self.ends in ("instant", "at_once")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,19 +11,20 @@ asked for; `options` and `progress` are what they share.
 from __future__ import annotations
 
 import gc
-import os
+import signal
 import sys
-import traceback
 from collections.abc import Mapping, Sequence
 from importlib import import_module
+from traceback import format_exc
 from typing import NoReturn
 
 import click
 
-from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, complain, report_failure
+from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, report_failure
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
 from osc2tx.version import __version__
+from osc2tx_text import READER_HAS_GONE, OutputError, complain, explain, put
 
 # Command -> where it is, and its line in the help page.
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -70,36 +71,55 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     gc.set_threshold(200_000, 30, 30)  # what a start makes is there to stay: look rarely
     code = _exit_code(sys.argv[1:] if arguments is None else arguments)
     gc.freeze()  # the process ends: nobody has to look for garbage in large trees
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # and there is nothing left to interrupt
     sys.exit(code)
 
 
 def _exit_code(arguments: Sequence[str]) -> int:
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):  # a terminal may know fewer characters than a source
-            stream.reconfigure(errors="backslashreplace")
     session = Session()
     try:
+        return _run(arguments, session)
+    except OutputError as error:
+        return explain(error)
+
+
+def _run(arguments: Sequence[str], session: Session) -> int:
+    try:
         code = cli.main(list(arguments), prog_name="osc2tx", standalone_mode=False, obj=session)
-        sys.stdout.flush()
         return int(code or Exit.OK)
     except click.ClickException as error:
-        error.show()
-        report_failure(error.format_message(), arguments, session)
-        return error.exit_code
+        _explain_usage(error)
+        return _fail(error.exit_code, error.format_message(), arguments, session)
     except click.Abort:
         return Exit.INTERRUPTED
     except (ConfigError, InputError) as error:
         complain(f"osc2tx: error: {error}")
-        report_failure(str(error), arguments, session)
         unreadable = isinstance(error, InputError) and error.unreadable
-        return Exit.UNREADABLE if unreadable else Exit.USAGE
-    except SystemExit as end:  # click's answer to a reader of our output that has gone is 1
-        return 141 if end.code == 1 else Exit.OK
-    except BrokenPipeError:  # the same, noticed here
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
+        code = Exit.UNREADABLE if unreadable else Exit.USAGE
+        return _fail(code, str(error), arguments, session)
+    except OutputError:
+        raise
+    except SystemExit as end:  # click's answer to a reader of its help page that has gone is 1
+        return READER_HAS_GONE if end.code == 1 else Exit.OK
+    except OSError as error:  # the folder that we work in is gone, the disk is full
+        complain(f"osc2tx: error: {error}")
+        return _fail(Exit.UNREADABLE, str(error), arguments, session)
     except Exception:  # the edge of the process: a bug must not look like exit code 1, stale
-        traceback.print_exc()
+        put(format_exc(), err=True)
         complain(BUG_REPORT)
-        report_failure("osc2tx failed; this is a bug of it", arguments, session)
-        return Exit.BUG
+        return _fail(Exit.BUG, "osc2tx failed; this is a bug of it", arguments, session)
+
+
+def _explain_usage(error: click.ClickException) -> None:
+    """Print how a command is used, and what is wrong with this use of it."""
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    if context is not None:
+        put(context.get_usage(), err=True)
+        put(f"Try '{context.command_path} --help' for help.\n\n", err=True)
+    complain(f"Error: {error.format_message()}")
+
+
+def _fail(code: int, message: str, arguments: Sequence[str], session: Session) -> int:
+    """Tell a program that waits for a document why there is none; return the exit code."""
+    report_failure(message, arguments, session)
+    return code

@@ -15,13 +15,14 @@ from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
 from osc2tx.cli.diff_output import print_diff, read_text
 from osc2tx.cli.options import compile_options, target_options
 from osc2tx.cli.progress import progress_bar
-from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, found, report_options
+from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import PRODUCT_NAMES, ProductName
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx_text import complain, put, visible
 
 if TYPE_CHECKING:
     from osc2tx.building.build import BuildOptions, BuildResult, Change
@@ -67,7 +68,7 @@ class _Task:
 )
 @click.option("--watch", is_flag=True, help="Go on and build again when a source changes.")
 @click.option("--force", is_flag=True, help="Write also over what was edited by hand.")
-@click.option("--prune", is_flag=True, help="Remove outputs that no source makes any more.")
+@click.option("--prune", is_flag=True, help="Remove outputs whose source has vanished.")
 @click.option(
     "-j",
     "--jobs",
@@ -269,9 +270,10 @@ def _print_product(
             compilation.check()
         text = dump_product(compilation, emit)
         if text is not None:
-            texts.append(f"# {compilation.path}\n{text}" if len(compilations) > 1 else text)
+            head = f"# {visible(str(compilation.path))}\n" if len(compilations) > 1 else ""
+            texts.append(head + text)
 
     bugs = run_all(compilations, dump)
     for text in texts:
-        click.echo(text, nl=not text.endswith("\n"))
+        put(text)
     return reporter.report(compilations, bugs)[0]

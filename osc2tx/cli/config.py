@@ -9,6 +9,8 @@ import click
 
 from osc2tx.cli.options import compile_options, target_options
 from osc2tx.config import ConfigFiles, GivenOptions, Origin
+from osc2tx.support.real_paths import real_path
+from osc2tx_text import in_json, say
 
 
 @click.command()
@@ -20,18 +22,22 @@ def config(path: Path, given: GivenOptions) -> None:
     configs = ConfigFiles()
     found = configs.for_folder(path) if path.is_dir() else configs.for_source(path)
     rows = [
-        (f"{entry.name} = {json.dumps(entry.value, ensure_ascii=False)}", _shown(entry.origin))
+        (f"{entry.name} = {_json(entry.value)}", _shown(entry.origin))
         for entry in found.settings_in_force(None if path.is_dir() else path, given)
     ]
     width = max(len(setting) for setting, _ in rows)
     for setting, origin in rows:
-        click.echo(f"{setting:{width}}  # {origin}")
+        say(f"{setting:{width}}  # {origin}")
+
+
+def _json(value: object) -> str:
+    return in_json(json.dumps(value, ensure_ascii=False))
 
 
 def _shown(origin: Origin) -> str:
     if origin.path is None:
         return origin.place
-    path = origin.path.resolve()
+    path = real_path(origin.path)
     here = Path.cwd()
     name = path.relative_to(here).as_posix() if path.is_relative_to(here) else str(path)
     return f"{name}, [{origin.place}]" if origin.place else name

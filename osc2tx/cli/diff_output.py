@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 
 import click
 
 from osc2tx.building.diff import diff_lines
+from osc2tx_text import is_watched, put, visible
 
 _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
 
 def print_diff(path: str, old: str | None, new: str | None) -> None:
     """Print how an output changes."""
-    is_terminal = sys.stdout.isatty()
-    color = is_terminal and "NO_COLOR" not in os.environ
-    for line in diff_lines(path, old, new):
-        text = _printable(line) if is_terminal else line
-        if color and line.startswith(("+++", "---")):
-            text = click.style(text, bold=True)
-        elif color and line[0] in _STYLES:
-            text = click.style(text, fg=_STYLES[line[0]])
-        click.echo(text, nl=False, color=color)
+    color = is_watched(err=False) and "NO_COLOR" not in os.environ
+    for line in diff_lines(visible(path), old, new):
+        put(_painted(line) if color else line, colored=color)
+
+
+def _painted(line: str) -> str:
+    text = "\t".join(map(visible, line.removesuffix("\n").split("\t")))
+    if line.startswith(("+++", "---")):
+        return click.style(text, bold=True)
+    return click.style(text, fg=_STYLES[line[0]]) if line[0] in _STYLES else text
 
 
 def read_text(path: Path) -> str | None:
@@ -32,8 +33,3 @@ def read_text(path: Path) -> str | None:
         return None if path.is_symlink() else path.read_text(encoding="utf-8", errors="replace")
     except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
         return None
-
-
-def _printable(line: str) -> str:
-    """Keep what somebody wrote into a file from steering the terminal."""
-    return "".join(char if char >= " " or char in "\n\t" else "\ufffd" for char in line)

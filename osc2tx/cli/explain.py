@@ -7,6 +7,7 @@ from click.shell_completion import CompletionItem
 
 from osc2tx.diagnostics.code_lookup import find_code, meant_code
 from osc2tx.diagnostics.render import render_explanation
+from osc2tx_text import put
 
 
 def _complete(
@@ -29,4 +30,4 @@ def explain(code: str) -> None:
     if entry is None:
         meant = meant_code(code)
         raise click.UsageError(f"there is no code `{code}`" + (f"; {meant}" if meant else ""))
-    click.echo(render_explanation(entry))
+    put(render_explanation(entry))

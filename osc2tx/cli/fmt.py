@@ -10,9 +10,11 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.write import replace_file
 from osc2tx.cli.diff_output import print_diff
 from osc2tx.cli.options import compile_options
-from osc2tx.cli.reporting import Exit, Reporter, complain, count_of, report_options
+from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
+from osc2tx.support.real_paths import real_path
+from osc2tx_text import complain
 
 
 @click.command()
@@ -60,7 +62,7 @@ def fmt(
 
 def _write(path: Path, text: str) -> Exit:
     try:
-        replace_file(path.resolve(), text.encode())
+        replace_file(real_path(path), text.encode())
     except OSError as error:
         complain(f"{path}: cannot be written: {error.strerror}")
         return Exit.UNREADABLE

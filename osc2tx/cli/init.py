@@ -7,8 +7,9 @@ from pathlib import Path
 
 import click
 
-from osc2tx.cli.reporting import Exit, complain
+from osc2tx.cli.reporting import Exit
 from osc2tx.resources import resource_dir
+from osc2tx_text import complain, put, say
 
 # Place in the new project -> what is written there, from templates/project.
 FILES: Mapping[str, str] = {
@@ -19,8 +20,7 @@ FILES: Mapping[str, str] = {
     ".pre-commit-config.yaml": "pre-commit-config.yaml",
     ".github/workflows/scenarios.yml": "workflow.yml",
 }
-NEXT_STEPS = """
-Next:
+NEXT_STEPS = """\
   osc2tx build                            # writes generated/
   osc2tx run scenarios/slow_down.osc --report slow_down.html
   pytest                                  # generated files are fresh, the scenario runs
@@ -47,8 +47,9 @@ def init(folder: Path) -> Exit:
             complain(f"{place}: cannot be written: {error.strerror}")
             return Exit.UNREADABLE
         else:
-            click.echo(f"{place}: written")
+            say(f"{place}: written")
+    put("\nNext:")
     if folder != Path():
-        click.echo(f"\n  cd {folder}", nl=False)
-    click.echo(NEXT_STEPS)
+        say(f"  cd {folder}")
+    put(NEXT_STEPS)
     return Exit.OK

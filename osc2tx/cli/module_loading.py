@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from osc2tx.support.real_paths import real_path
 from osc2tx_runtime import Scenario
 
 if TYPE_CHECKING:
@@ -18,12 +20,21 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def scenarios_of_module(module: GeneratedModule) -> Iterator[Mapping[str, type[Scenario]]]:
-    """Give the scenario classes of a module that was just generated, by names in the source."""
+def scenarios_of_module(
+    module: GeneratedModule, siblings: Sequence[GeneratedModule] = ()
+) -> Iterator[Mapping[str, type[Scenario]]]:
+    """Give the scenario classes of a module that was just generated, by names in the source.
+
+    Args:
+        module: The module.
+        siblings: All modules that it needs.
+    """
     with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
-        place = Path(folder, f"{module.stem}.py")
-        place.write_text(module.python, encoding="utf-8")
-        place.with_suffix(".map.json").write_text(module.source_map, encoding="utf-8")
+        for each in (*siblings, module):
+            place = Path(folder, each.source).with_name(f"{each.stem}.py")
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_text(each.python, encoding="utf-8")
+            place.with_suffix(".map.json").write_text(each.source_map, encoding="utf-8")
         with scenarios_of_file(place, Path(folder).name) as scenarios:
             yield scenarios
 
@@ -38,12 +49,68 @@ def scenarios_of_file(place: Path, name: str) -> Iterator[Mapping[str, type[Scen
     spec = importlib.util.spec_from_file_location(name, place)
     assert spec is not None and spec.loader is not None, "every .py file has a loader"
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-        yield _scenarios_in(module)
-    finally:
+    with _found_siblings(place):
+        sys.modules[name] = module
+        try:
+            spec.loader.exec_module(module)
+            yield _scenarios_in(module)
+        finally:
+            del sys.modules[name]
+
+
+@contextmanager
+def _found_siblings(place: Path) -> Iterator[None]:
+    """Let a module find those that lie where it looks for them, as its script does.
+
+    Others of the same names are out of sight for as long, and what it imported is forgotten
+    afterwards: each of several folders has modules of its own.
+    """
+    files = _siblings(place)
+    path, writes_none = list(sys.path), sys.dont_write_bytecode
+    hidden = {
+        name: module
+        for name, module in sys.modules.items()
+        if name in files and getattr(module, "__file__", None) != files[name]
+    }
+    kept = files.keys() & (sys.modules.keys() - hidden.keys())
+    for name in hidden:
         del sys.modules[name]
+    sys.path.insert(0, str(place.parent))
+    sys.dont_write_bytecode = True  # who only looks at a folder leaves nothing in it
+    importlib.invalidate_caches()
+    try:
+        yield
+    finally:
+        sys.path[:], sys.dont_write_bytecode = path, writes_none
+        for name in files.keys() - kept:
+            sys.modules.pop(name, None)
+        sys.modules.update(hidden)
+
+
+def _siblings(place: Path) -> dict[str, str | None]:
+    """Return the modules and packages that a module imports from around it, with their files."""
+    found: dict[str, str | None] = {}
+    pending = [real_path(place)]
+    while pending:
+        importing = pending.pop()
+        tree = ast.parse(importing.read_bytes(), str(importing))
+        statements = (each for each in tree.body if isinstance(each, ast.ImportFrom))
+        for name in (each.module for each in statements if each.module and not each.level):
+            file = _file_of(name, importing.parent)
+            if file is not None and name not in found:
+                found[name] = str(file)
+                pending.append(file)
+                packages = name.split(".")[:-1]
+                found |= {".".join(packages[: i + 1]): None for i in range(len(packages))}
+    return found
+
+
+def _file_of(name: str, folder: Path) -> Path | None:
+    """Return the file of a module in a folder or one above it."""
+    inner = Path(*name.split(".")).with_suffix(".py")
+    return next(
+        (root / inner for root in (folder, *folder.parents) if (root / inner).is_file()), None
+    )
 
 
 def _scenarios_in(module: ModuleType) -> dict[str, type[Scenario]]:

@@ -25,14 +25,28 @@ def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def with_given(
-        *args: Any, std: str | None, dialect: str | None, one_of: str | None, **more: Any
+        *args: Any,
+        std: str | None,
+        dialect: str | None,
+        one_of: str | None,
+        import_paths: tuple[str, ...],
+        **more: Any,
     ) -> Any:
-        return command(*args, given=GivenOptions(std, dialect, one_of), **more)
+        given = GivenOptions(std, dialect, one_of, import_paths=import_paths or None)
+        return command(*args, given=given, **more)
 
     options = (
         click.option("--std", type=click.Choice(STANDARDS), help="Version of the standard."),
         click.option("--dialect", type=click.Choice(DIALECTS), help="Dialect of the sources."),
         click.option("--one-of", type=click.Choice(ONE_OF_POLICIES), help="Meaning of `one_of`."),
+        click.option(
+            "-I",
+            "import_paths",
+            metavar="DIR",
+            type=click.Path(exists=True, file_okay=False, resolve_path=True),
+            multiple=True,
+            help="Folder where `import a.b` finds `a/b.osc`, if it is not in the project.",
+        ),
     )
     for option in reversed(options):
         with_given = option(with_given)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+
+from osc2tx_text import is_watched
 
 FEWEST_FILES = 20  # that take long enough to look at a bar
 
@@ -18,7 +19,7 @@ def progress_bar(label: str) -> Iterator[Show]:
         bars: list[Show] = []
 
         def show(done: int, total: int) -> None:
-            if total >= FEWEST_FILES and sys.stderr.isatty():
+            if total >= FEWEST_FILES and is_watched():
                 if not bars:
                     bars.append(_start(stack, label))
                 if done % max(1, total // 100) == 0 or done == total:

@@ -7,7 +7,6 @@ goes to stdout, and all else to stderr.
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -20,6 +19,7 @@ import click
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics.report import Report, make_report
 from osc2tx.version import __version__
+from osc2tx_text import complain, is_watched, put, put_document, say
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)
@@ -93,7 +93,7 @@ class Reporter:
         report = replace(report, scenarios=tuple(entries))
         self._print(report, failed=bool(bugs))
         for bug in bugs:
-            complain(bug)
+            put(bug, err=True)
         if bugs:
             complain(BUG_REPORT)
         return self._exit_code(compilations, report, bugs), report
@@ -117,12 +117,11 @@ class Reporter:
         if self.form == "github":
             from osc2tx.diagnostics.render import render_remark
 
-            text = render_remark(file.as_posix(), "osc2tx build --check", message)
-            click.echo(text, nl=False)
+            put_document(render_remark(file.as_posix(), "osc2tx build --check", message))
 
     def say(self, line: str) -> None:
         """Print a line that sums up, where it does not disturb."""
-        click.echo(line, err=self.form != "text")
+        (say if self.form == "text" else complain)(line)
 
     def _print(self, report: Report, *, failed: bool) -> None:
         if self.form == "text":
@@ -131,7 +130,7 @@ class Reporter:
             return  # a second document would spoil the first, as in the rounds of --watch
         else:
             self.session.has_document = True
-            click.echo(_document(report, self.form, failed=failed), nl=False)
+            put_document(_document(report, self.form, failed=failed))
 
     def _exit_code(
         self, compilations: Sequence[Reportable], report: Report, bugs: Sequence[str]
@@ -191,7 +190,7 @@ def report_failure(message: str, arguments: Sequence[str], session: Session) -> 
     form = _form_asked_for(arguments)
     if form != "text" and not session.has_document:
         session.has_document = True
-        click.echo(_document(Report(failure=message), form, failed=True), nl=False)
+        put_document(_document(Report(failure=message), form, failed=True))
 
 
 def _form_asked_for(arguments: Sequence[str]) -> OutputFormat:
@@ -223,17 +222,12 @@ def _print_text(report: Report) -> None:
         return
     from osc2tx.diagnostics.render import render_all  # mostly there is nothing to render
 
-    color = sys.stderr.isatty() and "NO_COLOR" not in os.environ
+    color = is_watched() and "NO_COLOR" not in os.environ
     text = render_all(report.diagnostics, color=color, folder=report.folder)
-    click.echo(text, err=True, color=color)
+    put(f"{text}\n", err=True, colored=color)
     for file, count in report.hidden.items():
         complain(f"{file}: {count} more not shown" if file else f"{count} more not shown")
     complain(f"`osc2tx explain {report.diagnostics[0].code}` says more about a code.")
-
-
-def complain(message: str) -> None:
-    """Print a message that belongs to no place in a source."""
-    click.echo(message, err=True)
 
 
 def found(report: Report) -> str:

@@ -2,59 +2,91 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.cli.options import compile_options
-from osc2tx.cli.reporting import Exit, Reporter, complain, report_options
+from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
+from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.support.real_paths import real_path
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
-from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.running.main import choose_scenario as choose
-from osc2tx_runtime.running.main import verdict
+from osc2tx_runtime.running.main import chosen_world, verdict
 from osc2tx_runtime.running.options import OPTIONS, read_options
+from osc2tx_runtime.worlds import EMBEDDED, Option
+from osc2tx_text import complain, is_watched, visible
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation
 
 
-def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of the runtime's table."""
-    for option in reversed(OPTIONS):
-        default = "" if option.default is None else f"  [default: {option.default}]"
-        command = click.option(
-            f"--{option.name}",
-            option.field,
-            metavar=option.metavar,
-            multiple=option.repeatable,
-            help=option.help + default,
-        )(command)
-    return command
+def click_option(option: Option) -> click.Option:
+    """Return an option of the runtime's tables as one of click."""
+    default = "" if option.default is None else f"  [default: {option.default}]"
+    if option.is_flag:
+        return click.Option([f"--{option.name}", option.field], is_flag=True, help=option.help)
+    return click.Option(
+        [f"--{option.name}", option.field],
+        metavar=option.metavar,
+        multiple=option.repeatable,
+        help=option.help + default,
+    )
 
 
-@click.command()
+class RunCommand(click.Command):
+    """A command with the options of a run, and those of the world that it is to run in."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Find out which world it is, before anything else is read."""
+        try:
+            ctx.meta[OWN_OPTIONS] = chosen_world(args, stated_world(args)).options
+        except SettingsError as error:
+            raise click.UsageError(error.message, ctx) from None
+        return super().parse_args(ctx, args)
+
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Return all options."""
+        own = (*OPTIONS, *ctx.meta.get(OWN_OPTIONS, ()))
+        params = super().get_params(ctx)
+        return [*params[:-1], *map(click_option, own), params[-1]]  # `--help` stays last
+
+
+def stated_world(args: Sequence[str]) -> str:
+    """Return the world that the settings state for the file of a command line."""
+    for path in (Path(arg) for arg in args if arg.endswith((".osc", ".py"))):
+        with suppress(ConfigError):  # reported when the settings are read
+            stated = ConfigFiles().for_source(path).run_settings(path)
+            return stated.get("world", (EMBEDDED.name,))[-1]
+    return EMBEDDED.name
+
+
+OWN_OPTIONS = f"{__name__}.own_options"
+
+
+@click.command(cls=RunCommand)
 @click.argument("file", metavar="FILE", type=click.Path())
 @click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
 @compile_options
 @report_options
-@run_options
 def run(
     file: str,
     scenario: str | None,
     given: GivenOptions,
     reporter: Reporter,
-    **run_texts: str | tuple[str, ...] | None,
+    **written: str | bool | tuple[str, ...] | None,
 ) -> Exit:
-    """Run a scenario file, or a module made from one, in the embedded world."""
+    """Run a scenario file, or a module made from one."""
+    run_texts = {name: _texts(value) for name, value in written.items()}
     path = Path(file)
     if path.is_dir():
         raise InputError(f"{path}: is a folder; name one scenario file")
@@ -82,18 +114,19 @@ def _run_source(
     path = compilation.path
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
-    with scenarios_of_module(module) as scenarios:
+    with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
         return _run_one_of(scenarios, path, wanted, settings, reporter)
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
     """Run a module that somebody gives us: it may be anything."""
     imported = ExitStack()
+    module = scenarios_of_file(path, f"osc2tx_run_{path.stem}")
     try:
-        module = scenarios_of_file(path, f"osc2tx_run_{path.stem}")
-        scenarios = imported.enter_context(module)
-    except (ImportError, SyntaxError, ValueError, OSError) as error:
-        raise InputError(f"{path}: cannot be imported: {error}") from error
+        with OwnCode("cannot be imported:"):
+            scenarios = imported.enter_context(module)
+    except ScenarioError as error:
+        raise InputError(f"{path}: {error.message}") from error
     with imported:
         return _run_one_of(scenarios, path, wanted, settings, reporter)
 
@@ -114,7 +147,8 @@ def _run_one_of(
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
         return Exit.INTERRUPTED
-    reporter.say(verdict(scenario.name, result))
+    for line in verdict(scenario.name, result):
+        reporter.say(line)
     return Exit.OK if result.status == "success" else Exit.FAILED
 
 
@@ -123,16 +157,21 @@ def choose_scenario(
 ) -> type[Scenario]:
     """Return the scenario that was asked for, as a generated module chooses it."""
     if not scenarios:
-        raise click.UsageError(f"{path} has no scenario")
+        raise click.UsageError(f"{path} declares no scenario")
     try:
         return choose(tuple(scenarios.values()), wanted)
     except SettingsError as error:
         raise click.UsageError(f"{path}: {error.message}") from None
 
 
-def merge_settings(
-    config: Config, path: Path, given: Mapping[str, str | Sequence[str] | None]
-) -> RunSettings:
+def _texts(written: str | bool | tuple[str, ...] | None) -> tuple[str, ...]:
+    """Return what was written for an option; a flag is written `true`."""
+    if isinstance(written, bool):
+        return ("true",) if written else ()
+    return (written,) if isinstance(written, str) else written or ()
+
+
+def merge_settings(config: Config, path: Path, given: Mapping[str, Sequence[str]]) -> RunSettings:
     """Return the settings of a run: the command line beats the file, item by item.
 
     Maps are searched in the folders of the command line, those of the file, then beside the
@@ -148,30 +187,29 @@ def merge_settings(
     except SettingsError as error:
         where = f"{config.path}: in [scenarios.{path.stem}.run]"
         raise ConfigError(f"{where}: {error.message}") from None
-    texts: dict[str, tuple[str, ...]] = {}
-    for option in OPTIONS:
-        written = given.get(option.field)
-        own = (written,) if isinstance(written, str) else tuple(written or ())
-        texts[option.name] = (*stated.get(option.name, ()), *own)  # the last one of a key counts
-    maps = tuple(given.get("map_path") or ())
-    texts["map-path"] = (*maps, *stated.get("map-path", ()))
+    own = {name.replace("_", "-"): texts for name, texts in given.items()}
+    texts = {
+        name: (*stated.get(name, ()), *own.get(name, ()))  # the last one of a key counts
+        for name in dict.fromkeys((*stated, *own))
+    }
+    texts["map-path"] = (*own.get("map-path", ()), *stated.get("map-path", ()))
     settings = read_options(texts)
-    return replace(settings, map_path=(*settings.map_path, path.resolve().parent))
+    return replace(settings, map_path=(*settings.map_path, real_path(path).parent))
 
 
 def _run_with_progress(scenario: type[Scenario], settings: RunSettings) -> RunResult:
-    if not sys.stderr.isatty():
+    if not is_watched():
         return run_scenario(scenario, settings, keep_trace=False)
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TextColumn("{task.completed:.0f} s of at most {task.total:.0f} s"),
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(scenario.name, total=settings.max_time)
+        task = progress.add_task(visible(scenario.name), total=settings.max_time)
 
         def show(time: float, most: float) -> None:
             progress.update(task, completed=time, total=most)

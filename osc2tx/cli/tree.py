@@ -9,11 +9,13 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options
-from osc2tx.cli.reporting import Exit, Reporter, complain, report_options
+from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.cli.run import choose_scenario
+from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.report.tree_pictures import tree_svg, tree_text
+from osc2tx_text import complain, put
 
 _FORMS = {"text": tree_text, "svg": tree_svg}
 
@@ -37,12 +39,12 @@ def tree(
         return code
     if compilation.module is None:
         raise click.UsageError(f"{file} declares no scenario")
-    with scenarios_of_module(compilation.module) as scenarios:
+    with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         chosen = choose_scenario(scenarios, scenario, file)
         try:
             drawn = _FORMS[form](chosen().create_tree())
         except ScenarioError as error:
             complain(f"{error.source or chosen.source}: error: {error.message}")
             return Exit(error.exit_code)
-    click.echo(drawn, nl=False)
+    put(drawn)
     return code

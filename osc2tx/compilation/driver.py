@@ -9,31 +9,37 @@ the source has errors that stand in the way; the sink says which.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 from osc2tx.compilation.file_reports import LossEntry, apply_suppressions
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
+from osc2tx.compilation.inputs import is_unicode
 from osc2tx.compilation.products import Output, files_of_module, files_of_xml
+from osc2tx.compilation.siblings import find_siblings
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.options import CompileOptions
+from osc2tx.support.real_paths import real_path
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import parse, read_source
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from osc2tx.analysis import Analysis, ScenarioLevel
     from osc2tx.backends.py_trees.emitter import GeneratedModule
+    from osc2tx.backends.py_trees.sharing import Sharing
     from osc2tx.backends.xosc.emitter import XmlScenario
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
     from osc2tx.syntax.ast import File
 
 
-__all__ = ["Compilation", "Output"]
+__all__ = ["Compilation", "Memory", "Output"]
+
+Memory: TypeAlias = "dict[tuple[object, ...], Compilation]"
+"""Compilations of imported files for themselves, by place, name and settings."""
 
 
 class Compilation:
@@ -46,6 +52,7 @@ class Compilation:
         sink: What the stages had to say so far.
         lookups: Where imported files were looked for, and what was found there.
         is_complete: Whether all stages that can report something ran and found no error.
+        compiled_alone: Imported files that were compiled for themselves, by name.
     """
 
     def __init__(
@@ -57,6 +64,8 @@ class Compilation:
         roots: Sequence[Path] = (),
         is_trusted: bool = True,
         text: str | None = None,
+        options_of: Callable[[Path], CompileOptions] | None = None,
+        memory: Memory | None = None,
     ) -> None:
         """Take the file; nothing is read yet.
 
@@ -68,6 +77,8 @@ class Compilation:
             is_trusted: Whether somebody asked for this very file; else it is not read if it is a
                 link to somewhere outside of the folders.
             text: The text, for a file that exists only in the mind of the caller.
+            options_of: Gives the options for other files; those of this one if left out.
+            memory: Imported files that were compiled for themselves, for several files to share.
         """
         self.path = path
         self.name = name
@@ -76,6 +87,9 @@ class Compilation:
         self.lookups: dict[Path, Lookup] = {}
         self.is_complete = False
         self._roots = (path.parent, *roots)
+        self._options_of = options_of or (lambda _: options)
+        self._memory: Memory = {} if memory is None else memory
+        self.compiled_alone: dict[str, Compilation] = {}
         self._is_trusted = is_trusted
         self._text = text
         self._is_well_formed = False
@@ -88,6 +102,10 @@ class Compilation:
         if not self._is_trusted and leads_outside(self.path, self._roots):
             message = f"cannot read `{self.name}`: it is a link to a file outside of the folder"
             self.sink.report("OSC101", None, message, help="name the file itself to compile it")
+            return None
+        if not is_unicode(str(self.path)):
+            message = f"cannot read `{self.name}`: the name of the file or a folder is not UTF-8"
+            self.sink.report("OSC101", None, message, help="rename it")
             return None
         return read_source(self.path, self.name, self.sink)
 
@@ -116,13 +134,21 @@ class Compilation:
             return None
         from osc2tx.semantics import DIALECTS, ModelBuilder
 
-        loader = ImportLoader(self.path, self.name, self._roots, self.sink, self._relaxed)
+        loader = ImportLoader(
+            self.path,
+            self.name,
+            self._roots,
+            self.sink,
+            self._relaxed,
+            import_paths=tuple(map(Path, self.options.import_paths)),
+        )
         self.lookups = loader.lookups
         builder = ModelBuilder(
             self.sink,
             standard=self.options.standard,
             dialect=DIALECTS[self.options.dialect],
             load=loader,
+            import_help=loader.help_for,
         )
         with room_for_trees():
             return builder.build(self.ast)
@@ -135,7 +161,12 @@ class Compilation:
         from osc2tx.analysis import analyse
 
         with room_for_trees():
-            return analyse(self.model, self.sink, self.options.one_of)
+            return analyse(
+                self.model,
+                self.sink,
+                self.options.one_of,
+                first_come=self.options.dialect == "carla",
+            )
 
     @property
     def levels(self) -> Sequence[ScenarioLevel]:
@@ -173,17 +204,72 @@ class Compilation:
             self._report_losses()
         return not self._failed()
 
+    @property
+    def has_module(self) -> bool:
+        """Whether there is a Python module; it is not written for that."""
+        if self.ir is None or self.options.target == "xosc":
+            return False
+        from osc2tx.backends.py_trees.own_names import has_module
+
+        return self.is_supported and has_module(self.ir)
+
+    @cached_property
+    def sharing(self) -> Sharing:
+        """What the module has of the modules of imported files."""
+        from osc2tx.backends.py_trees.sharing import share
+
+        assert self.ir is not None, "there is a module"
+        with room_for_trees():
+            return share(self.ir, *find_siblings(self.ir, self, self.alone, self._is_source))
+
     @cached_property
     def module(self) -> GeneratedModule | None:
-        """The Python module; `None` also for a file that declares no scenario."""
-        if self.ir is None or self.options.target == "xosc":
-            return None
-        if not self.is_supported or not self.ir.scenarios:
+        """The Python module; `None` also for a file that declares neither scenarios nor types."""
+        if not self.has_module or self.ir is None:
             return None
         from osc2tx.backends.py_trees import emit
 
         with room_for_trees():
-            return emit(self.ir)
+            return emit(self.ir, self.sharing)
+
+    def alone(self, imported: SourceFile) -> Compilation:
+        """Return the compilation of an imported file for itself, as a build compiles it."""
+        if imported.name not in self.compiled_alone:
+            assert imported.path is not None, "it was read from a file"
+            options, roots = self._options_of(imported.path), self._roots[1:]
+            key = (imported.path, imported.name, repr(options), roots)
+            made = self._memory.get(key)
+            if made is None or not made.is_of(imported, self.lookups):
+                made = Compilation(
+                    imported.path,
+                    imported.name,
+                    options,
+                    roots=roots,
+                    options_of=self._options_of,
+                    memory=self._memory,
+                )
+                self._memory[key] = made
+            self.compiled_alone[imported.name] = made
+        return self.compiled_alone[imported.name]
+
+    def _is_source(self, name: str) -> bool:
+        """Whether there is a file of this name, counted from the folder that is built."""
+        place = Path(self.path.parent, *[".."] * self.name.count("/"), name)
+        self.lookups[place] = look_up(place)
+        return self.lookups[place].text is not None
+
+    def is_of(self, source: SourceFile, lookups: Mapping[Path, Lookup]) -> bool:
+        """Whether a text, and what was just found for its imports, is what was compiled here."""
+        same = all(lookups.get(asked) == found for asked, found in self.lookups.items())
+        return same and self.source is not None and self.source.text == source.text
+
+    @property
+    def files(self) -> frozenset[Path]:
+        """The files of the program, links followed."""
+        if self.model is None:
+            return frozenset()
+        paths = (file.span.source.path for file in self.model.files)
+        return frozenset(real_path(path) for path in paths if path is not None)
 
     @cached_property
     def xml(self) -> tuple[XmlScenario, ...]:
@@ -205,14 +291,14 @@ class Compilation:
     @property
     def stem(self) -> str:
         """What the names of all outputs begin with."""
-        if self.ir is None or not self.ir.scenarios:
+        if self.ir is None:
             return ""
-        from osc2tx.backends.py_trees.emitter import module_stem
+        from osc2tx.backends.py_trees.naming import module_name
 
-        return module_stem(self.ir.source)
+        return module_name(self.ir.source)
 
     def outputs(self) -> Sequence[Output]:
-        """Return the files that the source makes; none for a library, or if there are errors."""
+        """Return the files that the source makes; none if it declares nothing or has errors."""
         return (*self.module_outputs(), *self.xml_outputs())
 
     def module_outputs(self) -> tuple[Output, ...]:

@@ -8,8 +8,10 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from osc2tx.compilation.module_search import module_place, places_text, similar_module
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.real_paths import real_path
 from osc2tx.syntax import ast, parse, read_source
 
 
@@ -47,6 +49,7 @@ class ImportLoader:
         roots: Sequence[Path],
         sink: DiagnosticSink,
         relaxed: Collection[str],
+        import_paths: Sequence[Path] = (),
     ) -> None:
         """Take the surroundings of the root file.
 
@@ -56,10 +59,13 @@ class ImportLoader:
             roots: Folders whose files may be imported.
             sink: Where diagnostics go.
             relaxed: Deviations from the grammar that the dialect allows.
+            import_paths: Further such folders, in which modules are looked for last.
         """
-        self._folder = path.resolve().parent
+        self._folder = real_path(path).parent
         self._prefix = posixpath.dirname(name)
-        self._roots = tuple(root.resolve() for root in roots)
+        libraries = (Path(os.path.abspath(each)) for each in import_paths)  # a link may be changed
+        self._search = tuple(dict.fromkeys((*map(real_path, roots), *libraries)))
+        self._roots = tuple(real_path(root) for root in self._search)
         self._sink = sink
         self._relaxed = relaxed
         self._parsed: dict[Path, ast.File] = {}
@@ -75,7 +81,7 @@ class ImportLoader:
         """
         if source.path is None:
             return None
-        folder = source.path.resolve().parent
+        folder = real_path(source.path).parent
         if statement.uri is None:
             return self._module(statement, folder)
         path = _local_path(statement.uri)
@@ -88,18 +94,36 @@ class ImportLoader:
         return found
 
     def _module(self, statement: ast.Import, folder: Path) -> ast.File | None:
-        """Look for `a.b` as `a/b.osc` beside the importing file, then in the roots."""
-        place = Path(*statement.module).with_suffix(".osc")
-        for start in (folder, *self._roots):
-            found = self._open(statement, start / place, ".".join(statement.module))
+        """Look for `a.b` beside the importing file, then in the roots; the first one counts."""
+        place, written = module_place(statement.module), ".".join(statement.module)
+        if place is None:
+            advice = 'to import a file by its path write `import "lib/cars.osc"`'
+            return self._refuse(statement, f"`{written}` is no name of a module", advice)
+        for start in (folder, *self._search):
+            found = self._open(statement, start / place, written)
             if found is not None:
                 return found
         return None
 
+    def help_for(self, statement: ast.Import) -> str | None:
+        """Return what may help if there is no module of a name."""
+        place, source = module_place(statement.module), statement.span.source
+        if place is None or source.path is None:
+            return None
+        own = real_path(source.path).parent
+        folders = (own, *(folder for folder in self._search if folder != own))
+        looked = places_text(place, folders[1:])
+        similar = similar_module(statement.module, folders)
+        near = similar and module_place(similar)
+        if not similar or not near:
+            return looked
+        self.lookups |= {folder / near: look_up(folder / near) for folder in folders}
+        return f"did you mean `{'.'.join(similar)}`? {looked}"
+
     def _open(self, statement: ast.Import, path: Path, written: str) -> ast.File | None:
         asked = path
         try:
-            path = path.resolve()
+            path = real_path(path)
             allowed = any(path.is_relative_to(root) for root in self._roots)
             if allowed and not path.exists():
                 self.lookups[asked] = Lookup(str(path))
@@ -112,7 +136,8 @@ class ImportLoader:
             return self._refuse(
                 statement,
                 f"`{written}` lies outside of the folders that may be imported from",
-                "name the folder that holds both files, or put an `osc2tx.toml` there",
+                "name the folder that holds both files, put an `osc2tx.toml` there, or name that of"
+                " the library with `-I` or in `import_paths`",
             )
         if path not in self._parsed:
             self._parsed[path] = self._parse(statement, path)
@@ -158,7 +183,7 @@ def _local_path(uri: str) -> str | None:
 def look_up(place: Path) -> Lookup:
     """Return what is at a place, for a file that is no scenario."""
     try:
-        path = place.resolve()
+        path = real_path(place)
         return Lookup(str(path), path.read_text(encoding="utf-8"))
     except (FileNotFoundError, NotADirectoryError):
         return Lookup(str(path))
@@ -171,7 +196,7 @@ def leads_outside(path: Path, folders: Sequence[Path]) -> bool:
     if not path.is_symlink():
         return False
     try:
-        target = path.resolve()
+        target = real_path(path)
     except (OSError, RuntimeError):  # a link to itself is for the reader to report
         return False
-    return not any(target.is_relative_to(folder.resolve()) for folder in folders)
+    return not any(target.is_relative_to(real_path(folder)) for folder in folders)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx_text import visible
 
 
 class InputError(Exception):
@@ -40,7 +41,8 @@ class Input:
     @property
     def name(self) -> str:
         """How generated files call it: relative to the folder, forward slashes."""
-        return self.path.relative_to(self.folder).as_posix()
+        name = self.path.relative_to(self.folder).as_posix()
+        return name if is_unicode(name) else visible(name)
 
 
 def find_inputs(paths: Sequence[str | Path]) -> list[Input]:
@@ -55,7 +57,6 @@ def find_inputs(paths: Sequence[str | Path]) -> list[Input]:
     folders: dict[Path, str] = {}
     for path in map(Path, paths):
         for item in _inputs_of(path):
-            _require_unicode(item.path)
             found.setdefault(_real_path(item.path, folders), item)
     return list(found.values())
 
@@ -98,9 +99,6 @@ def _refuse(error: OSError) -> None:
     raise InputError(f"{error.filename}: {error.strerror}")
 
 
-def _require_unicode(path: Path) -> None:
-    """Refuse names that no text file could cite."""
-    try:
-        str(path).encode()
-    except UnicodeEncodeError:
-        raise InputError(f"{str(path)!r}: the file name is not UTF-8") from None
+def is_unicode(name: str) -> bool:
+    """Return whether a text file could cite a name."""
+    return not any("\ud800" <= char <= "\udfff" for char in name)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from osc2tx.config.model import Config
 from osc2tx.config.reader import read_folder
+from osc2tx.support.real_paths import real_path
 
 
 class ConfigFiles:
@@ -25,9 +26,9 @@ class ConfigFiles:
             ConfigError: If the settings file is unreadable or says something unknown.
         """
         if source.is_symlink():
-            source = source.resolve()
+            source = real_path(source)
         if source.parent not in self._resolved:
-            self._resolved[source.parent] = source.parent.resolve()
+            self._resolved[source.parent] = real_path(source.parent)
         config = self._for_folder(self._resolved[source.parent])
         if config.path is not None:
             self._used.setdefault(config.path, set()).add(source.stem)
@@ -39,7 +40,7 @@ class ConfigFiles:
         Raises:
             ConfigError: As `for_source`.
         """
-        return self._for_folder(folder.resolve())
+        return self._for_folder(real_path(folder))
 
     def unmatched_tables(self) -> list[str]:
         """Return a sentence for each table of a file that does not exist.

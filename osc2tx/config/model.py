@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
 from typing import Any
@@ -30,6 +30,7 @@ class GivenOptions:
     xml_version: str | None = None
     xml_profile: str | None = None
     allow_approx: bool | None = None
+    import_paths: tuple[str, ...] | None = None
     signal: tuple[str, ...] | None = None
     spawn: tuple[str, ...] | None = None
     map_path: tuple[str, ...] | None = None
@@ -56,7 +57,13 @@ class GivenOptions:
 
 
 # Field of `GivenOptions` -> field of `CompileOptions`, and of `XmlOptions`.
-_COMPILE = {"std": "standard", "dialect": "dialect", "one_of": "one_of", "target": "target"}
+_COMPILE = {
+    "std": "standard",
+    "dialect": "dialect",
+    "one_of": "one_of",
+    "target": "target",
+    "import_paths": "import_paths",
+}
 _XML = {
     "xml_version": "version",
     "xml_profile": "profile",
@@ -93,7 +100,7 @@ class InForce:
     """A setting that counts, as one would write it, and where it is from."""
 
     name: str
-    value: str | bool | list[str]
+    value: str | bool | Sequence[str]
     origin: Origin
 
 
@@ -147,7 +154,7 @@ class Config:
         )
         for setting in COMPILE_SETTINGS:
             stated = ((getattr(layer, setting.key), origin) for layer, origin in layers)
-            default = (False if setting.is_flag else setting.choices[0], Origin("default"))
+            default = (setting.default, Origin("default"))
             value, origin = next((pair for pair in stated if pair[0] is not None), default)
             yield InForce(setting.key, value, origin)
         if self.sources:

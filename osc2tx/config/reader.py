@@ -16,6 +16,8 @@ from osc2tx.config.settings import (
 )
 from osc2tx.diagnostics.suggestions import did_you_mean
 
+EMBEDDED = "embedded"  # the world whose options are all known here
+
 
 def read_folder(folder: Path) -> Config | None:
     """Return what the settings file of a folder says; `None` if there is none.
@@ -42,7 +44,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise ConfigError(f"{path}: is not UTF-8 text") from None
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise ConfigError(f"{path}: is not valid TOML: {error}") from None
 
 
@@ -72,9 +74,19 @@ class _Reader:
         keys = [setting.key for setting in COMPILE_SETTINGS]
         checked = self._table(table, where, (*keys, "run"))
         inner = (*where, "run")
-        run = self._table(checked.get("run", {}), inner, [item.key for item in RUN_SETTINGS])
-        texts = self._texts(run, RUN_SETTINGS, inner)
+        settings = {item.key: item for item in RUN_SETTINGS}
+        run = self._table(checked.get("run", {}), inner, None)
+        if run.get("world", EMBEDDED) == EMBEDDED:
+            self._table(run, inner, list(settings))
+        own = {key: self._own(key, value) for key, value in run.items() if key not in settings}
+        texts = self._texts(run, [*settings.values(), *own.values()], inner)
         return ScenarioConfig(self._options(checked, where), {key: texts[key] for key in run})
+
+    @staticmethod
+    def _own(key: str, value: object) -> Setting:
+        """Return what an option of another world looks like; the run checks what it says."""
+        is_list, is_flag = isinstance(value, list), isinstance(value, bool)
+        return Setting(key, is_list=is_list, is_flag=is_flag, is_single=not (is_list or is_flag))
 
     def _options(self, table: Mapping[str, object], where: tuple[str, ...]) -> GivenOptions:
         found: dict[str, Any] = {}
@@ -83,10 +95,10 @@ class _Reader:
                 continue
             value = table[setting.key]
             if setting.is_flag:
-                if not isinstance(value, bool):
-                    problem = f"`{setting.key}` is {_shown(value)}: write true or false"
-                    raise self._error(where, problem)
-                found[setting.key] = value
+                found[setting.key] = self._flag(setting.key, value, where)
+                continue
+            if setting.is_list:
+                found[setting.key] = self._text(setting, value, where)
                 continue
             if value not in setting.choices:
                 problem = f"`{setting.key}` is {_shown(value)}: write {_any_of(setting.choices)}"
@@ -105,18 +117,27 @@ class _Reader:
         }
 
     def _text(self, setting: Setting, value: object, where: tuple[str, ...]) -> tuple[str, ...]:
-        if setting.is_number:
+        if setting.is_flag:
+            return (str(self._flag(setting.key, value, where)).lower(),)
+        if setting.is_single:
             if isinstance(value, (str, int, float)) and not isinstance(value, bool):
                 return (str(value),)
-            raise self._error(where, f"`{setting.key}` is {_shown(value)}: write one number")
+            raise self._error(where, f"`{setting.key}` is {_shown(value)}: write one value")
         written = value if isinstance(value, list) and setting.is_list else [value]
         items = [item for item in written if isinstance(item, str)]
         if len(items) < len(written):
             wanted = "a list of strings" if setting.is_list else "one string"
             raise self._error(where, f"`{setting.key}` is {_shown(value)}: write {wanted}")
+        if setting.is_path and any("\0" in item for item in items):
+            raise self._error(where, f"`{setting.key}` is {_shown(value)}: no path has such a name")
         if setting.is_path:  # relative to the file, wherever osc2tx is started
             return tuple(str(self.path.parent / item) for item in items)
         return tuple(items)
+
+    def _flag(self, key: str, value: object, where: tuple[str, ...]) -> bool:
+        if isinstance(value, bool):
+            return value
+        raise self._error(where, f"`{key}` is {_shown(value)}: write true or false")
 
     def _table(
         self, value: object, where: tuple[str, ...], keys: Sequence[str] | None

@@ -23,7 +23,7 @@ class Setting:
         choices: The values it can have, if they are few; then the first is the default.
         is_list: Whether it is a list of texts.
         is_path: Whether its texts are paths, relative to the settings file.
-        is_number: Whether it is one number, or a text that says one.
+        is_single: Whether it is one number, or one text that is no path.
         is_flag: Whether it is `true` or `false`, which is the default.
     """
 
@@ -32,8 +32,15 @@ class Setting:
     choices: tuple[str, ...] = ()
     is_list: bool = False
     is_path: bool = False
-    is_number: bool = False
+    is_single: bool = False
     is_flag: bool = False
+
+    @property
+    def default(self) -> str | bool | tuple[str, ...]:
+        """What counts if nobody says anything."""
+        if self.is_list:
+            return ()
+        return False if self.is_flag else self.choices[0]
 
 
 # For all files, or in the table of one.
@@ -45,6 +52,12 @@ COMPILE_SETTINGS = (
     Setting("xml_version", "Version of OpenSCENARIO XML.", tuple(reversed(XML_VERSIONS))),
     Setting("xml_profile", "Tool that is to read the XML.", XML_PROFILES),
     Setting("allow_approx", "Write XML also where it means only nearly the same.", is_flag=True),
+    Setting(
+        "import_paths",
+        "Folders where `import a.b` finds `a/b.osc`, if it is not in the project.",
+        is_list=True,
+        is_path=True,
+    ),
 )
 # For `osc2tx build` started in the folder of the file or below.
 PROJECT_SETTINGS = (
@@ -54,12 +67,18 @@ PROJECT_SETTINGS = (
 # Options of `osc2tx run` for one file, by their names on the command line.
 RUN_SETTINGS = (
     Setting("map-path", is_list=True, is_path=True),
+    Setting("world", is_single=True),
+    Setting("control", is_list=True),
+    Setting("expect", is_flag=True),
+    Setting("physics", is_single=True),
+    Setting("conduct", is_single=True),
+    Setting("fail-on", is_list=True),
     Setting("signal", is_list=True),
     Setting("spawn", is_list=True),
     Setting("destination", is_list=True),
     Setting("set", is_list=True),
-    Setting("seed", is_number=True),
-    Setting("dt", is_number=True),
-    Setting("max-time", is_number=True),
+    Setting("seed", is_single=True),
+    Setting("dt", is_single=True),
+    Setting("max-time", is_single=True),
 )
 TABLES = ("scenarios",)  # of tables, one for each scenario file

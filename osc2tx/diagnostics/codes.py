@@ -84,6 +84,8 @@ CODES = _table(
     Code("OSC513", "unfitting-arguments", ERROR, "Arguments do not fit each other."),
     Code("OSC514", "not-in-xml", ERROR, "OpenSCENARIO XML cannot say this."),
     Code("OSC515", "nearly-in-xml", ERROR, "OpenSCENARIO XML can only nearly say this."),
+    Code("OSC516", "beyond-any-world", ERROR, "A quantity is larger than any world has."),
+    Code("OSC517", "renamed-module", WARNING, "A file is called like a module of Python."),
     # --- 2xx names and imports ---
     Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),
     Code("OSC202", "unknown-type", ERROR, "No type has this name.", "7.3"),
@@ -139,6 +141,8 @@ CODES = _table(
     Code("OSC412", "invalid-coverage", ERROR, "Coverage arguments do not fit.", "7.5"),
     Code("OSC413", "implicit-it", WARNING, "A parameter is named without `it.`.", "7.4.1.3"),
     Code("OSC414", "implication-chain", WARNING, "`a => b => c` is not specified.", "7.4.2"),
+    Code("OSC415", "type-as-object", WARNING, "A type stands for its one object.", "7.4.1"),
+    Code("OSC416", "operator-as-label", WARNING, "A label is called `serial`.", "7.3.13"),
     # 42x constraints, 43x what can never happen
     Code("OSC420", "contradiction", ERROR, "Constraints contradict each other.", "7.3.11"),
     Code("OSC421", "impossible-constraint", ERROR, "A constraint can never hold.", "7.3.11"),
@@ -155,6 +159,7 @@ CODES = _table(
     Code("OSC436", "constant-condition", WARNING, "A condition never changes.", "7.3.10"),
     Code("OSC437", "unused-parameter", WARNING, "A parameter is never read.", "7.3.6"),
     Code("OSC438", "endless-recursion", ERROR, "A scenario invokes itself.", "7.3.13"),
+    Code("OSC439", "contradictory-until", ERROR, "`until` and duration disagree.", "7.6.2.5.4"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),
@@ -177,6 +182,10 @@ CODES = _table(
     Code("OSC619", "alias-member", WARNING, "A member has another name in the standard."),
     Code("OSC620", "runner-event", WARNING, "An event is only raised by `emit` here.", "7.3.10"),
     Code("OSC621", "quantity-text", WARNING, "A text names the speed of an actor.", "7.4.2.6"),
+    Code("OSC622", "implied-actor", WARNING, "An actor type stands for an actor."),
+    Code("OSC623", "first-come", WARNING, "`until` or duration, whichever first.", "7.6.2.5.4"),
+    Code("OSC624", "undeclared-model", WARNING, "A model of an actor is not declared.", "7.3"),
+    Code("OSC625", "repeated-label", WARNING, "A label is used twice.", "7.3.13"),
     # --- 7xx suppressions ---
     Code("OSC701", "unused-suppression", WARNING, "A suppression suppresses nothing."),
     Code("OSC702", "unknown-suppression", WARNING, "A suppression names an unknown code."),

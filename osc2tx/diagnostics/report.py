@@ -10,6 +10,7 @@ from pathlib import Path
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.source import SourceFile
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.real_paths import real_path
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,5 +109,5 @@ def display_name(source: SourceFile, folder: Path | None) -> str:
     """Return how to cite a file to somebody who works in `folder`."""
     if folder is None or source.path is None:
         return source.name
-    path = source.path.resolve()
+    path = real_path(source.path)
     return path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.real_paths import real_path
 
 LINE_END = re.compile(r"\r\n|\r|\n")
 
@@ -41,7 +42,7 @@ class SourceFile:
     def identity(self) -> Path | str:
         """The same for all texts read from one file."""
         if not self._identity:
-            identity = self.path.resolve() if self.path else self.name
+            identity = real_path(self.path) if self.path else self.name
             object.__setattr__(self, "_identity", identity)
         return self._identity
 

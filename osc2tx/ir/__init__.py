@@ -1,8 +1,9 @@
 """The intermediate representation: what a program means, ready for any backend.
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `values`, `expressions`, `behaviors`, `coverage`, `nodes`; then
-`traversal`, `rewrite`, `verify` (the invariants) and `dump` (the printable form).
+Modules, in reading order: `values`, `expressions`, `behaviors`, `coverage`, `nodes`,
+`lineages`; then `traversal`, `rewrite`, `compare`, `verify` (the invariants) and `dump` (the
+printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -32,6 +33,7 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
+from osc2tx.ir.compare import same, words
 from osc2tx.ir.constants import constant
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.dump import dump_ir
@@ -67,7 +69,9 @@ from osc2tx.ir.expressions import (
     Unary,
     UserShape,
 )
+from osc2tx.ir.lineages import lineage, merged
 from osc2tx.ir.nodes import (
+    GLOBAL_MARK,
     ActionParameter,
     Actor,
     Constraint,
@@ -86,9 +90,11 @@ from osc2tx.ir.nodes import (
     Scenario,
     Struct,
     UserAction,
+    UserEnum,
     UserField,
     UserType,
     Variable,
+    setting_name,
 )
 from osc2tx.ir.rewrite import rewrite
 from osc2tx.ir.traversal import children, is_live, walk
@@ -96,6 +102,7 @@ from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
+    "GLOBAL_MARK",
     "ActionParameter",
     "Actor",
     "Argument",
@@ -170,6 +177,7 @@ __all__ = [
     "Unary",
     "Unit",
     "UserAction",
+    "UserEnum",
     "UserField",
     "UserShape",
     "UserType",
@@ -181,10 +189,15 @@ __all__ = [
     "constant",
     "dump_ir",
     "is_live",
+    "lineage",
+    "merged",
     "rewrite",
+    "same",
+    "setting_name",
     "show",
     "show_arguments",
     "verify",
     "walk",
     "walk_behaviors",
+    "words",
 ]

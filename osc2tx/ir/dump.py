@@ -39,12 +39,14 @@ from osc2tx.ir.nodes import (
     Declaration,
     Event,
     FieldValue,
+    Method,
     Module,
     Parameter,
     Placement,
     Scenario,
     Struct,
     UserAction,
+    UserEnum,
     UserType,
     Variable,
 )
@@ -60,6 +62,7 @@ def dump_ir(module: Module) -> str:
     ]
     for own in module.types:
         lines.extend(_indented(_own_type(own)))
+    lines.extend(_indented(map(_enum, module.enums)))
     lines.extend(_indented(map(_user_action, module.actions)))
     for scenario in module.scenarios:
         lines.extend(_indented(_scenario(scenario)))
@@ -71,11 +74,26 @@ def _indented(lines: Iterator[str]) -> Iterator[str]:
 
 
 def _own_type(own: UserType) -> Iterator[str]:
-    base = "" if own.base is None else f" inherits {own.base}"
+    base = f" inherits {', '.join(own.bases)}" if own.bases else ""
     yield f"{'actor' if own.is_actor else 'struct'} {own.name}{base} @{own.span.line}"
-    for field in own.fields:
+    for field in own.all_fields:
         default = "" if field.default is None else f" = {show(field.default)}"
-        yield f"{INDENT}{field.name}: {field.type}{default} @{field.span.line}"
+        optional = " optional" if field.is_optional else ""
+        yield f"{INDENT}{field.name}: {field.type}{default}{optional} @{field.span.line}"
+    yield from _indented(map(_method, own.methods))
+
+
+def _enum(own: UserEnum) -> str:
+    return f"enum {own.name}: {', '.join(own.members)} @{own.span.line}"
+
+
+def _method(method: Method) -> str:
+    parameters = ", ".join(f"{p.name}: {p.type}" for p in method.parameters)
+    result = "" if method.result is None else f" -> {method.result}"
+    body = "" if method.expression is None else show(method.expression)
+    if method.external is not None:
+        body = f"external {method.external.module}.{method.external.function}"
+    return f"method {method.name}({parameters}){result} = {body} @{method.span.line}"
 
 
 def _user_action(action: UserAction) -> str:
@@ -89,14 +107,7 @@ def _scenario(scenario: Scenario) -> Iterator[str]:
     yield f"{word} {scenario.name}{origin} @{scenario.span.line}"
     for declaration in scenario.declarations:
         yield from _indented(_declaration(declaration))
-    for method in scenario.methods:
-        parameters = ", ".join(f"{p.name}: {p.type}" for p in method.parameters)
-        result = "" if method.result is None else f" -> {method.result}"
-        signature = f"{method.name}({parameters}){result}"
-        body = "" if method.expression is None else show(method.expression)
-        if method.external is not None:
-            body = f"external {method.external.module}.{method.external.function}"
-        yield f"{INDENT}method {signature} = {body} @{method.span.line}"
+    yield from _indented(map(_method, scenario.methods))
     for constraint in scenario.constraints:
         yield f"{INDENT}keep {show(constraint.expression)} @{constraint.span.line}"
     for item in scenario.coverage:
@@ -129,17 +140,17 @@ def _declaration(declaration: Declaration) -> Iterator[str]:
     line = declaration.span.line
     match declaration:
         case Actor(name=name, type=type_):
-            yield f"actor {name}: {type_} @{line}"
+            yield f"{_scope(declaration)}actor {name}: {type_} @{line}"
             yield from _indented(_field_values(declaration.values))
         case Struct(name=name, type=type_, value=value):
-            yield f"struct {name}: {type_}{'' if value is None else f' = {show(value)}'} @{line}"
+            whole = "" if value is None else f" = {show(value)}"
+            yield f"{_scope(declaration)}struct {name}: {type_}{whole} @{line}"
             yield from _indented(_field_values(declaration.values))
         case Parameter(name=name, type=type_, value=value, domain=domain):
             word = "constant" if declaration.is_fixed else "parameter"
-            word = f"global {word}" if declaration.is_global else word
             default = f" = {show(value)}" if value is not None else ""
             within = f" in {show(domain)}" if domain is not None else ""
-            yield f"{word} {name}: {type_}{default}{within} @{line}"
+            yield f"{_scope(declaration)}{word} {name}: {type_}{default}{within} @{line}"
         case Variable(name=name, type=type_, value=value, sample=sample):
             initial = "" if value is None else f" = {show(value)}"
             sampled = ""
@@ -153,6 +164,10 @@ def _declaration(declaration: Declaration) -> Iterator[str]:
             yield f"event {name}{f'({taken})' if taken else ''}{given}{implicit} @{line}"
         case _:
             assert_never(declaration)
+
+
+def _scope(declaration: Actor | Struct | Parameter) -> str:
+    return "global " if declaration.is_global else ""
 
 
 def _field_values(values: tuple[FieldValue, ...]) -> Iterator[str]:

@@ -224,7 +224,7 @@ class TypeTest(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Downcast(ExpressionBase):
-    """An actor as one of the more special type that `type` names; an error if it is none."""
+    """An object as one of the more special type that `type` names; an error if it is none."""
 
     operand: Expression
 

@@ -11,6 +11,15 @@ from osc2tx.ir.expressions import Choices, Domain, Expression, RangeValue
 from osc2tx.ir.values import ValueType
 from osc2tx.support.light_dataclass import dataclass
 
+# Before the name of a global parameter that a field of the scenario hides: no field has a blank in
+# its name.
+GLOBAL_MARK = "global "
+
+
+def setting_name(name: str) -> str:
+    """Return how settings of a run call a global parameter, whatever hides it."""
+    return name.removeprefix(GLOBAL_MARK)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class DeclarationBase:
@@ -47,12 +56,14 @@ class Actor(DeclarationBase):
         lineage: The type and its library ancestors, most derived first.
         values: What constraints fix about it.
         is_given: Only an invoker knows all that there is to say of it, and has to hand it in.
+        is_global: One for all scenarios of a run.
     """
 
     type: str
     lineage: tuple[str, ...]
     values: tuple[FieldValue, ...]
     is_given: bool = False
+    is_global: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -64,12 +75,14 @@ class Struct(DeclarationBase):
         values: What constraints fix about it.
         value: What it equals.
         lineage: The type and its bases, most derived first.
+        is_global: One for all scenarios of a run.
     """
 
     type: str
     values: tuple[FieldValue, ...]
     value: Expression | None = None
     lineage: tuple[str, ...] = ()
+    is_global: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -249,13 +262,21 @@ class Scenario:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UserField:
-    """A field of a type that the scenario's files declare; without default it must be given."""
+    """A field of a type that the scenario's files declare.
+
+    Attributes:
+        name: Its name.
+        type: Its type.
+        default: What it is if nobody says; without it must be given.
+        is_optional: An object may do without: its own file never speaks of it.
+    """
 
     name: str
     span: Span
     type: ValueType
     default: Expression | None
     comments: tuple[str, ...] = ()
+    is_optional: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -263,18 +284,37 @@ class UserType:
     """An actor or struct that the scenario's files declare.
 
     Attributes:
-        name: As in the source.
-        base: The type it inherits from.
+        name: As in the source; that of a combination names its types, `tall_and_long`.
+        bases: The type it inherits from; several if it is the combination of conditional types
+            that one object is of.
         is_actor: Whether it is an actor.
         fields: Those of its own that have values.
+        unused: Those of its own that no file speaks of.
+        methods: Its own methods, in source order.
     """
 
     name: str
     span: Span
-    base: str | None
+    bases: tuple[str, ...]
     is_actor: bool
     fields: tuple[UserField, ...]
     comments: tuple[str, ...] = ()
+    unused: tuple[UserField, ...] = ()
+    methods: tuple[Method, ...] = ()
+
+    @property
+    def all_fields(self) -> tuple[UserField, ...]:
+        """Its own fields, in source order."""
+        return tuple(sorted((*self.fields, *self.unused), key=lambda field: field.span.start))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserEnum:
+    """An enum that the scenario's files declare, with all its members."""
+
+    name: str
+    span: Span
+    members: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -310,8 +350,11 @@ class Module:
     """All scenarios of one source file, with the settings that give them their meaning.
 
     Attributes:
-        types: Types of their objects that are not the library's, bases first.
-        actions: Actions they invoke that are not the library's, in order of use.
+        types: Types of their objects that are not the library's, bases first, then the others of
+            the file.
+        actions: Actions they invoke that are not the library's, in order of use, then the others
+            of the file.
+        enums: Enums of the file, and those of imported files that it speaks of.
         comments: The comment lines at the head of the file.
     """
 
@@ -323,3 +366,4 @@ class Module:
     comments: tuple[str, ...] = ()
     types: tuple[UserType, ...] = ()
     actions: tuple[UserAction, ...] = ()
+    enums: tuple[UserEnum, ...] = ()

@@ -6,7 +6,8 @@ diagnostics of the 5xx family. Modules: `scenarios` (entry), `declarations` (mem
 (the `do` tree), `invocations` and `modifiers` in it, `triggers`, `expressions`, `calls` of methods
 (also `external` ones), `type_conversions`, `coverage`, `node_names` (readable names of nodes),
 `declaration_order` (of values), `initial_placement` (what holds at the start of the run, taken out
-of the tree), `user_actions` and `user_types` (what the scenario's files declare).
+of the tree), `user_actions` and `user_types` (what the scenario's files declare), `combined_types`
+(of objects with several conditional types).
 """
 
 from osc2tx.lowering.scenarios import lower

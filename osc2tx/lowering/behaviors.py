@@ -14,8 +14,9 @@ from osc2tx.lowering.calls import lower_call
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.invocations import InvocationLowering, label_of
+from osc2tx.lowering.invocations import InvocationLowering, label_of, name_of_member
 from osc2tx.lowering.node_names import composition_name
+from osc2tx.lowering.open_durations import with_open_duration
 from osc2tx.lowering.triggers import declares_event, lower_trigger, lower_until
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -152,18 +153,20 @@ class BehaviorLowering:
             "until": lower_until(self._ctx, node.with_members),
             "end_comments": node.end_comments,
         }
+        made: ir.Serial | ir.OneOf | ir.Parallel
         match node.operator:
             case ast.CompositionOperator.SERIAL:
-                return ir.Serial(**common)
+                made = ir.Serial(**common)
             case ast.CompositionOperator.ONE_OF:
-                return ir.OneOf(**common)
+                made = ir.OneOf(**common)
             case ast.CompositionOperator.PARALLEL:
-                return ir.Parallel(
+                made = ir.Parallel(
                     **common,
                     overlap=_overlap(arguments.get("overlap")),
                     start_to_start=self._time(arguments.get("start_to_start")),
                     end_to_end=self._time(arguments.get("end_to_end")),
                 )
+        return with_open_duration(self._ctx, made, name_of_member(node))
 
     def _composition_arguments(self, node: ast.Composition) -> dict[str, ast.Expression]:
         """Return the arguments by name; the first position of `parallel` is `overlap`."""

@@ -113,10 +113,11 @@ class ConstraintLowering:
         comments = dict.fromkeys(line for c in said for line in self._comments(c))
         return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
 
-    def members(self, field_: sym.FieldSymbol) -> Iterator[tuple[Key, Setting]]:
+    def members(self, object_: Key) -> Iterator[tuple[Key, Setting]]:
         """Yield what is known of the members of an object; any value of an enum is something."""
+        depth = len(object_)
         for key, mentioned in self.found.by_key.items():
-            if len(key) > 1 and key[0] is field_ and isinstance(key[-1], sym.FieldSymbol):
+            if len(key) > depth and key[:depth] == object_ and isinstance(key[-1], sym.FieldSymbol):
                 setting = self.setting(key, key[-1].type)
                 if setting.is_empty:
                     setting = replace(setting, domain=all_values(key[-1].type, mentioned[0].span))
@@ -139,6 +140,16 @@ class ConstraintLowering:
             setting = self.setting(key, parameter.type)
             if not setting.is_empty:
                 yield parameter, setting
+
+    def structs_of_instance(self, node: Instance) -> Iterator[sym.FieldSymbol]:
+        """Yield the parameters of an invocation that constraints describe by their fields."""
+        found: dict[sym.FieldSymbol, None] = {}
+        for key in self.found.by_key:
+            parameter = key[1] if len(key) > 2 and key[0] is node else None
+            match parameter:
+                case sym.FieldSymbol(type=types.StructType()) if key[:2] not in self.ctx.given:
+                    found[parameter] = None
+        yield from found
 
     def says_all(self, setting: Setting, key: Key) -> bool:
         """Whether what is written of a parameter makes all constraints on it true."""

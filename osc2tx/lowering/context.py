@@ -49,10 +49,12 @@ class LoweringContext:
         own_names: Names of the members of the scenario.
         event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
         invoked: The scenarios and composed actions that it invokes, in order of use.
-        drawn: Parameters that stand for ranges in its tree, in order of use.
+        drawn: Parameters that stand for ranges in its tree, and structs that constraints of
+            invocations describe, in order of use.
         place: Where the names in an expression are looked up, in constraints.
         it: What `it` is there.
         types: Types of declared objects that are not the library's, in order of use.
+        combined: Combinations of conditional types that objects are of, by name.
         actions: Actions that are invoked, in order of use.
         given: Values of parameters of invocations that constraints may speak of.
         receiver: The object whose method an expression is the body of.
@@ -62,7 +64,7 @@ class LoweringContext:
         actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
-        mentioned: The fields that some expression of the program speaks of.
+        mentioned: The fields that some expression of the program speaks of, and in which files.
         handed_in: Parameters of invoked scenarios that some invocation gives a value.
         computed: Those of them that some invocation gives no plain name.
         object_types: The types of which the program may have objects.
@@ -76,8 +78,9 @@ class LoweringContext:
     own_names: frozenset[str] = frozenset()
     event_fields: dict[int, str] = field(default_factory=dict)
     invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
-    drawn: list[ir.Parameter] = field(default_factory=list)
+    drawn: list[ir.Parameter | ir.Struct] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
+    combined: dict[str, ir.UserType] = field(default_factory=dict)
     actions: list[ActionSymbol] = field(default_factory=list)
     place: Place | None = None
     it: ir.Expression | None = None
@@ -89,7 +92,7 @@ class LoweringContext:
     purity: dict[MethodSymbol, bool] = field(default_factory=dict)
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
     actor: ir.Expression | None = None
-    mentioned: frozenset[FieldSymbol] = frozenset()
+    mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)
     handed_in: frozenset[Symbol] = frozenset()
     computed: frozenset[Symbol] = frozenset()
     object_types: tuple[TypeSymbol, ...] = ()
@@ -158,16 +161,21 @@ class LoweringContext:
         """
         place = span or (domain.span if domain is not None else None)
         assert place is not None
-        taken = {parameter.name for parameter in self.drawn}
-        number, unique = 1, name
-        while unique in taken:
-            number += 1
-            unique = f"{name} {number}"
+        unique = self.unique(name)
         parameter = ir.Parameter(
             name=unique, span=place, type=type_, value=None, domain=domain, is_fixed=False
         )
         self.drawn.append(parameter)
         return ir.FieldRef(span=place, type=type_, name=unique)
+
+    def unique(self, name: str) -> str:
+        """Return a name that nothing drawn has, with a number if need be."""
+        taken = {each.name for each in self.drawn}
+        number, unique = 1, name
+        while unique in taken:
+            number += 1
+            unique = f"{name} {number}"
+        return unique
 
     def unsupported(self, code: str, span: Span, what: str, help: str | None = None) -> None:
         """Report what cannot be lowered."""

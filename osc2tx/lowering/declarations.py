@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.diagnostics import Span
 from osc2tx.lowering.carla_paths import is_path, path_declarations, path_members
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.list_constraints import lower_list
-from osc2tx.lowering.map_fields import reads_map
+from osc2tx.lowering.fields import FieldLowering
 from osc2tx.lowering.methods import lower_method
-from osc2tx.lowering.objects import ObjectLowering, lineage
-from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.triggers import event_parameter, lower_trigger
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
-from osc2tx.semantics import types
 from osc2tx.syntax import ast
 
 
@@ -45,9 +39,7 @@ class DeclarationLowering:
         self._ctx = ctx
         self._scenario = scenario
         self._statements = statements
-        self._constraints = constraints
-        self._objects = ObjectLowering(ctx, constraints)
-        self.global_constraints: tuple[ir.Constraint, ...] = ()
+        self._fields = FieldLowering(ctx, constraints)
 
     def lower_methods(self) -> tuple[ir.Method, ...]:
         """Return its own methods; the last declaration of a name is the one that counts."""
@@ -72,67 +64,6 @@ class DeclarationLowering:
                 lowered[name] = lower_method(self._ctx, symbol, comments)
         methods = present(list(lowered.values()))
         return tuple(sorted(methods, key=lambda m: (m.span.source.name, m.span.line)))
-
-    def lower_globals(self) -> tuple[ir.Parameter, ...]:
-        """Return the global parameters that were used so far, as parameters of the scenario."""
-        lowered: dict[str, ir.Parameter | None] = {}
-        while missing := [name for name in self._ctx.globals if name not in lowered]:
-            for name in missing:  # one global may be defined by another
-                symbol = self._ctx.globals[name]
-                constraints = ConstraintLowering.of_global(self._ctx, symbol)
-                comments = self._global_comments(symbol)
-                parameter = _parameter(symbol, symbol.span, comments, constraints)
-                lowered[name] = replace(parameter, name=name)
-                self.global_constraints += constraints.left_over()
-        return tuple(
-            replace(parameter, is_global=True)
-            for parameter in present(list(reversed(lowered.values())))
-        )
-
-    def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
-        """Whether nothing but an invocation says what a struct of the library is."""
-        assert isinstance(symbol.type, types.StructType)
-        is_open = symbol.default is None and not self._objects.is_said(symbol)
-        return is_open and symbol.type.symbol.origin != "user" and self._is_given(symbol)
-
-    def _has_value(self, symbol: sym.FieldSymbol) -> bool:
-        if symbol.default is not None or self._is_given(symbol):
-            return True
-        setting = self._constraints.setting((symbol,), symbol.type)
-        return setting.value is not None
-
-    def _described(
-        self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
-    ) -> ir.Parameter | None:
-        """Lower a list that constraints describe by its elements."""
-        is_list = isinstance(symbol.type, types.ListType)
-        value = lower_list(self._ctx, symbol, self._constraints) if is_list else None
-        if value is None:
-            self._ctx.unsupported(
-                "OSC501",
-                span,
-                f"`{symbol.name}`, a {symbol.type}, has no value",
-                help="give it one, `= value`, or say what its elements are, `keep(it[0] == value)`",
-            )
-            return None
-        return ir.Parameter(
-            name=symbol.name,
-            span=span,
-            comments=comments,
-            type=lower_type(symbol.type),
-            value=value,
-            domain=None,
-            is_fixed=False,
-        )
-
-    def _is_given(self, symbol: sym.FieldSymbol) -> bool:
-        """Whether some invocation of the scenario gives a parameter a value."""
-        return symbol in self._ctx.handed_in
-
-    def _global_comments(self, symbol: sym.FieldSymbol) -> tuple[str, ...]:
-        statements = (s for file in self._ctx.model.files for s in file.statements)
-        shared = (s for s in statements if isinstance(s, ast.GlobalParameter))
-        return next((statement_comments(s) for s in shared if s.parameter is symbol.node), ())
 
     def lower(self) -> tuple[ir.Declaration, ...]:
         """Return the declarations in source order, implicit events last."""
@@ -177,52 +108,7 @@ class DeclarationLowering:
             return None
         if isinstance(statement, ast.VariableDeclaration) and statement.default is not None:
             return self._variable(symbol, statement, comments)
-        # A variable without initial value has one all the same (§7.3.6.1.2): from outside.
-        match symbol.type:
-            case types.ActorType():
-                actor = self._objects.type_of(symbol)
-                assert isinstance(actor, sym.ActorSymbol)
-                self._ctx.types.append(actor)
-                is_given = self._is_given(symbol) and self._objects.is_open(symbol)
-                return ir.Actor(
-                    name=symbol.name,
-                    span=name.span,
-                    comments=comments,
-                    type=actor.name,
-                    lineage=lineage(actor),
-                    values=() if is_given else self._objects.values(symbol),
-                    is_given=is_given,
-                )
-            case types.StructType() if self._is_for_caller(symbol):
-                return ir.Parameter(
-                    name=symbol.name,
-                    span=name.span,
-                    comments=comments,
-                    type=lower_type(symbol.type),
-                    value=None,
-                    domain=None,
-                    is_fixed=False,
-                )
-            case types.StructType():
-                struct = self._objects.type_of(symbol)
-                assert isinstance(struct, sym.StructSymbol)
-                self._ctx.types.append(struct)
-                return self._objects.struct(symbol, name.span, comments, lineage(struct))
-            case types.ListType() | types.RangeType() if not self._has_value(symbol):
-                return self._described(symbol, name.span, comments)
-            case (
-                types.PrimitiveType()
-                | types.PhysicalType()
-                | types.EnumType()
-                | types.ListType()
-                | types.RangeType()
-            ):
-                return _parameter(symbol, name.span, comments, self._constraints)
-            case _:
-                self._ctx.unsupported(
-                    "OSC501", name.span, f"a field of type `{symbol.type}` is not supported yet"
-                )
-                return None
+        return self._fields.lower(symbol, name.span, comments)
 
     def _scenario_member(self, name: str) -> sym.Member | None:
         scenario: Composed | None = self._scenario
@@ -292,31 +178,3 @@ class DeclarationLowering:
         for member in self._scenario.members.values():
             if isinstance(member, sym.EventSymbol) and member.is_implicit:
                 yield ir.Event(name=member.name, span=member.span, trigger=None, is_implicit=True)
-
-
-def _parameter(
-    field: sym.FieldSymbol,
-    span: Span,
-    comments: tuple[str, ...],
-    constraints: ConstraintLowering,
-) -> ir.Parameter:
-    setting = constraints.setting((field,), field.type)
-    domain = setting.domain
-    if setting.value is not None and reads_map(setting.value):
-        constraints.ctx.unsupported(
-            "OSC501",
-            setting.value.span,
-            f"`{field.name}` is computed before the run, when the map is not known yet",
-            help="write the expression where it is needed",
-        )
-    if setting.value is None and domain is None:
-        domain = all_values(field.type, span)
-    return ir.Parameter(
-        name=field.name,
-        span=span,
-        comments=(*comments, *setting.comments),
-        type=lower_type(field.type),
-        value=setting.value,
-        domain=domain,
-        is_fixed=setting.is_fixed,
-    )

@@ -9,6 +9,7 @@ from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.calls import lower_call
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.date_differences import holds_date, without_dates
 from osc2tx.lowering.references import lower_key, lower_member, lower_name
 from osc2tx.lowering.type_conversions import lower_cast, lower_type_test
 from osc2tx.lowering.value_types import lower_type, lower_unit
@@ -100,21 +101,24 @@ def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | Non
     while isinstance(spine[-1].left, ast.Binary):
         spine.append(spine[-1].left)
     left = lower_expression(ctx, spine[-1].left)
+    has_dates = left is not None and holds_date(left)
     for current in reversed(spine):
         right = lower_expression(ctx, current.right)
         if left is None or right is None:
             return None
+        has_dates = has_dates or holds_date(right)
         known = _known_logic(current.operator, left, right)
         if known is not None:
             left = known
             continue
-        left = ir.Binary(
+        combined = ir.Binary(
             span=current.span,
             type=lower_type(ctx.model.type_of(current)),
             operator=current.operator.value,
             left=left,
             right=right,
         )
+        left = without_dates(combined) if has_dates else combined
     return left
 
 

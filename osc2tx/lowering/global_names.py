@@ -6,28 +6,28 @@ have one of a name, by its full name. A field of the scenario that hides it stan
 
 from __future__ import annotations
 
+from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.semantics import symbols as sym
-
-# Cannot be in a name of the language, so no field has it.
-MARK = "global "
 
 
 def global_name(ctx: LoweringContext, parameter: sym.FieldSymbol) -> str:
     """Return the name of a global parameter, and note that it is used."""
-    name = setting_name(ctx, parameter)
+    name = _name(ctx, parameter)
     if name in ctx.own_names:
-        name = f"{MARK}{name}"
+        name = f"{ir.GLOBAL_MARK}{name}"
     ctx.globals.setdefault(name, parameter)
     return name
 
 
-def setting_name(ctx: LoweringContext, parameter: sym.FieldSymbol) -> str:
+def field_name(ctx: LoweringContext, field: sym.FieldSymbol) -> str:
+    """Return the name of a field or global parameter in the scenario."""
+    is_global = field.owner is None and field.node is not None
+    return global_name(ctx, field) if is_global else field.name
+
+
+def _name(ctx: LoweringContext, parameter: sym.FieldSymbol) -> str:
     """Return how settings of a run call a global parameter."""
-    others = (
-        symbol
-        for symbol in ctx.model.symbols
-        if isinstance(symbol, sym.FieldSymbol) and symbol.owner is None
-    )
-    is_shared = any(o is not parameter and o.name == parameter.name for o in others)
+    others = (other for other in ctx.model.global_parameters if other is not parameter)
+    is_shared = any(other.name == parameter.name for other in others)
     return f"{parameter.namespace}::{parameter.name}" if is_shared else parameter.name

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
 from osc2tx.ir.source_text import statement_name
@@ -13,12 +15,16 @@ from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.modifiers import draw_ranges, is_override
 from osc2tx.lowering.node_names import invocation_name
+from osc2tx.lowering.objects import ObjectLowering
+from osc2tx.lowering.open_durations import with_open_duration
 from osc2tx.lowering.triggers import lower_until
 from osc2tx.lowering.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
+from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.syntax import ast
 
 
@@ -71,7 +77,7 @@ class InvocationLowering:
             until=lower_until(self._ctx, node.with_members),
             is_own=is_user_defined(callee),
         )
-        return start_on_path(invocation)
+        return start_on_path(with_open_duration(self._ctx, invocation, name_of_member(node)))
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
         """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
@@ -101,6 +107,14 @@ class InvocationLowering:
         self._ctx.invoked.append(callee)
         arguments = self._arguments(node, actor)
         self.refuse_movement(node, actor, callee, "an invoked scenario")
+        for whose in (actor, *(argument.value for argument in arguments)):
+            for statement in self._of_all_actions(whose):
+                self._ctx.unsupported(
+                    "OSC508",
+                    statement.span,
+                    f"`{statement.span.text}` would modify what `{callee.qualified_name}` does",
+                    help="apply it in the `with` of the actions in it",
+                )
         span = callee.node.name.span
         return ir.InvokeScenario(
             span=node.span,
@@ -183,11 +197,17 @@ class InvocationLowering:
                 continue
             if value is not setting.domain:
                 self._ctx.given[node, parameter] = value
-            arguments.append(
-                ir.Argument(
-                    parameter=parameter.name, value=value, is_positional=False, span=value.span
-                )
-            )
+            arguments.append(_named(parameter, value))
+        objects = ObjectLowering(self._ctx, self._constraints)
+        for parameter in self._constraints.structs_of_instance(node):
+            assert isinstance(parameter.type, types.StructType)
+            name = f"{name_of_member(node)}.{parameter.name}"
+            type_ = lower_type(parameter.type)
+            object_ = ir.FieldRef(span=node.span, type=type_, name=self._ctx.unique(name))
+            self._ctx.given[node, parameter] = object_
+            struct = objects.of_parameter((node, parameter), parameter.type, object_)
+            self._ctx.drawn.append(struct)
+            arguments.append(_named(parameter, object_))
         return tuple(arguments)
 
     def _drawn(
@@ -211,7 +231,32 @@ class InvocationLowering:
                         modifiers += lowering.lower(member)
                 case ast.KeepConstraint() | ast.RemoveDefault() | ast.UntilDirective():
                     pass
+        for statement in self._of_all_actions(actor):
+            target = self._ctx.model.binding_of(statement).callee
+            assert isinstance(target, sym.ModifierSymbol)
+            if target.target is None or is_subtype(action, target.target):
+                modifiers += lowering.lower(statement)
         return tuple(modifiers)
+
+    def _of_all_actions(self, actor: ir.Expression | None) -> Iterator[ast.ModifierApplication]:
+        """Yield the members of the scenario that modify all that an actor does."""
+        owner = self._constraints.found.owner
+        if owner is None or not isinstance(actor, ir.FieldRef):
+            return
+        for ancestor in reversed(list(supertypes(owner))):
+            for statement in ancestor.statements:
+                if not isinstance(statement, ast.ModifierApplication):
+                    continue
+                if not modifies_actions(self._ctx, statement):
+                    continue
+                whose = statement.actor and lower_expression(self._ctx, statement.actor)
+                name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
+                if name == actor.name:
+                    yield statement
+
+
+def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
+    return ir.Argument(parameter=parameter.name, value=value, is_positional=False, span=value.span)
 
 
 def name_of_member(node: ast.Invocation | ast.Composition) -> str:
@@ -228,3 +273,10 @@ def label_of(node: ast.BehaviorMember) -> str | None:
 
 def _is_until(member: ast.WithMember) -> bool:
     return isinstance(member, ast.UntilDirective)
+
+
+def modifies_actions(ctx: LoweringContext, node: ast.ModifierApplication) -> bool:
+    """Whether a member of a scenario modifies actions of its actor, but for their start."""
+    callee = ctx.model.binding_of(node).callee
+    is_start = any(a.name is not None and a.value.span.text == "start" for a in node.arguments)
+    return isinstance(callee, sym.ModifierSymbol) and callee.target is not None and not is_start

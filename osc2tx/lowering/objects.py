@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
 from osc2tx.analysis.parameter_lookup import name_of
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.combined_types import add_types, lineage, most_special, shared_member
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.global_names import field_name
 from osc2tx.lowering.list_element_constraints import fixed_elements
 from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, is_search_criterion, reads_map
 from osc2tx.lowering.parameter_domains import all_values
@@ -25,7 +28,6 @@ from osc2tx.lowering.user_fields import (
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.semantics.scope import supertypes
 
 
 class ObjectLowering:
@@ -47,7 +49,7 @@ class ObjectLowering:
         """Lower a value of a struct type: a whole value, or values of its fields."""
         whole = self._constraints.setting((field,), field.type)
         if whole.value is not None:
-            for value in self._said(field).values():
+            for value in self._said((field,)).values():
                 self._ctx.unsupported(
                     "OSC502",
                     value.span,
@@ -72,23 +74,13 @@ class ObjectLowering:
             lineage=names,
         )
 
-    def type_of(self, field: sym.FieldSymbol) -> TypeSymbol:
-        """Return the type of an object: the declared one, or a special one that it is by itself.
+    def types_of(self, field: sym.FieldSymbol) -> tuple[TypeSymbol, ...]:
+        """Return the types of an object: the declared one, or special ones that it is by itself.
 
         What an object is must be known when compiling, as far as that changes anything.
         """
         assert isinstance(field.type, types.ActorType | types.StructType)
-        found: TypeSymbol = field.type.symbol
-        for special in self._constraints.found.special.get((field,), ()):
-            if found in supertypes(special):
-                found = special
-            elif special not in supertypes(found):
-                self._ctx.unsupported(
-                    "OSC501",
-                    field.span,
-                    f"`{field.name}` is both `{found.name}` and `{special.name}`",
-                    help="let one of the types inherit from the other",
-                )
+        found = self._special((field,), field.type.symbol, field.span)
         is_made_elsewhere = field in self._ctx.handed_in
         for key, special in self._constraints.found.undecided:
             if key == (field,) and special.statements and not is_made_elsewhere:
@@ -101,6 +93,19 @@ class ObjectLowering:
                 )
         return found
 
+    def _special(self, key: Key, declared: TypeSymbol, span: Span) -> tuple[TypeSymbol, ...]:
+        """Return the most special types that an object is of."""
+        found = most_special((declared, *self._constraints.found.special.get(key, ())))
+        if (shared := shared_member(found)) is not None:
+            names = " and ".join(f"`{type_.name}`" for type_ in found)
+            self._ctx.unsupported(
+                "OSC501",
+                span,
+                f"`{name_of(key[-1:])}` is both {names}: they both have a `{shared}` of their own",
+                help="rename one of them, or let one of the types inherit from the other",
+            )
+        return found
+
     def is_said(self, field: sym.FieldSymbol) -> bool:
         """Whether a constraint speaks of a member of an object."""
         return any(key[0] is field and len(key) > 1 for key in self._constraints.found.by_key)
@@ -110,24 +115,50 @@ class ObjectLowering:
         if not isinstance(field.type, types.ActorType | types.StructType):
             return False
         ctx = self._ctx.quiet()
-        object_ = ir.FieldRef(span=field.span, type=lower_type(field.type), name=field.name)
+        object_ = self._reference(field)
         looking = ObjectLowering(ctx, replace(self._constraints, ctx=ctx))
-        looking._complete((field,), self.type_of(field), object_, looking._said(field))
-        return ctx.sink.has_errors or any(parameter.is_required for parameter in ctx.drawn)
+        looking._complete((field,), self.types_of(field), object_, looking._said((field,)))
+        is_open = (isinstance(d, ir.Parameter) and d.is_required for d in ctx.drawn)
+        return ctx.sink.has_errors or any(is_open)
 
     def values(self, field: sym.FieldSymbol) -> tuple[ir.FieldValue, ...]:
         """Return what is known about an object; what constraints leave open can be set."""
-        found = self._said(field)
-        object_ = ir.FieldRef(span=field.span, type=lower_type(field.type), name=field.name)
+        found = self._said((field,))
+        object_ = self._reference(field)
         if isinstance(field.type, types.ActorType | types.StructType):
-            self._complete((field,), self.type_of(field), object_, found)
+            self._complete((field,), self.types_of(field), object_, found)
         elements = fixed_elements(self._ctx, self._constraints, field)
-        return (*_without_object(self._ctx, field, found), *elements)
+        return (*_without_object(self._ctx, object_.name, field.type, found), *elements)
 
-    def _said(self, field: sym.FieldSymbol) -> dict[Key, ir.FieldValue]:
+    def of_parameter(self, key: Key, type_: types.StructType, object_: ir.FieldRef) -> ir.Struct:
+        """Lower a struct that constraints of an invocation describe by its fields.
+
+        Args:
+            key: The invocation and its parameter.
+            type_: Type of the parameter.
+            object_: The declaration that stands for it.
+        """
+        found = self._said(key)
+        types_ = self._special(key, type_.symbol, object_.span)
+        self._complete(key, types_, object_, found)
+        names = lineage(*types_)
+        add_types(self._ctx, types_, object_.span)
+        return ir.Struct(
+            name=object_.name,
+            span=object_.span,
+            type=names[0],
+            values=_without_object(self._ctx, object_.name, type_, found),
+            lineage=names,
+        )
+
+    def _reference(self, field: sym.FieldSymbol) -> ir.FieldRef:
+        name = field_name(self._ctx, field)
+        return ir.FieldRef(span=field.span, type=lower_type(field.type), name=name)
+
+    def _said(self, object_: Key) -> dict[Key, ir.FieldValue]:
         """Return what constraints fix or bound, but for defaults that the class has anyway."""
         found: dict[Key, ir.FieldValue] = {}
-        for key, setting in self._constraints.members(field):
+        for key, setting in self._constraints.members(object_):
             value, member = setting.value, key[-1]
             assert isinstance(member, sym.FieldSymbol)
             if setting.domain is not None and value is None and is_search_criterion(member):
@@ -138,7 +169,7 @@ class ObjectLowering:
                 self._ctx.unsupported("OSC502", value.span, NOT_SEARCHED_BY, help=SEARCHED_BY)
                 continue
             if value is not None and not self._is_of_class(member, value):
-                path = tuple(name_of((part,)) for part in key[1:])
+                path = tuple(name_of((part,)) for part in key[len(object_) :])
                 found[key] = ir.FieldValue(
                     path=path, value=value, span=value.span, comments=setting.comments
                 )
@@ -156,12 +187,13 @@ class ObjectLowering:
     def _complete(
         self,
         key: Key,
-        type_: TypeSymbol,
+        types_: tuple[TypeSymbol, ...],
         object_: ir.Expression,
         found: dict[Key, ir.FieldValue],
     ) -> None:
         """Give a value to each field of an own type that has none and no default of its class."""
-        for each in reversed(user_lineage(type_)):
+        lineages = (reversed(user_lineage(type_)) for type_ in types_)
+        for each in dict.fromkeys(chain.from_iterable(lineages)):
             for member in user_fields(self._ctx, each):
                 inner = (*key, member)
                 if inner in found:
@@ -175,11 +207,11 @@ class ObjectLowering:
                     )
                 elif isinstance(member.type, types.StructType) and member.default is None:
                     below = member_of(self._ctx, object_, member, member.span)
-                    self._complete(inner, member.type.symbol, below, found)
+                    self._complete(inner, (member.type.symbol,), below, found)
                 elif not self._has_class_default(inner, member):
                     value = self._open(inner, member, object_)
                     if value is not None:
-                        path = tuple(name_of((part,)) for part in inner[1:])
+                        path = tuple(name_of((part,)) for part in inner[len(_outside(inner)) :])
                         found[inner] = ir.FieldValue(path=path, value=value, span=value.span)
 
     def _has_class_default(self, key: Key, member: sym.FieldSymbol) -> bool:
@@ -210,20 +242,25 @@ class ObjectLowering:
         return None
 
 
+def _outside(key: Key) -> Key:
+    """Return what leads to an object: its field, or an invocation and its parameter."""
+    return key[:1] if isinstance(key[0], sym.FieldSymbol) else key[:2]
+
+
 def _condition_of(special: TypeSymbol) -> str:
     condition = special.condition
     return "" if condition is None else " ".join(condition.span.text.strip("()").split())
 
 
 def _without_object(
-    ctx: LoweringContext, field: sym.FieldSymbol, found: dict[Key, ir.FieldValue]
+    ctx: LoweringContext, name: str, type_: types.Type, found: dict[Key, ir.FieldValue]
 ) -> tuple[ir.FieldValue, ...]:
     """Return the values; what reads a field of the same object gets the value of that field."""
     by_path = {value.path: value.value for value in found.values()}
 
     def replacement(part: ir.Expression) -> ir.Expression | None:
-        path = _path_below(field.name, part)
-        value = by_path.get(path) or _default_at(ctx, field.type, path)
+        path = _path_below(name, part)
+        value = by_path.get(path) or _default_at(ctx, type_, path)
         if value is None or path in pending:
             return None  # of the library, or defined by itself: `in_order_of_use` reports that
         pending.append(path)
@@ -275,13 +312,3 @@ def _contains_itself(key: Key, member: sym.FieldSymbol) -> bool:
     above = (each.type for each in key if isinstance(each, sym.FieldSymbol))
     is_struct = isinstance(member.type, types.StructType) and member.default is None
     return is_struct and any(str(type_) == str(member.type) for type_ in above)
-
-
-def lineage(type_: sym.ActorSymbol | sym.StructSymbol) -> tuple[str, ...]:
-    """Return a type and its ancestors, most derived first."""
-    names = []
-    current: sym.ActorSymbol | sym.StructSymbol | None = type_
-    while current is not None:
-        names.append(current.name)
-        current = current.base
-    return tuple(names)

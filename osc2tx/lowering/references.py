@@ -9,7 +9,7 @@ from osc2tx.analysis.operation_list import Key
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.global_names import global_name
+from osc2tx.lowering.global_names import field_name, global_name
 from osc2tx.lowering.map_fields import is_given_by_map
 from osc2tx.lowering.value_types import SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
@@ -121,9 +121,8 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
     first, *rest = key
     expression: ir.Expression
     if isinstance(first, sym.FieldSymbol):
-        is_global = first.owner is None and first.node is not None
-        name = global_name(ctx, first) if is_global else first.name
-        expression = ir.FieldRef(span=span, type=lower_type(first.type), name=name)
+        type_, name = lower_type(first.type), field_name(ctx, first)
+        expression = ir.FieldRef(span=span, type=type_, name=name)
     elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
         expression, rest = ctx.given[key[: lengths[0]]], list(key[lengths[0] :])
     else:

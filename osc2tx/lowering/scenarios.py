@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from osc2tx import ir
@@ -9,25 +10,28 @@ from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.lowering.behaviors import BehaviorLowering, boundary_of
 from osc2tx.lowering.carla_paths import is_path_member
-from osc2tx.lowering.composed_behaviors import Composed, lineage_of
+from osc2tx.lowering.combined_types import lineage
+from osc2tx.lowering.composed_behaviors import Composed, is_composed, lineage_of
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.coverage import lower_coverage
 from osc2tx.lowering.declaration_order import in_order_of_use
 from osc2tx.lowering.declarations import DeclarationLowering
 from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.global_parameters import GlobalLowering
 from osc2tx.lowering.initial_placement import (
     PlacementLowering,
     can_place,
     merged,
     owner_of,
 )
+from osc2tx.lowering.invocations import modifies_actions
 from osc2tx.lowering.method_overriding import object_types
 from osc2tx.lowering.modifiers import is_override
-from osc2tx.lowering.objects import lineage
 from osc2tx.lowering.override_modifiers import lower_overrides
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.user_actions import lower_actions
+from osc2tx.lowering.user_enums import lower_enums
 from osc2tx.lowering.user_fields import (
     class_default,
     mentioned_fields,
@@ -37,7 +41,7 @@ from osc2tx.lowering.user_fields import (
 from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.user_types import lower_types
 from osc2tx.options import CompileOptions
-from osc2tx.semantics import SemanticModel
+from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
@@ -65,7 +69,12 @@ def lower(
         types=used,
         actions=actions,
         mentioned=mentioned_fields(model),
-        handed_in=frozenset(p for b in model.bindings.values() for p, _ in b.arguments),
+        handed_in=frozenset(
+            [
+                *(p for b in model.bindings.values() for p, _ in b.arguments),
+                *_described_parameters(analysis),
+            ]
+        ),
         computed=frozenset(
             parameter
             for binding in model.bindings.values()
@@ -92,7 +101,7 @@ def lower(
             for key, scenario in lowered.items()
         ]
     )
-    return ir.Module(
+    module = ir.Module(
         source=model.root.span.source.name,
         standard=options.standard,
         dialect=options.dialect,
@@ -100,8 +109,27 @@ def lower(
         scenarios=scenarios,
         comments=_head_comments(model.root),
         types=lower_types(program, used),
-        actions=lower_actions(actions),
+        actions=lower_actions((*actions, *_own_actions(model))),
     )
+    return replace(module, enums=lower_enums(model, module))
+
+
+def _own_actions(model: SemanticModel) -> Iterator[sym.ActionSymbol]:
+    """Yield the actions of the root file that packages carry out."""
+    actions = (each for each in model.symbols if isinstance(each, sym.ActionSymbol))
+    for action in actions:
+        is_own = action.span.source is model.root.span.source
+        if is_own and action.actor is not None and not is_composed(action):
+            yield action
+
+
+def _described_parameters(analysis: ConstraintAnalysis) -> Iterator[sym.Symbol]:
+    """Yield the parameters whose fields constraints of some invocation speak of."""
+    for found in analysis.types.values():
+        for key in found.by_key:
+            match key:
+                case (ast.Invocation(), sym.FieldSymbol(type=types.StructType()) as field, _, *_):
+                    yield field
 
 
 def _head_comments(file: ast.File) -> tuple[str, ...]:
@@ -122,17 +150,18 @@ def _lower_scenario(
     constraints = ConstraintLowering.of_scenario(ctx, scenario)
     lowering = DeclarationLowering(ctx, scenario, statements, constraints)
     declarations = lowering.lower()
+    shared = GlobalLowering(ctx, scenario, constraints)
     methods = lowering.lower_methods()
     tree = _lower_body(ctx, scenario, statements, constraints)
     if tree is None:
         return None
-    placements, body = PlacementLowering(ctx).split(tree)
+    placements, body = PlacementLowering(ctx).split(_labelled_once(tree, set()))
     if body is None:
         body = _nothing_left(scenario)
     left_over = constraints.left_over()
     coverage = lower_coverage(ctx, scenario)
     type_methods = lowering.lower_type_methods()
-    global_parameters = lowering.lower_globals()
+    global_parameters = shared.lower()
     return ir.Scenario(
         name=scenario.qualified_name,
         span=node.name.span,
@@ -154,7 +183,7 @@ def _lower_scenario(
         end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
         overrides=lower_overrides(ctx, statements),
         coverage=coverage,
-        constraints=(*lowering.global_constraints, *left_over),
+        constraints=(*shared.constraints, *left_over),
         is_imported=is_imported,
         is_action=isinstance(scenario, sym.ActionSymbol),
     )
@@ -276,13 +305,14 @@ def _member_placements(
             continue
         if is_override(ctx, statement) or is_path_member(ctx, statement):
             continue
-        target = statement.actor and ctx.model.symbol_of(statement.actor)
         what = statement.actor.span.text if statement.actor else "actor"
         actor = lower_expression(ctx, statement.actor) if statement.actor else None
         for modifier in ModifierLowering(ctx, constraints, what, actor, None).lower(statement):
             is_start = modifier.at == "start" and can_place(modifier)
             is_placing = is_start or bool(owner_of(modifier))
-            if not is_placing or not isinstance(target, sym.FieldSymbol):
+            if not is_placing and modifies_actions(ctx, statement):
+                continue  # it stands with each of them
+            if not is_placing or not isinstance(actor, ir.FieldRef):
                 ctx.unsupported(
                     "OSC508",
                     statement.span,
@@ -291,7 +321,7 @@ def _member_placements(
                 continue
             placements.append(
                 ir.Placement(
-                    actor=target.name,
+                    actor=actor.name,
                     modifiers=(replace(modifier, comments=()),),
                     span=statement.span,
                     comments=modifier.comments,
@@ -309,3 +339,14 @@ def _nothing_left(scenario: Composed) -> ir.Behavior:
     elapsed = ir.Elapsed(span=zero.span, duration=zero)
     trigger = ir.Trigger(span=zero.span, event=None, condition=elapsed)
     return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)
+
+
+def _labelled_once(node: ir.Behavior, seen: set[str]) -> ir.Behavior:
+    """Return the tree without labels that stand there before: a dialect lets them."""
+    if node.label in seen:
+        node = replace(node, label=None)
+    elif node.label is not None:
+        seen.add(node.label)
+    if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+        return node
+    return replace(node, members=tuple(_labelled_once(member, seen) for member in node.members))

@@ -38,7 +38,10 @@ def lower_cast(ctx: LoweringContext, node: ast.Cast) -> ir.Expression | None:
             return ir.Lookup(span=span, type=type_, operand=operand, table=table)
         case types.PrimitiveType(), types.PrimitiveType() if source != target:
             return ir.Conversion(span=span, type=type_, operand=operand)
-        case types.ActorType(symbol=given), types.ActorType(symbol=wanted):
+        case (types.ActorType(symbol=given), types.ActorType(symbol=wanted)) | (
+            types.StructType(symbol=given),
+            types.StructType(symbol=wanted),
+        ):
             if is_subtype(given, wanted):
                 return operand
             if wanted.origin == "user":

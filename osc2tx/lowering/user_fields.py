@@ -6,7 +6,7 @@ class if it needs nothing else; one that reads other fields or globals belongs t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -29,25 +29,48 @@ PLAIN = frozenset(
 _OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
 
 
-def mentioned_fields(model: SemanticModel) -> frozenset[sym.FieldSymbol]:
-    """Return the fields that some expression of a program speaks of."""
-    return frozenset(
-        symbol
-        for node, symbol in model.references.items()
-        if isinstance(symbol, sym.FieldSymbol)
-        and isinstance(node, ast.NameExpression | ast.MemberAccess)
-    )
+def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset[str]]:
+    """Return the fields that some expression of a program speaks of, and the names of its files."""
+    found: dict[sym.FieldSymbol, set[str]] = {}
+    for node, symbol in model.references.items():
+        if isinstance(symbol, sym.FieldSymbol) and isinstance(
+            node, ast.NameExpression | ast.MemberAccess
+        ):
+            found.setdefault(symbol, set()).add(node.span.source.name)
+    return {symbol: frozenset(names) for symbol, names in found.items()}
 
 
 def user_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
-    """Yield the fields that the class of an own type adds to those of its base."""
+    """Yield the fields that objects of an own type have besides those of its base."""
+    return (member for member in _fields(symbol) if _has_value(member) or member in ctx.mentioned)
+
+
+def unused_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
+    """Yield the fields that its class has as well, for other programs."""
+    used = set(user_fields(ctx, symbol))
+    return (member for member in _fields(symbol) if member not in used)
+
+
+def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
+    """Whether nothing in its own file gives a field a value or speaks of it.
+
+    That does not depend on who imports the file.
+    """
+    home = field.span.source.name
+    return not _has_value(field) and home not in ctx.mentioned.get(field, ())
+
+
+def _fields(symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
     for member in symbol.members.values():
-        if not isinstance(member, sym.FieldSymbol) or isinstance(
+        is_sampled = isinstance(member, sym.FieldSymbol) and isinstance(
             member.default, ast.SampleExpression
-        ):
-            continue
-        if member.default is not None or member.constraints or member in ctx.mentioned:
+        )
+        if isinstance(member, sym.FieldSymbol) and not is_sampled:
             yield member
+
+
+def _has_value(field: sym.FieldSymbol) -> bool:
+    return field.default is not None or bool(field.constraints)
 
 
 def user_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:

@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx import ir
-from osc2tx.lowering.context import LoweringContext, statement_comments
-from osc2tx.lowering.user_fields import TypeSymbol, class_default, user_fields, user_lineage
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.methods import lower_method
+from osc2tx.lowering.user_fields import (
+    TypeSymbol,
+    class_default,
+    is_optional,
+    unused_fields,
+    user_fields,
+    user_lineage,
+)
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -14,9 +23,10 @@ from osc2tx.syntax import ast
 
 
 def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.UserType, ...]:
-    """Lower the types of declared objects that are not the library's.
+    """Lower the types of declared objects that are not the library's, and all of the root file.
 
-    Bases come first, and so do the types of fields, as far as they do not need each other.
+    Bases come first, and so do the types of fields, as far as they do not need each other. Of two
+    types of one name that no object has, one is left out.
 
     Args:
         ctx: The checked program.
@@ -25,7 +35,35 @@ def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.Us
     symbols: dict[str, TypeSymbol] = {}
     for symbol in used:
         _add(ctx, symbol, symbols, ())
-    return tuple(_lower_type(ctx, symbol) for symbol in symbols.values())
+    for symbol in (*symbols.values(), *_own_types(ctx)):
+        _add_unused(ctx.quiet(), symbol, symbols)
+    for combined in ctx.combined.values():
+        if combined.name in symbols:
+            _report_name(ctx, combined.name, combined.span)
+    lowered = (_lower_type(ctx, symbol) for symbol in symbols.values())
+    return (*lowered, *ctx.combined.values())
+
+
+def _own_types(ctx: LoweringContext) -> Iterable[TypeSymbol]:
+    """Yield the types that the root file declares."""
+    source = ctx.model.root.span.source
+    for symbol in ctx.model.symbols:
+        if isinstance(symbol, sym.ActorSymbol | sym.StructSymbol) and symbol.span.source is source:
+            yield symbol
+
+
+def _add_unused(ctx: LoweringContext, symbol: TypeSymbol, symbols: dict[str, TypeSymbol]) -> None:
+    """Add a type and the types of fields that nobody speaks of."""
+    _add(ctx, symbol, symbols, ())
+    seen: set[TypeSymbol] = set()
+    pending = [symbol]
+    while pending:
+        for each in user_lineage(pending.pop()):
+            for field in unused_fields(ctx, each):
+                for needed in _object_types(field.type):
+                    _add(ctx, needed, symbols, ())
+                    pending += [] if needed in seen else [needed]
+                    seen.add(needed)
 
 
 def _add(
@@ -42,12 +80,16 @@ def _add(
             for needed in _object_types(field.type):
                 _add(ctx, needed, symbols, (*around, each))
         if symbols.setdefault(each.name, each) is not each:
-            ctx.unsupported(
-                "OSC501",
-                each.span,
-                f"another type of the module has the name `{each.name}`",
-                help="types of one module share their names, whatever their namespace: rename one",
-            )
+            _report_name(ctx, each.name, each.span)
+
+
+def _report_name(ctx: LoweringContext, name: str, span: Span) -> None:
+    ctx.unsupported(
+        "OSC501",
+        span,
+        f"another type of the module has the name `{name}`",
+        help="types of one module share their names, whatever their namespace: rename one",
+    )
 
 
 def _object_types(type_: types.Type) -> Iterable[TypeSymbol]:
@@ -66,10 +108,24 @@ def _lower_type(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
         name=symbol.name,
         span=symbol.span,
         comments=() if node is None else statement_comments(node),
-        base=None if symbol.base is None else symbol.base.name,
+        bases=() if symbol.base is None else (symbol.base.name,),
         is_actor=isinstance(symbol, sym.ActorSymbol),
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
+        unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
+        methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
     )
+
+
+def _methods(symbol: TypeSymbol) -> Iterable[sym.MethodSymbol]:
+    return (member for member in symbol.members.values() if isinstance(member, sym.MethodSymbol))
+
+
+def _lower_method(ctx: LoweringContext, method: sym.MethodSymbol) -> ir.Method | None:
+    """Lower a method; one that is refused is reported where it is called."""
+    inside = ctx.quiet()
+    comments = () if method.node is None else statement_comments(method.node)
+    lowered = lower_method(inside, method, comments)
+    return None if inside.sink.has_errors else lowered
 
 
 def _declarations(ctx: LoweringContext) -> Iterable[ast.ActorDeclaration | ast.StructDeclaration]:
@@ -80,10 +136,14 @@ def _declarations(ctx: LoweringContext) -> Iterable[ast.ActorDeclaration | ast.S
 
 
 def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.UserField:
+    """Lower a field; of several in one declaration, the first has its comments."""
+    node = field.node
+    is_first = node is not None and node.names[0].span == field.span
     return ir.UserField(
         name=field.name,
         span=field.span,
-        comments=() if field.node is None else statement_comments(field.node),
+        comments=statement_comments(node) if node is not None and is_first else (),
         type=lower_type(field.type),
         default=class_default(ctx, field),
+        is_optional=is_optional(ctx, field),
     )

@@ -89,6 +89,8 @@ def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> st
         return f"constrain it in its `with:` block: `keep(it in {expression.span.text})`"
     if source == EVENT and target == BOOL:
         return f"to react to an event write `@{expression.span.text}`"
+    if isinstance(expression, ast.PhysicalLiteral) and source == TIME and target == BOOL:
+        return f"to let time pass write `elapsed({expression.span.text})`"
     return None
 
 

@@ -28,6 +28,8 @@ from osc2tx.semantics.types import ERROR, OBJECT, ActorType, BehaviorType, Type
 from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
+COMPOSITIONS = frozenset(operator.value for operator in ast.CompositionOperator)
+
 
 def resolve_label(r: Resolution, label: LabelSymbol, env: Environment) -> None:
     """Give a label the type of what it names."""
@@ -45,6 +47,14 @@ def resolve_label(r: Resolution, label: LabelSymbol, env: Environment) -> None:
 
 def check_do_member(r: Resolution, node: ast.BehaviorMember, env: Environment) -> None:
     """Check a member of a `do` tree."""
+    if node.label is not None and node.label.text in COMPOSITIONS:
+        word = node.label.text
+        r.report(
+            "OSC416",
+            node.label.span,
+            f"`{word}:` before a member on the same line is a label, not a composition",
+            help=f"end the line behind `{word}:`, and indent the members below it",
+        )
     match node:
         case ast.Composition():
             _check_composition(r, node, env)
@@ -109,6 +119,8 @@ def _check_composition(r: Resolution, node: ast.Composition, env: Environment) -
         check_do_member(r, member, env)
     inner = env.with_it(BehaviorType(COMPOSITION))
     check_with(r, node.with_members, inner, None, None)
+    if "duration" in seen:
+        _note_first_come(r, node)
 
 
 def _check_composition_argument(
@@ -154,6 +166,20 @@ def _check_invocation(r: Resolution, node: ast.Invocation, env: Environment) -> 
         locals=env.locals,
     )
     check_with(r, node.with_members, inner, callee, actor)
+    if any(each.name is not None and each.name.text == "duration" for each in node.arguments):
+        _note_first_come(r, node)
+
+
+def _note_first_come(r: Resolution, node: ast.Invocation | ast.Composition) -> None:
+    """Say what a duration beside an `until` means where the dialect has them compete."""
+    for member in node.with_members:
+        if isinstance(member, ast.UntilDirective):
+            r.relaxes(
+                "OSC623",
+                member.event.span,
+                "this and the duration end it, whichever comes first",
+                key=str(member.event.span.start),
+            )
 
 
 def _actor_of(r: Resolution, node: ast.Invocation, env: Environment) -> ActorSymbol | None:

@@ -16,6 +16,7 @@ from osc2tx.semantics.member_lookup import parameters_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
+from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     BehaviorSymbol,
@@ -241,6 +242,15 @@ def _report_unknown(
             if name is foreign[0]:
                 _report_foreign(r, foreign, hint, callee)
             continue
+        if (variable := _variable(callee, name)) is not None:
+            r.report(
+                "OSC402",
+                name.span,
+                f"`{name}` of `{callee.name}` is a variable, which takes no argument",
+                help="declare it without `var` to make it a parameter",
+                labels=declared_here(variable),
+            )
+            continue
         r.report(
             "OSC402",
             name.span,
@@ -252,6 +262,13 @@ def _report_unknown(
             ),
             labels=declared_here(callee),
         )
+
+
+def _variable(callee: Symbol, name: ast.Name) -> FieldSymbol | None:
+    """Return the variable of a behavior that has the name of an argument."""
+    types = supertypes(callee) if isinstance(callee, BehaviorSymbol) else ()
+    found = next((t.members[name.text] for t in types if name.text in t.members), None)
+    return found if isinstance(found, FieldSymbol) and found.is_variable else None
 
 
 def _report_foreign(

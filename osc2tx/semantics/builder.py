@@ -10,13 +10,14 @@ from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
 from osc2tx.semantics.dialects import Dialect, Relaxations
 from osc2tx.semantics.expressions import infer
-from osc2tx.semantics.imports import ImportWalk, LoadFile
+from osc2tx.semantics.imports import ImportHelp, ImportWalk, LoadFile, no_help
 from osc2tx.semantics.library import Library, build_library, shared_library
 from osc2tx.semantics.model import SemanticModel
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
+from osc2tx.semantics.type_names import tell_types_apart
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
@@ -31,12 +32,14 @@ class ModelBuilder:
         standard: `"2.1"` or `"2.2"`.
         dialect: The dialect in force.
         load: Finds and parses imported files; `None` means that there is no such file.
+        import_help: Says what may help if there is no module of a name.
     """
 
     sink: DiagnosticSink
     standard: str = field(kw_only=True)
     dialect: Dialect = field(kw_only=True)
     load: LoadFile = field(kw_only=True)
+    import_help: ImportHelp = field(kw_only=True, default=no_help)
 
     def build(self, root: ast.File) -> SemanticModel:
         """Check the program that starts at a file."""
@@ -50,7 +53,7 @@ class ModelBuilder:
 
     def _build(self, root: ast.File) -> SemanticModel:
         relaxations = Relaxations(self.dialect)
-        walk = ImportWalk(self.load, self.sink, relaxations)
+        walk = ImportWalk(self.load, self.import_help, self.sink, relaxations)
         walk.visit(root)
         library = self._library(walk)
         resolution, collector = self._new_layer(library, walk, relaxations)
@@ -59,6 +62,7 @@ class ModelBuilder:
         _check_uses(resolution, walk.files)
         resolve_declarations(resolution, collector)
         check_bodies(resolution)
+        tell_types_apart(resolution.scope)
         return _model(root, tuple(walk.files), resolution, library)
 
     def _library(self, walk: ImportWalk) -> Library:

@@ -115,7 +115,8 @@ def _check_applied_modifier(
             is_open = owner.target is None
             check_modifier(r, node, env, owner.target, owner.actor, is_open=is_open)
         case ScenarioSymbol() | ActionSymbol():
-            check_modifier(r, node, env, owner, env.actor)
+            is_member = isinstance(owner, ScenarioSymbol)
+            check_modifier(r, node, env, owner, env.actor, is_member=is_member)
         case ActorSymbol():
             check_modifier(r, node, env, None, owner)
         case _:

@@ -20,6 +20,7 @@ from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
     EnumSymbol,
     EventSymbol,
+    LabelSymbol,
     Member,
     MethodSymbol,
     ModifierSymbol,
@@ -270,10 +271,30 @@ class Collector:
         replaces = earlier is not None and self.origin == "prelude" and earlier.origin == "library"
         if extends and isinstance(member, MethodSymbol) and isinstance(earlier, MethodSymbol):
             self.scope.overridden[member] = earlier
+        elif earlier is not None and self._is_repeated_label(member, earlier):
+            return
         elif earlier is not None and not replaces:
             report_duplicate(self.sink, member, earlier)
             return
         owner.members[key] = member
+        if key != member.name:
+            same_name = owner.namesakes.setdefault(member.name, [])
+            same_name[:] = [*(each for each in same_name if each is not earlier), member]
+
+    def _is_repeated_label(self, member: Member, earlier: Member) -> bool:
+        """Whether the dialect lets a label stand twice; the first one is meant by its name."""
+        if not isinstance(member, LabelSymbol) or not isinstance(earlier, LabelSymbol):
+            return False
+        if "OSC625" not in self.relaxations.dialect.relaxed:
+            return False
+        self.sink.report(
+            "OSC625",
+            member.span,
+            f"label `{member.name}` is used twice; its name means the first one",
+            labels=(Label(earlier.span, "first used here"),),
+            help="give each member a label of its own",
+        )
+        return True
 
 
 def dimension_of(exponents: Sequence[ast.SiExponent]) -> Dimension:

@@ -62,11 +62,13 @@ def _extended_type(r: Resolution, node: ast.TypeExtension, context: Context) -> 
     if node.name.actor is None and not r.scope.types_named(node.name.name.text):
         modifiers = r.scope.modifiers_named(node.name.name.text)
         if modifiers:
-            r.report(
-                "OSC321", node.name.span, f"`{node.name}` is a modifier; it cannot be extended"
-            )
+            _report_modifier(r, node)
             return None
     if node.name.actor is not None:
+        modifiers = r.scope.modifiers_named(node.name.name.text)
+        if modifiers and not r.scope.behaviors_named(node.name.name.text):
+            _report_modifier(r, node)
+            return None
         return resolve_behavior_name(r, node.name, context)
     symbol = resolve_type_name(r, node.name.name, context)
     if symbol is None or isinstance(symbol, TypeSymbol):
@@ -80,3 +82,7 @@ def _check_members(r: Resolution, target: TypeSymbol, node: ast.TypeExtension) -
         for member in node.members:
             if isinstance(member, ast.DoDirective | ast.OnDirective):
                 r.report("OSC321", member.span, f"`{target.name}` is not a behavior")
+
+
+def _report_modifier(r: Resolution, node: ast.TypeExtension) -> None:
+    r.report("OSC321", node.name.span, f"`{node.name}` is a modifier; it cannot be extended")

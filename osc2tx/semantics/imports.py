@@ -9,9 +9,11 @@ from pathlib import PurePosixPath
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.semantics.dialects import LIBRARY_FILES, RUNNER_FILE, Relaxations
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx.support.real_paths import real_path
 from osc2tx.syntax import ast
 
 LoadFile = Callable[[ast.Import, SourceFile], ast.File | None]
+ImportHelp = Callable[[ast.Import], str | None]
 
 LEGACY = ("osc", "standard")
 MODULES = {
@@ -28,6 +30,7 @@ class ImportWalk:
 
     Attributes:
         load: Finds and parses a file that is imported by name; `None` if there is no such file.
+        import_help: Says what may help if there is no module of a name.
         sink: Where reports go.
         relaxations: The dialect in force.
         files: What was found, imported files before those that import them.
@@ -36,6 +39,7 @@ class ImportWalk:
     """
 
     load: LoadFile
+    import_help: ImportHelp
     sink: DiagnosticSink
     relaxations: Relaxations
     files: list[ast.File] = field(default_factory=list)
@@ -63,12 +67,15 @@ class ImportWalk:
         if statement.module[-1] == "osc" and len(statement.module) == 2:
             self._import_unquoted(statement, name)
             return
-        if statement.module[:1] != ("osc",):
+        if statement.module[:1] == ("osc",):
+            advice: str | None = "the standard library is `osc.standard.all`"
+        else:
             imported = self.load(statement, statement.span.source)
             if imported is not None:
                 self._visit_once(imported)
                 return
-        self._report(statement, f"no module `{name}`", "the standard library is `osc.standard.all`")
+            advice = self.import_help(statement)
+        self._report(statement, f"no module `{name}`", advice)
 
     def _import_unquoted(self, statement: ast.Import, name: str) -> None:
         """Import `name.osc`, as ScenarioRunner writes it; the library is taken for granted."""
@@ -130,6 +137,11 @@ class ImportWalk:
         self.is_legacy = True
 
 
+def no_help(statement: ast.Import) -> str | None:
+    """Say nothing: what has no files has no place where a module could be."""
+    return None
+
+
 def _identity(file: ast.File) -> object:
     source = file.span.source
-    return source.path.resolve() if source.path is not None else source.name
+    return real_path(source.path) if source.path is not None else source.name

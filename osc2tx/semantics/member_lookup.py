@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from osc2tx.semantics.builtins import (
     COMPOSITION,
     COMPOSITION_FIELDS,
@@ -37,7 +35,7 @@ def find_member(
     A member of a namespace that the place neither is in nor uses needs a prefix (§7.7.4); without
     it the member is returned all the same, after a report.
     """
-    candidates = list(_members_named(owner, name.text))
+    candidates = [m for ancestor in supertypes(owner) for m in ancestor.named(name.text)]
     if not candidates:
         return _builtin_member(r, owner, name.text) if name.namespace is None else None
     first = candidates[0]
@@ -50,14 +48,6 @@ def find_member(
     if not quiet:
         choose(r, selected or candidates, name, context)
     return first
-
-
-def _members_named(owner: TypeSymbol, text: str) -> Iterator[Member]:
-    for ancestor in supertypes(owner):
-        if found := ancestor.members.get(text):
-            yield found
-            suffix = f"::{text}"  # a second member of that name, from another namespace
-            yield from (m for key, m in ancestor.members.items() if key.endswith(suffix))
 
 
 def _builtin_member(r: Resolution, owner: TypeSymbol, text: str) -> Member | None:

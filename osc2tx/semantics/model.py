@@ -62,6 +62,11 @@ class SemanticModel:
     symbols: tuple[Symbol, ...] = ()
     known_units: tuple[UnitSymbol, ...] = ()
 
+    @property
+    def global_parameters(self) -> tuple[FieldSymbol, ...]:
+        """The global parameters of the program (§7.3.14), in the order of `symbols`."""
+        return tuple(s for s in self.symbols if isinstance(s, FieldSymbol))
+
     def type_of(self, expression: ast.Expression) -> Type:
         """Return the type of an expression; the error type if it has none."""
         return self.types.get(expression, ERROR)

@@ -23,6 +23,7 @@ def check_modifier(
     actor: ActorSymbol | None,
     *,
     is_open: bool = False,
+    is_member: bool = False,
 ) -> None:
     """Check a modifier application in a `with` block or a body.
 
@@ -33,19 +34,22 @@ def check_modifier(
         invoked: The behavior that is modified; `None` where that is unknown or a composition.
         actor: The actor that may be left out.
         is_open: What is modified is known only where the modifier around it is applied.
+        is_member: It is a member of a scenario: all that the actor does there is modified.
     """
     if call_by_statement(r, node, env):
         return
     if node.actor is not None:
         type_ = r.type_of(node.actor, env, OBJECT)
-        if isinstance(type_, ActorType):
-            actor = type_.symbol
-        elif type_ != ERROR:
-            r.report("OSC301", node.actor.span, f"`{type_}` is not an actor; it has no modifiers")
-            actor = None
-        else:
-            actor = None
-    modifier = _find_modifier(r, node, env, invoked, actor, is_open=is_open)
+        if not isinstance(type_, ActorType):
+            if type_ != ERROR:
+                what = f"`{type_}` is not an actor; it has no modifiers"
+                r.report("OSC301", node.actor.span, what)
+            if r.scope.modifiers_named(node.modifier.text):
+                type_arguments(r, node.arguments, env)
+                return
+        actor = type_.symbol if isinstance(type_, ActorType) else None
+    of_actor = actor if is_member else None
+    modifier = _find_modifier(r, node, env, invoked, actor, is_open=is_open, of_actor=of_actor)
     if modifier is None:
         type_arguments(r, node.arguments, env)
         return
@@ -96,6 +100,7 @@ def _find_modifier(
     actor: ActorSymbol | None,
     *,
     is_open: bool,
+    of_actor: ActorSymbol | None,
 ) -> ModifierSymbol | None:
     name = node.modifier
     candidates = r.scope.modifiers_named(name.text)
@@ -109,7 +114,13 @@ def _find_modifier(
     fitting = (
         candidates
         if quiet
-        else [m for m in candidates if _fits(m, invoked, actor) or (is_open and _may_fit(m, actor))]
+        else [
+            m
+            for m in candidates
+            if _fits(m, invoked, actor)
+            or (is_open and _may_fit(m, actor))
+            or _fits_actions(m, of_actor)
+        ]
     )
     if not fitting:
         _report_misfit(r, name, candidates[0], invoked, actor)
@@ -127,6 +138,12 @@ def _fits(
     if modifier.target is None:
         return of_actor and (modifier.node.behavior is None or invoked is None)
     return of_actor and invoked is not None and is_subtype(invoked, modifier.target)
+
+
+def _fits_actions(modifier: ModifierSymbol, actor: ActorSymbol | None) -> bool:
+    """Whether a modifier is one of actions of an actor (§7.3.12.4)."""
+    owner = None if modifier.target is None else modifier.target.actor
+    return actor is not None and owner is not None and is_subtype(actor, owner)
 
 
 def _may_fit(modifier: ModifierSymbol, actor: ActorSymbol | None) -> bool:

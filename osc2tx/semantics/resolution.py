@@ -82,6 +82,7 @@ class Resolution:
         unimported: Gives the library if the program has not imported (all of) it.
         event_fields: The event behind each name that `as` bound.
         actor_fields: The implicit field `actor` per actor type.
+        implied_objects: The actors that a program has without declaring them, per type.
         invoked: What the name in an invocation was found to be; `None` if it was reported.
     """
 
@@ -97,6 +98,7 @@ class Resolution:
     units: dict[ast.PhysicalLiteral, UnitSymbol] = field(default_factory=dict)
     event_fields: dict[Symbol, EventSymbol] = field(default_factory=dict)
     actor_fields: dict[ActorSymbol, FieldSymbol] = field(default_factory=dict)
+    implied_objects: dict[ActorSymbol, FieldSymbol] = field(default_factory=dict)
     invoked: dict[ast.Name, ScenarioSymbol | ActionSymbol | None] = field(default_factory=dict)
 
     def type_of(

@@ -56,8 +56,13 @@ def resolve_declarations(r: Resolution, collector: Collector) -> None:
     for extension in r.scope.extensions:
         apply_extension(r, collector, extension)
     resolve_enum_values(r)
-    for owner in r.scope.own_types():
-        resolve_members(r, owner)
+    owners = r.scope.own_types()
+    for owner in owners:
+        _resolve_members(r, owner)
+    # Bases first: an overriding method takes over the namespace of what it overrides.
+    for owner in sorted(owners, key=lambda owner: len(list(supertypes(owner)))):
+        for member in owner.members.values():
+            _check_redefinition(r, owner, member)
     for symbol in r.scope.declared:
         if isinstance(symbol, FieldSymbol):
             _resolve_field(r, symbol)
@@ -136,13 +141,11 @@ def _check_behaviors_unique(r: Resolution) -> None:
                     report_duplicate(r.sink, modifier, other)
 
 
-def resolve_members(r: Resolution, owner: TypeSymbol) -> None:
+def _resolve_members(r: Resolution, owner: TypeSymbol) -> None:
     """Resolve the types in the signatures of a type's own members."""
     _drop_redeclared_life_cycle(owner)
     for member in owner.members.values():
         _resolve_member(r, member)
-    for member in owner.members.values():
-        _check_redefinition(r, owner, member)
 
 
 def _drop_redeclared_life_cycle(owner: TypeSymbol) -> None:

@@ -13,6 +13,7 @@ from osc2tx.semantics.aliases import (
     write_instead,
 )
 from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS, TYPE_ALIASES
+from osc2tx.semantics.everyday_words import BEHAVIORS, TYPES, plain_word
 from osc2tx.semantics.other_dialects import advise
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior, Context, NamedSymbol, is_subtype, supertypes
@@ -38,6 +39,7 @@ from osc2tx.semantics.types import (
     StructType,
     Type,
 )
+from osc2tx.semantics.undeclared_models import undeclared_model
 from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
 
@@ -122,6 +124,9 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
         return symbol
     if report_unimported(r, name):
         return None
+    if (model := undeclared_model(r, name)) is not None:
+        r.references[name] = model
+        return model
     if associated := r.scope.behaviors_named(name.text):
         r.report(
             "OSC202",
@@ -134,7 +139,8 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
     else:
         known = [text for layer in r.scope.layers() for text in layer.types]
         advice = advise(r, "type", name, [*known, *PRIMITIVES])
-        help_ = write_instead(TYPE_ALIASES.get(name.text)) or advice["help"]
+        help_ = write_instead(TYPE_ALIASES.get(name.text)) or plain_word(name.text, TYPES)
+        help_ = help_ or advice["help"]
         r.report("OSC202", name.span, f"no type `{name}`", notes=advice["notes"], help=help_)
     return None
 
@@ -291,5 +297,7 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             "OSC211",
             name.span,
             f"`{actor.name}` has no behavior `{name}`",
-            help=write_instead(standard_behavior(actor, name)) or did_you_mean(name.text, known),
+            help=write_instead(standard_behavior(actor, name))
+            or (plain_word(name.text, BEHAVIORS) if BEHAVIORS.get(name.text) in known else None)
+            or did_you_mean(name.text, known),
         )

@@ -142,12 +142,20 @@ class TypeSymbol(Symbol):
     """What structs, actors, behaviors and modifiers have in common.
 
     Attributes:
-        members: Own members by name, those of extensions included.
+        members: Own members by name, those of extensions included; where two namespaces have the
+            same name, the later one by `namespace::name`.
+        namesakes: Those later ones, by name.
         statements: Own member statements in source order, those of extensions at the end.
     """
 
     members: dict[str, Member] = field(default_factory=dict)
+    namesakes: dict[str, list[Member]] = field(default_factory=dict)
     statements: list[ast.Statement] = field(default_factory=list)
+
+    def named(self, text: str) -> list[Member]:
+        """Return the own members of a name, one for each namespace that has one."""
+        first = self.members.get(text)
+        return [] if first is None else [first, *self.namesakes.get(text, ())]
 
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)

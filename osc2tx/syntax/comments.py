@@ -18,6 +18,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby, takewhile
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
+from osc2tx.syntax.suppressions import is_suppression
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, Comment, TokenTable
 
 
@@ -97,11 +98,12 @@ class CommentTable:
     """The comments of a file by the tokens that they belong to."""
 
     def __init__(self, table: TokenTable) -> None:
-        """Share out the comments of a file."""
+        """Share out the comments of a file, those apart that suppress a diagnostic."""
         self._above: dict[int, list[Comment]] = {}
         self._inside: dict[int, list[Comment]] = {}
         self._ends: dict[int, list[Comment]] = {}
-        for (line, before), comments in groupby(table.comments, lambda c: (c.line, c.before)):
+        prose = (comment for comment in table.comments if not is_suppression(comment.text))
+        for (line, before), comments in groupby(prose, lambda c: (c.line, c.before)):
             if line is None:
                 self._share(table, before, list(comments))
             else:

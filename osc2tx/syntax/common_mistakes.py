@@ -138,6 +138,49 @@ def _foreign_statement(place: Place) -> Advice | None:
     return Advice(f"there is no statement `{word}` in OpenSCENARIO DSL", help_)
 
 
+def _sampled_parameter(place: Place) -> Advice | None:
+    """`k: speed = sample(v, @e)` without `var`."""
+    opened = place.open_bracket()
+    if place.kind() != _AT or opened is None or place.table.text(opened - 1) != "sample":
+        return None
+    return Advice("only a variable is sampled", "declare it with `var`", opened - 1)
+
+
+def _loop(place: Place) -> Advice | None:
+    """`repeat(3):`."""
+    word = place.table.text(place.line)
+    if word not in ("repeat", "loop") or place.kind() not in (_COLON, t.NEWLINE):
+        return None
+    help_ = "write the members as often as they shall happen, or wait for `every(…)` in an `on`"
+    return Advice("there are no loops in OpenSCENARIO DSL", help_, place.line)
+
+
+def _global_variable(place: Place) -> Advice | None:
+    """`global var n: int`."""
+    is_global = place.at - 2 == place.line and place.table.text(place.line) == "global"
+    if not is_global or place.text(-1) != "var":
+        return None
+    help_ = f"write `global {place.text()}: type = value`"
+    return Advice("there are no global variables", help_, place.at - 1)
+
+
+def _point_without_digits(place: Place) -> Advice | None:
+    """`1.`, a number without digits behind its point."""
+    dot = -1 if place.text(-1) == "." else 0
+    if place.text(dot) != "." or place.kind(dot - 1) != t.INTEGER:
+        return None
+    number = place.text(dot - 1)
+    return Advice(f"`{number}.` is not a number", f"write `{number}.0`")
+
+
+def _until_behind_a_call(place: Place) -> Advice | None:
+    """`ego.drive() until @e`."""
+    if place.text() != "until" or place.at == place.line:
+        return None
+    help_ = "end the line with `with:`, and write `until …` indented below"
+    return Advice("`until` belongs into a `with:` block", help_)
+
+
 def _unbalanced_bracket(place: Place) -> Advice | None:
     if place.kind() not in _CLOSERS:
         return None
@@ -280,6 +323,11 @@ def _constraint_without_parentheses(place: Place) -> Advice | None:
 
 
 _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
+    _global_variable,
+    _point_without_digits,
+    _sampled_parameter,
+    _until_behind_a_call,
+    _loop,
     _blank_before_unit,
     _range_with_unit,
     _foreign_statement,

@@ -55,7 +55,10 @@ class LexicalErrors:
         return end
 
     def unterminated_string(self, start: int) -> int:
-        """Report a string without end; it is taken to end with its line."""
+        """Report a string without end.
+
+        It is taken to end with its line, or where the line below has the quote that closes it.
+        """
         quote = self._text[start]
         rest = patterns.LINE_REST.match(self._text, start)
         end = rest.end() if rest else len(self._text)
@@ -64,7 +67,14 @@ class LexicalErrors:
         help_ = None if len(delimiter) == 3 else "a string of several lines needs three quotes"
         self._report("OSC103", start, end, message, help_)
         self._table.damaged.append(start)
-        return end
+        return self._closed_below(end, quote) if help_ else end
+
+    def _closed_below(self, end: int, quote: str) -> int:
+        """Return where a string that goes on in the next line is closed, else `end`."""
+        below = patterns.NEXT_LINE.match(self._text, end)
+        if below is None or below[1].count(quote) % 2 == 0:
+            return end
+        return below.start(1) + below[1].index(quote) + 1
 
     def foreign_comment(self, start: int) -> int:
         """Report `/* */` or `//`; return the offset behind it."""

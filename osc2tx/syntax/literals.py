@@ -12,7 +12,7 @@ _ESCAPE = re.compile(
     re.DOTALL,
 )
 _SIMPLE = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
-_NUMBER = re.compile(r"[0-9]*+(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?")
+_NUMBER = re.compile(r"0x[0-9a-fA-F]++|[0-9]*+(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?")
 _MAX_DIGITS = 400
 
 
@@ -44,16 +44,16 @@ def _unescape(match: re.Match[str]) -> str:
     return _SIMPLE.get(other, other)
 
 
+def is_integer(number: str) -> bool:
+    """Whether a number has neither point nor exponent."""
+    return number.isdigit() or number.startswith("0x")
+
+
 def integer_value(literal: str) -> int | None:
     """Return the value of an integer literal; `None` if it has too many digits for any type."""
     if literal.startswith("0x"):
         return int(literal, 16)
     return int(literal) if len(literal) <= _MAX_DIGITS else None
-
-
-def float_value(literal: str) -> float:
-    """Return the value of a float literal, infinite if it is too large."""
-    return float(literal)
 
 
 def split_physical(literal: str) -> tuple[str, str]:

@@ -10,7 +10,7 @@ import re
 
 _NAME = r"(?:[^\W\d]\w*+|\|[^|\r\n]++\|)"
 _DECIMAL_FLOAT = r"[0-9]*+\.[0-9]++(?:[eE][+-]?[0-9]++)?|[0-9]++[eE][+-]?[0-9]++"
-_SHORT = r"{q}(?!{q}{q})[^{q}\\\r\n]*+(?:\\[^\r\n][^{q}\\\r\n]*+)*+{q}"
+_SHORT = r"{q}(?!{q}{q})[^{q}\\\r\n]*+(?:\\(?:\r\n|.)[^{q}\\\r\n]*+)*+{q}"
 _LONG = r"{q}{q}{q}[^{q}\\]*+(?:(?:\\.|{q}(?!{q}{q}))[^{q}\\]*+)*+{q}{q}{q}"
 _STRING = "|".join(form.format(q=quote) for form in (_LONG, _SHORT) for quote in "\"'")
 
@@ -21,8 +21,8 @@ _STRING = "|".join(form.format(q=quote) for form in (_LONG, _SHORT) for quote in
     STAR,
     PUNCTUATION,
     NEWLINE,
-    HEXADECIMAL,
     PHYSICAL,
+    HEXADECIMAL,
     FLOAT,
     INTEGER,
     STRING,
@@ -41,8 +41,8 @@ TOKEN = re.compile(
       | ({_NAME}?+::\*)
       | (->|=>|==|!=|<=|>=|\.\.|:(?=::\w)|::|[](),:=@?<>+%*![-] | \.(?![0-9]) | -(?!>) | /(?![*/]))
       | (\r\n|\r|\n)
+      | ((?>0x[0-9a-fA-F]++|{_DECIMAL_FLOAT}|[0-9]++)(?:::|{_NAME}::)?{_NAME})
       | (0x[0-9a-fA-F]++)
-      | ((?>{_DECIMAL_FLOAT}|[0-9]++)(?:::|{_NAME}::)?{_NAME})
       | ({_DECIMAL_FLOAT})
       | ([0-9]++)
       | ({_STRING})
@@ -58,6 +58,7 @@ TOKEN = re.compile(
 # What may stand before the first token of a line: blanks, then a comment or nothing up to the end.
 LINE_HEAD = re.compile(r"([ \t\f]*+)(?:(\#[^\r\n]*+)?(\r\n|\r|\n|\Z))?")
 LINE_REST = re.compile(r"[^\r\n]*+")
+NEXT_LINE = re.compile(r"(?:\r\n|\r|\n)([^\r\n]*+)")
 # Where scanning goes on after nesting that was too deep: a line that is not indented.
 UNINDENTED_LINE = re.compile(r"[\r\n](?=[^\s#)\]])")
 # Mistyped operators whole; of what has no meaning, as many as stand in a row.

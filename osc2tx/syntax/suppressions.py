@@ -17,6 +17,11 @@ _COMMENT = re.compile(r"#![ \t]*allow(?![\w-])(?P<codes>[^:\r\n]*)[^\r\n]*")
 _NAME = re.compile(r"[^\s,](?:[^,]*[^\s,])?")
 
 
+def is_suppression(comment: str) -> bool:
+    """Whether a comment, without its `#`, suppresses a diagnostic."""
+    return _COMMENT.match(f"#{comment}") is not None
+
+
 def find_suppressions(source: SourceFile) -> tuple[Suppression, ...]:
     """Return the suppressions of a text in order; a text without any is not scanned."""
     if _COMMENT.search(source.text) is None:

@@ -36,7 +36,10 @@ class Given(Protocol):
         """Whether there is such an argument."""
 
     def word(self, name: str, /) -> str | None:
-        """Return the word that an argument is in a scenario (`left`, `true`); None if none."""
+        """Return the word that an argument is in a scenario (`left`, `true`); None if none.
+
+        Of an object it is the type (`path`).
+        """
 
     def number(self, name: str, /) -> float | None:
         """Return the number that an argument is; None if it is none, or not known yet."""

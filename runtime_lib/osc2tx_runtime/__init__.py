@@ -15,6 +15,9 @@ from __future__ import annotations
 
 from math import inf
 
+import osc2tx_text  # noqa: F401 (before libraries that want a standard output)
+
+# isort: split
 import osc2tx_runtime.domain.actions  # noqa: F401 (registers the actions of the library)
 from osc2tx_runtime.domain.actors import (
     Actor,
@@ -99,6 +102,7 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.casts import as_type
+from osc2tx_runtime.language.declared import not_given
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods, user_action
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
@@ -125,6 +129,7 @@ from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
+from osc2tx_runtime.world.driving import Control, Driver, LaneView, Observation, OtherActor
 from osc2tx_runtime.world.velocities import (
     Acceleration,
     OrientationAcceleration,
@@ -165,6 +170,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "at_most",
     "fixed",
     "inf",
+    "not_given",
     "within",
     # actors: the cast and its values
     "Animal",
@@ -271,6 +277,12 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "ScenarioError",
     "main",
     "run_scenario",
+    # driving: an external driver of an actor
+    "Control",
+    "Driver",
+    "LaneView",
+    "Observation",
+    "OtherActor",
     # action, registry: own actions
     "LATERAL",
     "LONGITUDINAL",

@@ -1,10 +1,10 @@
-"""Conversion of seconds to whole steps: the first step at or after a time."""
+"""Seconds in whole steps: the first step at or after a time, and how late that is."""
 
 from __future__ import annotations
 
 import math
 
-__all__ = ["whole_steps"]
+__all__ = ["lateness", "whole_steps"]
 
 _ROUNDING = 1e-6
 """Part of a step by which seconds over steps may miss a whole number: 4.5 / 0.05 is 90."""
@@ -21,3 +21,15 @@ def whole_steps(seconds: float, dt: float) -> int:
         dt: Length of a step (s).
     """
     return math.ceil(min(seconds / dt, _NEVER) - _ROUNDING)
+
+
+def lateness(steps: int, seconds: float, dt: float) -> float:
+    """Return by how many seconds a step comes after a time; 0 for the rounding of sums.
+
+    Args:
+        steps: The step.
+        seconds: The time.
+        dt: Length of a step (s).
+    """
+    late = steps * dt - seconds
+    return late if late > _ROUNDING * dt else 0.0

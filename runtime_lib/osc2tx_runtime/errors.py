@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+import sys
+from contextlib import suppress
+
 __all__ = [
-    "USER_CODE_ERRORS",
     "CapabilityError",
     "InputError",
+    "OwnCode",
     "PlacementError",
     "ScenarioError",
     "SettingsError",
+    "SimulatorError",
     "SlotConflict",
     "UnsupportedError",
-    "blame",
     "is_own",
+    "name_of",
+    "told",
 ]
-
-USER_CODE_ERRORS = (
-    *(ArithmeticError, AssertionError, AttributeError, LookupError, NameError),
-    *(OSError, RuntimeError, TypeError, ValueError),
-)
-"""What code of the user raises when it is wrong; reported with the place in the scenario."""
 
 
 class ScenarioError(Exception):
@@ -28,7 +27,8 @@ class ScenarioError(Exception):
     Attributes:
         message: What is wrong, and what to do about it where that is known.
         source: Place in the scenario, `hello_world.osc:57`; None where unknown.
-        exit_code: What `main` returns: 5 ran and failed, 4 unreadable input, 2 usage.
+        exit_code: What `main` returns: 5 ran and failed, 4 unreadable input or no simulator, 2
+            usage.
     """
 
     exit_code = 5
@@ -74,12 +74,58 @@ class InputError(ScenarioError):
     exit_code = 4
 
 
+class SimulatorError(ScenarioError):
+    """The simulator is not there, does not answer any more, or refuses what the run needs."""
+
+    exit_code = 4
+
+
+class OwnCode:
+    """Makes whatever code of the user's own raises an error of the scenario.
+
+        with OwnCode("ego creep raised", action.source):
+            action.on_start()
+
+    Also what is no `Exception`: a `SystemExit` must not end the run as if all was well. Errors of
+    the scenario and Ctrl-C pass.
+
+    Args:
+        what: Begins the message, which ends with what was raised.
+        source: Place in the scenario.
+    """
+
+    __slots__ = ("source", "what")
+
+    def __init__(self, what: str, source: str | None = None) -> None:
+        self.what = what
+        self.source = source
+
+    def __enter__(self) -> None:
+        """Begin."""
+
+    def __exit__(self, kind: object, raised: BaseException | None, trace: object) -> None:
+        """Translate what was raised."""
+        if raised is None or isinstance(raised, ScenarioError | KeyboardInterrupt):
+            return
+        raise ScenarioError(f"{self.what} {told(raised)}", self.source or None) from raised
+
+
+def told(error: BaseException) -> str:
+    """Return an exception in words; of one that cannot say what it is, the name."""
+    text = ""
+    with suppress(Exception):  # its `__str__` is code of the user's own
+        text = str(error)
+    name = type(error).__name__
+    return f"{name}: {text}" if text else name
+
+
 def is_own(factory: type) -> bool:
-    """Whether a class is code of the user's own."""
-    return not f"{factory.__module__}.".startswith("osc2tx_runtime.")
+    """Whether a class is code of the user's own, whatever it says of its module."""
+    module = sys.modules.get(factory.__module__)
+    is_ours = f"{factory.__module__}.".startswith("osc2tx_runtime.")
+    return not is_ours or getattr(module, factory.__qualname__, None) is not factory
 
 
-def blame(factory: type, error: Exception) -> str:
-    """Return what a class of the user's own raised, in words."""
-    name = f"{factory.__module__}.{factory.__qualname__}"
-    return f"{name} raised {type(error).__name__}: {error}"
+def name_of(factory: type) -> str:
+    """Return the full name of a class."""
+    return f"{factory.__module__}.{factory.__qualname__}"

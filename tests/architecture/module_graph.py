@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 REPOSITORY = Path(__file__).parents[2]
@@ -20,8 +21,13 @@ def module_name(path: Path, root: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-def imported_names(path: Path, root: Path) -> Iterator[str]:
-    """Yield what a module imports; of `from a import b` it is `a.b`."""
+@cache
+def imported_names(path: Path, root: Path) -> frozenset[str]:
+    """Return what a module imports; of `from a import b` it is `a.b`."""
+    return frozenset(_imported_names(path, root))
+
+
+def _imported_names(path: Path, root: Path) -> Iterator[str]:
     package = path.parent.relative_to(root.parent).parts
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):

@@ -15,7 +15,9 @@ from tests.architecture.module_graph import (
 )
 
 RULES = RUNTIME.parent / "osc2tx_rules"
-OTHERS = {"numpy", "osc2tx_rules", "py_trees"}
+TEXT = RUNTIME.parent / "osc2tx_text"
+OTHERS = {"numpy", "osc2tx_rules", "osc2tx_text", "py_trees"}
+ONLY_IN = {"carla": "simulators/carla/client", "lxml": "opendrive"}
 
 LEAVES = {"clock", "enums", "errors"}
 GROUND = {"opendrive", "world", "language"} | LEAVES
@@ -27,9 +29,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "clock": set(),
     "enums": set(),
     "errors": set(),
+    "plain_numbers": set(),
     "units": set(),
     # the map, the world on it, the language
-    "opendrive": {"enums"},
+    "opendrive": {"enums", "plain_numbers"},
     "world": {"clock", "enums", "errors", "opendrive"},
     "language": {"clock", "errors", "world"},
     # the domain model
@@ -75,9 +78,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "domain.capabilities": {"domain.actions", "domain.actors", "domain.capability_tables"}
     | {"domain.modifiers", "enums", "language"},
     # what carries a scenario out, and what generated modules import
+    "worlds": {"errors", "opendrive", "world"},
+    "simulators": {"enums", "errors", "opendrive", "world", "worlds"},
     "report": {"language"},
     "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
-    | {"errors", "language", "opendrive", "world"},
+    | {"errors", "language", "opendrive", "plain_numbers", "world", "worlds"},
     "modifiers": {"domain.modifiers"},
     "": {"domain.actions", "domain.actors", "domain.measuring", "domain.modifiers"}
     | {
@@ -130,18 +135,29 @@ def test_no_circle_between_modules() -> None:
     assert not circles(graph_of(RUNTIME))
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(REPOSITORY).as_posix())
-def test_packages_of_others(path: Path) -> None:
-    allowed = OTHERS | ({"lxml"} if path.is_relative_to(RUNTIME / "opendrive") else set())
-    for name in imported_names(path, RUNTIME):
-        first = name.split(".")[0]
-        if first != "osc2tx_runtime" and first not in sys.stdlib_module_names:
-            assert first in allowed, f"the runtime imports {name}"
+def test_packages_of_others() -> None:
+    wrong = [
+        f"{path.relative_to(REPOSITORY)} imports {name}"
+        for path in FILES
+        for name in sorted(packages_of(path) - {"osc2tx_runtime", *OTHERS, *allowed_in(path)})
+    ]
+    assert not wrong
 
 
-@pytest.mark.parametrize("path", files_of(RULES), ids=lambda path: path.name)
-def test_the_rules_need_nothing(path: Path) -> None:
-    """The compiler imports them too, for each check."""
-    for name in imported_names(path, RULES):
+def packages_of(path: Path) -> set[str]:
+    """Return the packages that a module imports, besides the standard library."""
+    names = {name.partition(".")[0] for name in imported_names(path, RUNTIME)}
+    return names - sys.stdlib_module_names
+
+
+def allowed_in(path: Path) -> set[str]:
+    return {name for name, folder in ONLY_IN.items() if path.is_relative_to(RUNTIME / folder)}
+
+
+@pytest.mark.parametrize("path", files_of(RULES) + files_of(TEXT), ids=lambda path: path.name)
+def test_what_the_compiler_shares_needs_nothing(path: Path) -> None:
+    """It is imported for each check."""
+    package = path.parent
+    for name in imported_names(path, package):
         first = name.partition(".")[0]
-        assert first == "osc2tx_rules" or first in sys.stdlib_module_names, name
+        assert first == package.name or first in sys.stdlib_module_names, name

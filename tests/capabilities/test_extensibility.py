@@ -10,16 +10,19 @@ from osc2tx.diagnostics import Severity
 from osc2tx.options import CompileOptions
 from osc2tx_runtime.errors import SlotConflict
 from tests.capabilities.kit import CAPABILITIES, DT, ROUNDED, Perform, next_step, quintic
-from tests.capabilities.own_actions import run_with_own_actions
+from tests.end_to_end.harness import generate
+from tests.own_actions import install, run_module
 
 VALID = CAPABILITIES / "C35_semantic_validation.osc"
 
 
-@pytest.mark.slow
 def test_c33_own_actions_come_from_a_package(tmp_path: Path) -> None:
     """In a process of its own, as the package must not stay registered for other tests."""
-    done = run_with_own_actions("C33_custom_action", tmp_path)
-    assert done.returncode == 0, done.stderr
+    install(tmp_path)
+    module = tmp_path / "C33_custom_action.py"
+    module.write_text(generate(CAPABILITIES / "C33_custom_action.osc").python, encoding="utf-8")
+    done = run_module(module, tmp_path / "trace.jsonl", tmp_path)
+    assert done.code == 0, done.err
     lines = [json.loads(line) for line in (tmp_path / "trace.jsonl").read_text().splitlines()]
     ends = {
         line["name"]: line["t"]

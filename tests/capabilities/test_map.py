@@ -126,9 +126,9 @@ def test_c17_single_bulbs_and_a_line_of_its_own(perform: Perform) -> None:
     assert found["phases"] == 2
     assert found["section"] == number(arm, "length")
     assert (found["line_at"], found["last_lane"], found["is_drawn"]) == (100.0, 2, True)
-    # Lamps are switched for the next step; red for 12 s.
-    assert run.event("red_shines") == 0.05
-    assert run.event("green_shines") == 12.05
+    # Red for 12 s.
+    assert run.event("red_shines") == 0.0
+    assert run.event("green_shines") == 12.0
     waiting = run.at("ego", 12.0)
     assert waiting["v"] == 0.0
     assert waiting["s"] + CAR_FRONT == pytest.approx(100.0 - 1.0, abs=2e-3)

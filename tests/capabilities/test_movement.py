@@ -70,9 +70,9 @@ def test_c07_acceleration_is_reached_held_and_assigned(perform: Perform) -> None
 
     for line in run.states("ego"):
         assert line["v"] == pytest.approx(speed(line["t"]), abs=ROUNDED)
-        if hold.start < line["t"] <= hold.end:
+        if hold.start < line["t"] < hold.end:
             assert line["a"] == pytest.approx(held, abs=2 * ROUNDED / DT)
-        if line["t"] > hold.end:
+        if line["t"] >= hold.end:
             assert line["a"] == pytest.approx(-2.0, abs=2 * ROUNDED / DT)
 
 

@@ -7,6 +7,7 @@ from os.path import relpath
 
 from osc2tx.catalogue import catalogue
 from osc2tx.options import XML_VERSIONS
+from osc2tx_runtime.simulators.carla.capabilities import IN_CARLA
 from tests.coverage.capabilities import Row, rows
 from tests.coverage.language import CHAPTERS, Construct, constructs
 from tests.coverage.library import KINDS, Item, items
@@ -27,6 +28,13 @@ the same number, which measure the effect in the recorded trace; constructs from
 of the repository and what the compiler makes of them; items of the standard library from its text
 and the catalogue. A code says with which report something is refused, before anything runs;
 `osc2tx explain CODE` says more.
+"""
+
+CARLA_INTRODUCTION = """\
+### In CARLA
+
+How each row does in the [world `carla`](how-to/carla.md). All scenarios of the rows run there in
+both modes over CARLA's own client library, against a stand-in for its server.
 """
 
 XML_INTRODUCTION = """\
@@ -52,7 +60,8 @@ HEADINGS = {
 def render() -> str:
     """Return the page."""
     found = rows()
-    parts = [INTRODUCTION, capability_table(found), language_tables(constructs())]
+    parts = [INTRODUCTION, capability_table(found), carla_table(found)]
+    parts.append(language_tables(constructs()))
     return "\n".join([*parts, library_tables(items()), xml_tables(found)])
 
 
@@ -72,6 +81,12 @@ def capability_table(found: Sequence[Row]) -> str:
         for row in found
     ]
     return f"## Capabilities: {len(done)} of {len(found)}\n\n{_table(head, body)}"
+
+
+def carla_table(found: Sequence[Row]) -> str:
+    """How each row does in CARLA."""
+    body = [[row.id, f"{row.category}: {row.name}", IN_CARLA[row.id]] for row in found]
+    return f"{CARLA_INTRODUCTION}\n{_table(['row', 'capability', 'in CARLA'], body)}"
 
 
 def language_tables(found: Sequence[Construct]) -> str:

@@ -56,7 +56,7 @@ def run(scenario: type[Scenario], settings: RunSettings | None = None) -> Trace:
     result = run_scenario(scenario, settings or RunSettings())
     text = "\n".join(result.trace_lines) + "\n"
     lines = tuple(json.loads(line) for line in result.trace_lines)
-    return Trace(result.status, result.reason, result.time, lines, text)
+    return Trace(result.status, result.reason, result.time, lines, result.warnings, text)
 
 
 def permuted(node: ir.Behavior) -> ir.Behavior:

@@ -131,7 +131,7 @@ class Project:
         for lines, path in _changes(listing):
             if path.endswith(".osc"):
                 source += lines
-            else:
+            elif lines:
                 outputs[_suffix(path)] += lines
         return Cost(source, outputs)
 

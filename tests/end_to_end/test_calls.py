@@ -100,7 +100,7 @@ def test_code_of_the_user_needs_permission(
 @pytest.mark.parametrize(
     ("value", "message"),
     [
-        ("3.0", "notes_of_test.double: ZeroDivisionError"),
+        ("3.0", "notes_of_test.double raised ZeroDivisionError"),
         ("1.0", "notes_of_test.double returns a str, not a float"),
     ],
 )
@@ -117,7 +117,8 @@ def test_errors_of_the_user_name_the_method(
 
 
 def test_a_function_that_is_not_there(calls: Callable[[str], type[Scenario]]) -> None:
-    with pytest.raises(ScenarioError, match=r"no function notes_of_test\.note: No module") as error:
+    reason = r"no function notes_of_test\.note: ModuleNotFoundError: No module"
+    with pytest.raises(ScenarioError, match=reason) as error:
         run(calls(BODY), RunSettings(allow_external=ALLOWED))
     assert error.value.source == "case.osc:18"
 

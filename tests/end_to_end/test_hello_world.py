@@ -1,13 +1,14 @@
 """The case study, unchanged, on CARLA's Town06: every phase, in the order of the paper."""
 
+import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx.config import ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.running.options import read_options
@@ -131,7 +132,7 @@ def test_two_runs_and_permuted_branches_give_the_same_bytes(
     trace: Trace, load: Load, settings: RunSettings
 ) -> None:
     module = compile_scenario(FILE)
-    assert run(load(emit(module)), settings).text == trace.text
+    assert run(load(draft(module)), settings).text == trace.text
     assert run(load(permuted_module(module)), settings).text == trace.text
 
 
@@ -147,3 +148,25 @@ def test_the_story_holds_from_other_starts(load: Load, settings: RunSettings, st
     assert (hero["lane"], npc["lane"]) == (-5, -4)  # the truck may stop one road earlier
     swerve = trace.action(line(68), "start")
     assert 11.5 < gap(trace, swerve) <= 12.0
+
+
+def test_the_default_placement_has_the_truck_too_fast_in_a_turn(
+    load: Load, settings: RunSettings
+) -> None:
+    """It says so with place, speed and lateral acceleration, as the states have them."""
+    default = replace(settings, spawn={}, destination={}, max_time=30.0)
+    trace = run(load(generate(FILE)), default)
+    warning = next(each for each in trace.warnings if each.startswith("npc"))
+    said = re.fullmatch(
+        r"npc cannot be driven so: (\S+) m/s\^2 across its way at (\S+) m/s are more than the 8\.8"
+        r" m/s\^2 that the dry road holds \(road (\d+), lane -3, s (\S+) m; from .*\)",
+        warning,
+    )
+    assert said is not None, warning
+    across, speed, place = float(said[1]), float(said[2]), float(said[4])
+    assert (said[3], round(speed)) == ("10", 15)
+    there = [e for e in trace.states("npc") if e["road"] == said[3]]
+    at = min(range(len(there)), key=lambda k: abs(there[k]["s"] - place))
+    turned = math.remainder(there[at]["h"] - there[at - 1]["h"], math.tau) / 0.05
+    assert there[at]["v"] == pytest.approx(speed, abs=0.05)
+    assert abs(turned) * there[at]["v"] == pytest.approx(across, rel=0.02)

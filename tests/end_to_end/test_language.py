@@ -60,8 +60,7 @@ def test_outcome(
         (tmp_path / name).write_text(text, encoding="utf-8")
     options = CompileOptions(standard=case.standard, target="py")
     compilation = Compilation(tmp_path / "case.osc", "case.osc", options)
-    module = compilation.module
-    if module is None or compilation.ir is None:
+    if compilation.ir is None or not compilation.is_supported:
         codes = {d.code for d in compilation.diagnostics if d.severity.name == "ERROR"}
         assert f"refused {' '.join(sorted(codes))}" == case.outcome
         return

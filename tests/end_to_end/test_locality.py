@@ -31,31 +31,31 @@ def module(lines: list[str], folder: Path) -> list[str]:
     return emit(asam("\n".join(lines) + "\n", folder)).python.splitlines()
 
 
+def changes(before: list[str], after: list[str]) -> list[str]:
+    """Return the lines that are new (`+`) or gone (`-`), without their indentation."""
+    return [
+        f"{line[0]} {line[1:].strip()}"
+        for line in difflib.unified_diff(before, after, n=0, lineterm="")
+        if line[:1] in "+-" and line[:3] not in ("+++", "---")
+    ]
+
+
 @pytest.fixture(scope="module")
 def before(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     return module(SOURCE, tmp_path_factory.mktemp("before"))
 
 
-@pytest.mark.parametrize("statement", STATEMENTS)
 @pytest.mark.parametrize("index", insertion_points())
-def test_an_inserted_statement_is_one_new_line(
-    index: int, statement: str, before: list[str], tmp_path: Path
-) -> None:
+def test_inserted_statements_are_new_lines(index: int, before: list[str], tmp_path: Path) -> None:
     indent = SOURCE[index][: len(SOURCE[index]) - len(SOURCE[index].lstrip())]
-    edited = [*SOURCE[:index], indent + statement, *SOURCE[index:]]
-    after = module(edited, tmp_path)
-    changed = [
-        line[1:].strip()
-        for line in difflib.unified_diff(before, after, n=0, lineterm="")
-        if line[:1] in "+-" and line[:3] not in ("+++", "---")
-    ]
-    assert changed == [STATEMENTS[statement]]
+    inserted = [indent + statement for statement in STATEMENTS]
+    after = module([*SOURCE[:index], *inserted, *SOURCE[index:]], tmp_path)
+    assert changes(before, after) == [f"+ {line}" for line in STATEMENTS.values()]
 
 
 def test_a_comment_on_top_is_one_new_line(before: list[str], tmp_path: Path) -> None:
     after = module(["# Seen twice", *SOURCE], tmp_path)
-    assert [line for line in after if line not in before] == ["Seen twice"]
-    assert len(after) == len(before) + 1
+    assert changes(before, after) == ["+ Seen twice"]
 
 
 def test_there_are_enough_edits() -> None:

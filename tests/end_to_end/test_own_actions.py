@@ -14,50 +14,36 @@ import pytest
 
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
-from tests.processes import HANGING
+from tests.own_actions import DOCUMENT, install, run_module
+from tests.processes import HANGING, Ended
 
 ROOT = Path(__file__).parents[2]
-ENTRY_POINTS = "[osc2tx.methods]\nmy_actions = my_actions\n"
 Golden = Callable[[str, Path], None]
 
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     """A folder with the scenario files of the document."""
-    text = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+    text = DOCUMENT.read_text(encoding="utf-8")
     for name, content in re.findall(r"^```\n# (\w+\.osc)\n(.*?)^```$", text, re.M | re.S):
         (tmp_path / name).write_text(content, encoding="utf-8")
     return tmp_path
 
 
-def install(folder: Path) -> None:
-    """Put the package of the document into a folder, with the metadata that an installer writes."""
-    text = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
-    (folder / "my_actions.py").write_text("\n".join(blocks), encoding="utf-8")
-    info = folder / "my_actions-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: my-actions\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(ENTRY_POINTS)
-
-
-def run(project: Path, *packages: Path) -> subprocess.CompletedProcess[str]:
-    """Build slow.osc and run its module, with folders of packages on the path."""
+def build(project: Path) -> Path:
+    """Build slow.osc; return its module."""
     compilation = Compilation(project / "slow.osc", "slow.osc", CompileOptions())
     generated = compilation.module
     assert generated is not None, compilation.diagnostics
     module = project / "slow.py"
     module.write_text(generated.python, encoding="utf-8")
     module.with_suffix(".map.json").write_text(generated.source_map, encoding="utf-8")
-    path = os.pathsep.join(map(str, [ROOT / "runtime_lib", *packages]))
-    return subprocess.run(
-        [sys.executable, str(module), "--trace", str(project / "t.jsonl")],
-        capture_output=True,
-        text=True,
-        timeout=HANGING,
-        env={**os.environ, "PYTHONPATH": path},
-        check=False,
-    )
+    return module
+
+
+def run(project: Path, *packages: Path) -> Ended:
+    """Build slow.osc and run its module, with folders of packages on the path."""
+    return run_module(build(project), project / "t.jsonl", *packages)
 
 
 def change(project: Path, old: str, new: str, file: str = "slow.osc") -> None:
@@ -73,11 +59,20 @@ def test_the_example_of_the_document_runs(
 ) -> None:
     packages = tmp_path_factory.mktemp("site")
     install(packages)
-    done = run(project, packages)
+    module = build(project)
+    path = os.pathsep.join(map(str, (ROOT / "runtime_lib", packages)))
+    done = subprocess.run(
+        [sys.executable, str(module), "--trace", str(project / "t.jsonl")],
+        capture_output=True,
+        text=True,
+        timeout=HANGING,
+        env={**os.environ, "PYTHONPATH": path},
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
-    module = (project / "slow.py").read_text(encoding="utf-8")
-    assert "creep(self.ego, v=1.5 * mps, duration=2 * s)," in module
-    assert "my_actions" not in module
+    text = module.read_text(encoding="utf-8")
+    assert "creep(self.ego, v=1.5 * mps, duration=2 * s)," in text
+    assert "import my_actions" not in text and "my_actions import" not in text
     lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
     ends = [(e["t"], e["source"]) for e in lines if e["kind"] == "action" and e["status"] == "end"]
     # From 2 m/s the car is at 1.5 m/s within 2 s, then rolls out at 0.5 m/s2: 1.5 / 0.5 = 3 s.
@@ -88,8 +83,8 @@ def test_the_example_of_the_document_runs(
 
 def test_without_the_package_the_run_is_refused_at_its_line(project: Path) -> None:
     done = run(project)
-    assert done.returncode == 5
-    assert done.stderr == (
+    assert done.code == 5
+    assert done.err == (
         "slow.osc:16: error: vehicle has no action `creep`, and no installed package brings one by"
         " the entry point group osc2tx.methods\n"
     )
@@ -103,8 +98,8 @@ def test_a_class_that_does_not_fit_its_declaration_is_named(
     install(packages)
     change(project, "    v: speed = 1.5mps", "    w: speed = 1.5mps", "my_actions.osc")
     done = run(project, packages)
-    assert done.returncode == 5
-    assert done.stderr == (
+    assert done.code == 5
+    assert done.err == (
         "slow.osc:16: error: ego creep: unknown argument 'w'; it is creep(v: float = 1.5,"
         " **options: Any)\n"
     )
@@ -129,8 +124,8 @@ def test_two_actions_on_one_slot_are_reported(
         "        parallel:\n            ego.creep()\n            ego.change_speed(5mps)\n",
     )
     done = run(project, packages)
-    assert done.returncode == 5
-    assert done.stderr == (
+    assert done.code == 5
+    assert done.err == (
         "slow.osc:17: error: ego.change_speed(target=5 * mps) (slow.osc:18) and"
         " ego.creep(v=1.5 * mps) (slow.osc:17)"
         " control the longitudinal slot of ego at the same time; let them run one after the"
@@ -153,9 +148,9 @@ def test_an_action_of_an_own_actor(project: Path, tmp_path_factory: pytest.TempP
     change(project, "ego: vehicle", "ego: slow_car with:\n        keep(it.pace == 1.25mps)")
     change(project, "ego.creep(duration", "ego.creep(v: ego.pace, duration")
     done = run(project, packages)
-    assert done.returncode == 0, done.stderr
+    assert done.code == 0, done.err
     module = (project / "slow.py").read_text(encoding="utf-8")
-    assert "self.ego = SlowCar(pace=1.25 * mps)" in module
+    assert 'self.ego = self.cast("ego", SlowCar(pace=1.25 * mps))' in module
     assert "creep(self.ego, v=self.ego.pace, duration=2 * s)," in module
     lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
     assert lines[0]["actors"]["ego"]["length"] == 4.6  # a car, as any vehicle without a category

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees import emit
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import (
     SCENARIOS,
@@ -21,11 +20,18 @@ Load = Callable[[GeneratedModule], type[Scenario]]
 OWN = ["cut_in", "cut_in_and_evade", "follow_leader", "pedestrian_crossing"]
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def run_named(load: Load) -> Callable[..., Trace]:
+    """Run a scenario by its name, each once with the same settings."""
+
+    done: dict[tuple[str, str], Trace] = {}
+
     def run_one(name: str, **settings: object) -> Trace:
-        module = generate(SCENARIOS / f"{name}.osc")
-        return run(load(module), RunSettings(**settings))  # type: ignore[arg-type]
+        given = RunSettings(**settings)  # type: ignore[arg-type]
+        key = name, repr(given)
+        if key not in done:
+            done[key] = run(load(generate(SCENARIOS / f"{name}.osc")), given)
+        return done[key]
 
     return run_one
 
@@ -40,8 +46,8 @@ def test_it_succeeds_without_collision(run_named: Callable[..., Trace], name: st
 @pytest.mark.parametrize("name", OWN)
 def test_repetition_and_permutation_change_nothing(load: Load, name: str) -> None:
     module = compile_scenario(SCENARIOS / f"{name}.osc")
-    first = run(load(emit(module)))
-    assert run(load(emit(module))).text == first.text
+    first = run(load(draft(module)))
+    assert run(load(draft(module))).text == first.text
     assert run(load(permuted_module(module))).text == first.text
 
 

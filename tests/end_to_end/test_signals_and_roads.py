@@ -98,9 +98,9 @@ def test_car_stops_before_the_line_and_goes_at_green(trace_of: Callable[[str], T
     assert begin == pytest.approx(speed**2 / (2 * comfort), abs=speed * 0.05)
     rates = {round(s["a"], 3) for s in braking[:-1]}
     assert len(rates) == 1 and -comfort <= rates.pop() <= -0.97 * comfort
-    # It goes when the light says so, one step after the command, with half of 4 m/s^2.
+    # It goes when the light says so, with half of 4 m/s^2.
     moving = [s for s in trace.states("ego") if s["t"] > at_rest[0]["t"] and s["v"] > 0.0]
-    assert moving[0]["t"] == pytest.approx(16.0 + 0.1)
+    assert moving[0]["t"] == pytest.approx(16.0 + 0.05)
     assert moving[10]["a"] == pytest.approx(2.0)
     assert moving[-1]["road"] != "1"
 

@@ -99,8 +99,6 @@ def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
 def _execute(module: GeneratedModule) -> None:
     """Run the scenarios of a module: to a verdict, or to an error that the runtime explains."""
     with scenarios_of_module(module) as scenarios:
-        if not scenarios:
-            raise Refuted("a module without scenarios")
         for scenario in scenarios.values():
             try:
                 run_scenario(scenario, RunSettings(max_time=SIMULATED_SECONDS), keep_trace=False)

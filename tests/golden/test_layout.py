@@ -3,9 +3,8 @@
 The tests of the stages compare the expected files and fail when one is missing.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
-
-import pytest
 
 HERE = Path(__file__).parent
 EXPECTED = {
@@ -24,7 +23,7 @@ OTHERS = {
     "semantics/scenario_runner": {"asam.txt", "carla.txt", "model.txt"},
 }
 """What tests write whose input is not called `input.osc`, or is one of `scenarios/`."""
-OPTIONAL = {"scenario.xosc", "parameters.xosc"}
+OPTIONAL = {"scenario.xosc", "parameters.xosc", "report.json"}
 """What not every case has: the tests of the stage say which."""
 CASES = [case for stage in EXPECTED for case in sorted((HERE / stage).iterdir()) if case.is_dir()]
 
@@ -33,14 +32,20 @@ def name(case: Path) -> str:
     return case.relative_to(HERE).as_posix()
 
 
-@pytest.mark.parametrize("case", CASES, ids=name)
-def test_a_case_has_its_files_and_no_others(case: Path) -> None:
+def problems(case: Path) -> Iterator[str]:
+    """Yield what a case has too much, and what it lacks."""
     expected = OTHERS.get(name(case), EXPECTED[case.parent.name])
     found = {path.relative_to(case / "expected").as_posix() for path in case.glob("expected/**/*")}
-    assert found - expected == set(), "left over"
-    assert expected - found <= OPTIONAL, "missing"
+    yield from (f"{file} is left over" for file in found - expected)
+    yield from (f"{file} is missing" for file in expected - found - OPTIONAL)
     is_input_elsewhere = case.parent.name == "end_to_end" or name(case) in OTHERS
-    assert is_input_elsewhere or (case / "input.osc").is_file()
+    if not is_input_elsewhere and not (case / "input.osc").is_file():
+        yield "input.osc is missing"
+
+
+def test_a_case_has_its_files_and_no_others() -> None:
+    assert len(CASES) > len(EXPECTED)
+    assert {name(case): found for case in CASES if (found := sorted(problems(case)))} == {}
 
 
 def test_every_folder_is_a_stage() -> None:

@@ -13,7 +13,7 @@ from osc2tx.compilation.inputs import InputError
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 GENERATED = Path(__file__).parents[2] / "generated"
-SUFFIXES = (".py", ".map.json", ".xosc", ".params.xosc", ".xosc.report.json")
+SUFFIXES = (".py", ".map.json", ".xosc", ".params.xosc")
 
 
 def test_examples_in_the_documentation() -> None:

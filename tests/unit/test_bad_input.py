@@ -10,8 +10,6 @@ from pathlib import Path
 import pytest
 
 from osc2tx import cli
-from osc2tx.compilation.driver import Compilation
-from osc2tx.options import CompileOptions
 from tests.processes import Ended, forked
 
 ERRORS, UNREADABLE = 3, 4
@@ -22,11 +20,13 @@ DRIVE = HEAD + "scenario top:\n    car: vehicle\n    do serial:\n        car.dri
 
 @pytest.fixture(scope="module", autouse=True)
 def _everything_is_loaded(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Load all stages and the library, so that the copies of this process need not."""
-    path = tmp_path_factory.mktemp("loaded") / "drive.osc"
-    path.write_text(DRIVE, encoding="utf-8")
-    compilation = Compilation(path, path.name, CompileOptions())
-    assert compilation.module is not None and compilation.xml
+    """Load the command, all stages and the library: the copies of this process need not."""
+    folder = tmp_path_factory.mktemp("loaded")
+    (folder / "drive.osc").write_text(DRIVE, encoding="utf-8")
+    with pytest.raises(SystemExit) as ended:
+        cli.main(["build", str(folder / "drive.osc"), "-o", str(folder / "out")])
+    assert ended.value.code == 0
+    assert {path.suffix for path in (folder / "out").iterdir()} >= {".py", ".xosc"}
 
 
 def osc2tx(*arguments: object) -> Ended:

@@ -77,8 +77,10 @@ def test_run_keys_are_options_of_the_runtime() -> None:
     dangers = {"allow-external"}  # runs code: not for a file of a stranger's branch to allow
     lists = {option.name for option in OPTIONS if option.repeatable} - dangers
     assert {setting.key for setting in RUN_SETTINGS if setting.is_list} == lists
-    values = {option.name for option in OPTIONS} - lists - outputs - dangers
-    assert {setting.key for setting in RUN_SETTINGS if setting.is_number} == values
+    flags = {option.name for option in OPTIONS if option.is_flag}
+    assert {setting.key for setting in RUN_SETTINGS if setting.is_flag} == flags
+    values = {option.name for option in OPTIONS} - lists - flags - outputs - dangers
+    assert {setting.key for setting in RUN_SETTINGS if setting.is_single} == values
 
 
 @pytest.mark.parametrize(
@@ -89,7 +91,7 @@ def test_run_keys_are_options_of_the_runtime() -> None:
         (
             "zzz = 1",
             "unknown key `zzz`; known keys: std, dialect, one_of, target, xml_version, xml_profile,"
-            " allow_approx, sources, out, scenarios",
+            " allow_approx, import_paths, sources, out, scenarios",
         ),
         ("allow_approx = 1", "`allow_approx` is 1: write true or false"),
         ("std = 2.1", '`std` is 2.1: write "2.1" or "2.2"'),
@@ -102,7 +104,7 @@ def test_run_keys_are_options_of_the_runtime() -> None:
             "in [scenarios.a.run]: unknown key `map_path`; did you mean `map-path`?",
         ),
         ("[scenarios.a.run]\nsignal = [1]", "`signal` is [1]: write a list of strings"),
-        ("[scenarios.a.run]\nseed = true", "`seed` is True: write one number"),
+        ("[scenarios.a.run]\nseed = true", "`seed` is True: write one value"),
         ("sources = 3", "`sources` is 3: write a list of strings"),
         ('out = ["a"]', "`out` is ['a']: write one string"),
         ("std =", "is not valid TOML"),
@@ -155,6 +157,7 @@ def test_what_is_in_force_and_from_where(tmp_path: Path) -> None:
         ("xml_version", "1.3", "default", None),
         ("xml_profile", "generic", "default", None),
         ("allow_approx", True, table, path),
+        ("import_paths", (), "default", None),
         ("out", str(tmp_path / "g"), "tool.osc2tx", path),
         ("run.seed", ["3"], f"{table}.run", path),
     ]

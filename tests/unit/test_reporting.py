@@ -67,7 +67,7 @@ def test_build_and_run_have_the_same_forms(shell: Shell) -> None:
     shell.drive("a.osc")
     ended = shell("build", "a.osc", "-o", "out", "--output-format", "json")
     assert json.loads(ended.out)["summary"]["files"] == 1
-    assert ended.err == "1 module in out: 4 files written; 0 errors, 0 warnings\n"
+    assert ended.err == "1 module in out: 3 files written; 0 errors, 0 warnings\n"
     for file in ("a.osc", "out/a.py"):
         ended = shell("run", file, "--output-format", "json")
         assert ended.code == 0

@@ -1,11 +1,12 @@
 """Backend for py_trees: IR in, readable Python modules out.
 
 `support` refuses what the runtime cannot carry out; `emitter` is the entry for the rest.
-`scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of `view`,
-with names from `naming` and fragments from `code` that scenario text cannot break out of; `uses`
-collects imports, `runtime_api` is what is known of the runtime. The templates (`environment`)
-only place view models; `formatting` lets black have the last word. `source_map` holds the lines
-that the module does not cite itself.
+`sharing` decides which classes come from the modules of imported files, `own_names` names the
+others. `scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of
+`view`, with names from `naming` and fragments from `code` that scenario text cannot break out of;
+`uses` collects imports, `runtime_api` is what is known of the runtime. The templates
+(`environment`) only place view models; `formatting` lets black have the last word. `source_map`
+holds the lines that the module does not cite itself.
 """
 
 from __future__ import annotations
@@ -17,15 +18,20 @@ from osc2tx.backends.py_trees.support import check_support
 if TYPE_CHECKING:
     from osc2tx import ir
     from osc2tx.backends.py_trees.emitter import GeneratedModule
+    from osc2tx.backends.py_trees.sharing import Sharing
 
 __all__ = ["check_support", "emit"]
 
 
-def emit(module: ir.Module) -> GeneratedModule:
-    """Write the module for one source file with at least one scenario.
+def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
+    """Write the module for one source file.
 
     The writers are loaded when something is written: checking a file does not need them.
+
+    Args:
+        module: Its IR.
+        sharing: Where it has the classes of imported files from; all are copies if left out.
     """
     from osc2tx.backends.py_trees.emitter import emit as emit_module
 
-    return emit_module(module)
+    return emit_module(module, sharing)

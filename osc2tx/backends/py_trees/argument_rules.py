@@ -56,4 +56,6 @@ def word(argument: ir.Argument) -> str | None:
             return str(value).lower()
         case ir.Literal(value=str(value)):
             return value
+        case ir.ExpressionBase(type=ir.ValueType(kind=ir.Kind.STRUCT, name=name)):
+            return name
     return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from types import MappingProxyType
 
 from osc2tx import ir
@@ -11,6 +11,9 @@ from osc2tx.backends.py_trees.combinations import CombinationCheck
 from osc2tx.catalogue import Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx_rules import Rule, violations
+
+# What no world has more of, either way, in SI: light is as fast, and no road leads further.
+LARGEST = {"speed": 299_792_458.0, "acceleration": 1e9, "length": 1e9}
 
 # Names that constructors of actions take for themselves.
 ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
@@ -24,7 +27,7 @@ class CallCheck:
         objects: Its tables of objects.
         sink: Where complaints go.
         expressions: Checks expressions.
-        lineages: The types of the scenario's objects, each with its bases.
+        declarations: Of the scenario.
     """
 
     def __init__(
@@ -33,11 +36,13 @@ class CallCheck:
         objects: ObjectTables,
         sink: DiagnosticSink,
         expressions: Callable[[Iterable[ir.Expression]], None],
-        lineages: Mapping[str, tuple[str, ...]],
+        declarations: Sequence[ir.Declaration],
     ) -> None:
         """See the class."""
-        self._lineages = lineages
-        self._combinations = CombinationCheck(library, objects, sink, lineages)
+        declared = (d for d in declarations if isinstance(d, ir.Actor | ir.Struct))
+        self._lineages = {each.name: each.lineage for each in declared}
+        self._values = {d.name: d.value for d in declarations if isinstance(d, ir.Parameter)}
+        self._combinations = CombinationCheck(library, objects, sink, self._lineages)
         self._library = library
         self._objects = objects
         self._sink = sink
@@ -161,6 +166,20 @@ class CallCheck:
                     f"argument `{argument.parameter}` of {what} is not supported yet",
                 )
             self._expressions((argument.value,))
+            self._size(argument.value)
+
+    def _size(self, value: ir.Expression) -> None:
+        """Report a number that no world can follow."""
+        largest = LARGEST.get(value.type.name)
+        known = self._values.get(value.name) if isinstance(value, ir.FieldRef) else value
+        number = None if known is None else ir.constant(known)
+        if largest is not None and number is not None and not abs(number) <= largest:
+            self._sink.report(
+                "OSC516",
+                value.span,
+                f"no world has such {_with_article(value.type.name)}",
+                notes=[f"it is {number:g}, and the largest {largest:g}, in SI units"],
+            )
 
     def _required(self, node: ir.Invoke, action: str, needed: frozenset[str]) -> None:
         given = {argument.parameter for argument in node.arguments}
@@ -182,3 +201,7 @@ class CallCheck:
         given = GivenArguments({**by_name(arguments), **others})
         for broken in violations(subject, rules, given):
             self._sink.report("OSC513", given.span(broken.parameter, span), broken.text)
+
+
+def _with_article(word: str) -> str:
+    return f"{'an' if word[0] in 'aeiou' else 'a'} {word}"

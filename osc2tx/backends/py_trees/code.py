@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import keyword
 import math
-import unicodedata
 from decimal import Decimal
 
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx_text import visible
 
 LONGEST_DIGITS = 10  # a number that takes more characters is written with an exponent
 
@@ -99,14 +99,6 @@ def self_attribute(name: PyName) -> PyExpr:
     return PyExpr(f"self.{name}", Level.ATOM)
 
 
-def _printable(text: str) -> str:
-    """Drop what would end a line or confuse a reader: control and bidirectional characters."""
-    return "".join(
-        " " if unicodedata.category(char) in ("Cc", "Cf", "Zl", "Zp", "Cs") else char
-        for char in text
-    )
-
-
 @dataclass(frozen=True, slots=True)
 class PyComment:
     """One line for a `#` comment, or part of a docstring."""
@@ -116,7 +108,7 @@ class PyComment:
     @classmethod
     def of(cls, text: str) -> PyComment:
         """Make a comment of one line of text."""
-        return cls(_printable(text).rstrip())
+        return cls(visible(text.rstrip().replace("\t", " ")))
 
     def __str__(self) -> str:
         """`# text`, or a bare `#` for an empty line."""
@@ -132,8 +124,9 @@ class PyDocLine:
     @classmethod
     def of(cls, text: str) -> PyDocLine:
         """Make a docstring line of one line of text."""
-        plain = _printable(text).rstrip()
-        return cls(plain.replace("\\", "\\\\").replace('"""', r"\"\"\""))
+        plain = visible(text.rstrip().replace("\t", " "))
+        escaped = plain.replace("\\", "\\\\").replace('"""', r"\"\"\"")
+        return cls(f"{escaped} " if escaped.endswith('"') else escaped)  # `"""` may come next
 
     def __str__(self) -> str:
         """The escaped line."""

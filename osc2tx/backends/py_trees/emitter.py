@@ -2,54 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import PurePosixPath
+from typing import TypeVar
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import PyDocLine, PyName
+from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
-from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
-from osc2tx.backends.py_trees.own_types import write_types
-from osc2tx.backends.py_trees.runtime_api import (
-    ACTOR_CLASSES,
-    API_LEVEL,
-    PHYSICAL_TYPES,
-    STRUCT_CLASSES,
+from osc2tx.backends.py_trees.naming import NameTable, module_name
+from osc2tx.backends.py_trees.own_names import (
+    Declared,
+    add_name,
+    declarations,
+    is_own,
+    key_of,
+    own_names,
 )
+from osc2tx.backends.py_trees.own_types import write_types
+from osc2tx.backends.py_trees.runtime_api import API_LEVEL
 from osc2tx.backends.py_trees.scenarios import ScenarioWriter
+from osc2tx.backends.py_trees.sharing import Sharing, sibling_imports
 from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_methods import TypeMethods
-from osc2tx.backends.py_trees.type_table import TypeTable, class_key
+from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
-from osc2tx.backends.py_trees.view import ModuleView
-from osc2tx.catalogue import object_tables
-from osc2tx.support.portable_names import is_portable
-
-# Names a module may import; a scenario class must not hide them.
-RUNTIME_CLASSES = frozenset(
-    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values(), *PHYSICAL_TYPES.values()}
-    | {
-        "Actor",
-        "Behaviour",
-        "Call",
-        "Duration",
-        "Emit",
-        "End",
-        "Event",
-        "Fail",
-        "Late",
-        "Modifier",
-        "On",
-        "OneOf",
-        "OwnShape",
-        "Parallel",
-        "Range",
-        "Rgb",
-    }
-    | {"Any", "Protocol", "Scenario", "Serial", "Unit", "Until", "Wait"}
+from osc2tx.backends.py_trees.view import (
+    EnumView,
+    ModuleView,
+    ScenarioView,
+    TypeView,
+    UserActionView,
 )
+
+DefinitionT = TypeVar("DefinitionT", TypeView, UserActionView, ScenarioView)
 
 ONE_OF_POLICIES = {
     "race": "`one_of` is a race",
@@ -63,62 +50,111 @@ class GeneratedModule:
     """What the backend makes of one source file.
 
     Attributes:
+        source: Name of the source.
         stem: File name of the module without `.py`.
         python: Text of the module.
         source_map: Text of the sidecar map, JSON.
     """
 
+    source: str
     stem: str
     python: str
     source_map: str
 
 
-def emit(module: ir.Module) -> GeneratedModule:
-    """Write the module for one source file with at least one scenario."""
-    written = draft(module)
+def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
+    """Write the module for one source file.
+
+    Args:
+        module: Its IR.
+        sharing: Where it has the classes of imported files from; all are copies if left out.
+    """
+    written = draft(module, sharing)
     return replace(written, python=format_module(written.python))
 
 
-def draft(module: ir.Module) -> GeneratedModule:
+def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     """Write a module in the layout of the templates: it does the same, but is not for readers."""
-    uses = Uses()
-    classes = NameTable(RUNTIME_CLASSES | object_tables().enums)
-    for scenario in module.scenarios:
-        plain = scenario.name.rpartition(".")[2]
-        classes.add(scenario.key, class_name(plain), "Scenario")
-    for own in module.types:
-        classes.add(class_key(own.name), class_name(own.name), "Type")
-    table = TypeTable(module.types, classes, uses)
+    sharing = sharing or Sharing()
+    uses, names = Uses(), _all_names(module, sharing)
+    defined = [each for each in declarations(module) if key_of(each) not in sharing.homes]
+    types = [each for each in defined if isinstance(each, ir.UserType)]
+    actions = [each for each in defined if isinstance(each, ir.UserAction)]
+    scenarios = [each for each in defined if isinstance(each, ir.Scenario)]
+    table = TypeTable(module.types, names, uses, sharing.homes.keys())
+    enums = [each for each in defined if isinstance(each, ir.UserEnum)]
+    for enum in enums:  # those that nothing here uses as well: others may
+        table.annotation(ir.ValueType(ir.Kind.ENUM, enum.name, members=enum.members))
     type_methods = TypeMethods(module.types, module.scenarios)
-    types = write_types(module.types, table, type_methods, uses)
-    actions = write_actions(module.actions, classes, table, uses)
+    type_views = write_types(types, table, type_methods, uses)
+    action_views = write_actions(actions, names, table, uses)
     writers = [
-        ScenarioWriter(scenario, module.one_of, classes, table, type_methods, uses)
-        for scenario in module.scenarios
+        ScenarioWriter(
+            *(scenario, module.one_of, module.dialect == "carla", names, table, type_methods, uses)
+        )
+        for scenario in scenarios
     ]
-    scenarios = tuple(writer.write() for writer in writers)
+    scenario_views = [writer.write() for writer in writers]
+    siblings, shown = sibling_imports(sharing, names), shown_scenario(module)
+    for name in ("Behaviour", "Scenario") if scenarios else ():
+        uses.name(name)
+    if shown is not None:
+        uses.name("main")
     view = ModuleView(
         docstring=_docstring(module),
         imports=uses.imports(),
+        siblings=siblings,
+        root=_root(module) if siblings else None,
         api_level=API_LEVEL,
         units=uses.units(),
-        enums=uses.enums(),
-        scenarios=scenarios,
-        mains=tuple(classes[scenario.key] for scenario in own_scenarios(module)),
-        shown=classes[shown_scenario(module).key],
+        enums=_explained_enums(uses.enums(), names, sharing),
+        scenarios=_explained(scenario_views, scenarios, sharing),
+        mains=tuple(names[scenario.key] for scenario in own_scenarios(module)),
+        shown=None if shown is None else names[shown.key],
         standard_imports=uses.standard_imports(),
-        types=types,
-        actions=actions,
+        types=_explained(type_views, types, sharing),
+        actions=_explained(action_views, actions, sharing),
     )
     text = environment().get_template("module.py.j2").render(module=view)
-    maps = {s.name: w.source_map for s, w in zip(module.scenarios, writers, strict=True)}
-    return GeneratedModule(module_stem(module.source), text, render_source_map(maps))
+    maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
+    stem = module_name(module.source)
+    return GeneratedModule(module.source, stem, text, render_source_map(maps))
 
 
-def module_stem(source: str) -> str:
-    """Return the module name for a source file: importable, as close to its name as can be."""
-    stem = identifier(PurePosixPath(source).stem)
-    return PyName(stem if is_portable(stem) else f"{stem}_").text
+def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:
+    """Name what a module defines and imports; what its own file declares is named first."""
+    names = own_names(module)
+    for key, home in sharing.homes.items():
+        names.add(key, home.name)
+    for declared in declarations(module):
+        if key_of(declared) not in names:
+            add_name(names, declared)
+    return names
+
+
+def _explained(
+    views: Sequence[DefinitionT], parts: Sequence[Declared], sharing: Sharing
+) -> tuple[DefinitionT, ...]:
+    """Return views that say of copies why they are some."""
+    reasons = (sharing.copies.get(key_of(part)) for part in parts)
+    return tuple(
+        view if reason is None else replace(view, copied=PyComment.of(reason))
+        for view, reason in zip(views, reasons, strict=True)
+    )
+
+
+def _explained_enums(
+    views: Sequence[EnumView], names: NameTable, sharing: Sharing
+) -> tuple[EnumView, ...]:
+    """Return the same of enums: a module also defines those of the library that it extends."""
+    reasons = {names[key]: PyComment.of(reason) for key, reason in sharing.copies.items()}
+    return tuple(replace(view, copied=reasons.get(view.name)) for view in views)
+
+
+def _root(module: ir.Module) -> PyExpr | None:
+    """Write the folder of the outputs, for a module that lies in a folder below it."""
+    depth = module.source.count("/")
+    return PyExpr(f"pathlib.Path(__file__).parents[{depth}]", Level.ATOM) if depth else None
 
 
 def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
@@ -126,7 +162,7 @@ def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
     return [scenario for scenario in module.scenarios if not scenario.is_imported]
 
 
-def shown_scenario(module: ir.Module) -> ir.Scenario:
+def shown_scenario(module: ir.Module) -> ir.Scenario | None:
     """Return the scenario whose tree viewers get: `top`, `main`, else the last that can run."""
     own = own_scenarios(module)
     by_name = {scenario.name: scenario for scenario in own}
@@ -134,7 +170,7 @@ def shown_scenario(module: ir.Module) -> ir.Scenario:
     if wanted:
         return by_name[wanted]
     able = [scenario for scenario in own if not any(map(_is_given, scenario.declarations))]
-    return (able or own)[-1]
+    return next(reversed(able or own), None)
 
 
 def _is_given(declaration: ir.Declaration) -> bool:
@@ -143,12 +179,16 @@ def _is_given(declaration: ir.Declaration) -> bool:
 
 
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
-    own = own_scenarios(module)
-    names = ", ".join(f"`{scenario.name}`" for scenario in own)
-    word = "Scenario" if len(own) == 1 else "Scenarios"
+    own: Sequence[ir.Scenario | ir.UserType | ir.UserEnum] = own_scenarios(module)
+    words = ("Scenario", "Scenarios")
+    if not own:
+        own = [t for t in module.types if is_own(t, module)]
+        own += [e for e in module.enums if is_own(e, module)]
+        words = ("Type", "Types")
+    names = ", ".join(f"`{each.name}`" for each in own)
     about = ("", *module.comments) if module.comments else ()
     lines = (
-        f"{word} {names}.",
+        f"{words[len(own) > 1]} {names}.",
         *about,
         "",
         f"Made by osc2tx from {module.source}: edit the scenario, not this module.",

@@ -303,7 +303,8 @@ class ExpressionWriter:
 
     def _combine(self, node: ir.Binary, left: PyExpr) -> PyExpr:
         operator = node.operator
-        if operator == "in" and isinstance(node.right, ir.RangeValue):
+        is_value = node.left.type.kind is not ir.Kind.RANGE
+        if operator == "in" and is_value and isinstance(node.right, ir.RangeValue):
             return self._in_range(left, node.right)
         if operator == "in" and node.left.type.kind is ir.Kind.LIST:
             every = f"all(it in {self.write(node.right).within(Level.SUM)} for it in {left})"

@@ -5,8 +5,11 @@ from __future__ import annotations
 import keyword
 import unicodedata
 from collections.abc import Iterable
+from pathlib import PurePosixPath
 
 from osc2tx.backends.py_trees.code import PyName
+from osc2tx.support.portable_names import is_portable
+from osc2tx.support.python_modules import is_taken
 
 # What `Scenario` of the runtime library uses itself; a test compares with the real class.
 SCENARIO_ATTRIBUTES = frozenset(
@@ -24,6 +27,8 @@ SCENARIO_ATTRIBUTES = frozenset(
         "events",
         "external",
         "failed",
+        "first_come",
+        "global_object",
         "global_parameter",
         "invoke",
         "invoked",
@@ -67,6 +72,15 @@ def identifier(text: str) -> str:
     return f"{cleaned}_" if keyword.iskeyword(cleaned) else cleaned
 
 
+def module_name(source: str) -> str:
+    """Return the module name for a source file: importable, as close to its name as can be.
+
+    It is a possible file name on every system, and no other module is hidden by it.
+    """
+    name = identifier(PurePosixPath(source).stem)
+    return f"{name}_" if is_taken(name) or not is_portable(name) else name
+
+
 def class_name(text: str) -> str:
     """Return a name of the language in the form of a Python class name."""
     words = [word for word in identifier(text).split("_") if word]
@@ -75,12 +89,17 @@ def class_name(text: str) -> str:
 
 
 class NameTable:
-    """Hands out Python names that differ from each other and from what is reserved."""
+    """Hands out Python names that differ from each other and from what is reserved.
+
+    Attributes:
+        looked_up: Keys whose names somebody wanted to know.
+    """
 
     def __init__(self, reserved: Iterable[str] = ()) -> None:
         """Start with the reserved names taken."""
         self._taken = set(reserved)
         self._names: dict[str, PyName] = {}
+        self.looked_up: set[str] = set()
 
     def add(self, key: str, wanted: str, fallback_suffix: str = "_") -> PyName:
         """Reserve a name for `key`, as close to `wanted` as is free: with suffix or number."""
@@ -97,6 +116,7 @@ class NameTable:
 
     def __getitem__(self, key: str) -> PyName:
         """Return the name reserved for `key`."""
+        self.looked_up.add(key)
         return self._names[key]
 
     def __contains__(self, key: str) -> bool:

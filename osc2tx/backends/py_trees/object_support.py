@@ -78,7 +78,7 @@ class ObjectCheck:
         for field in objects.values():
             is_whole = any(value.path == (field.name,) for value in object_.values)
             if not is_whole:
-                member = object_.member(field.name, self._lineage(field.type.name))
+                member = object_.member(field.name, ir.lineage(field.type.name, self._own))
                 self._object(member, STRUCT_CLASSES)
         for value in object_.values:
             if value.path[0] in objects or self._is_own(object_.lineage, value.path):
@@ -103,12 +103,6 @@ class ObjectCheck:
         types = [self._own[name] for name in lineage if name in self._own]
         names = {field.name for type_ in types for field in type_.fields}
         return len(path) == 1 and path[0] in names
-
-    def _lineage(self, type_: str) -> tuple[str, ...]:
-        names = [type_]
-        while names[-1] in self._own and (base := self._own[names[-1]].base) is not None:
-            names.append(base)
-        return tuple(names)
 
     def _can_fix(self, kind: str, lineage: Sequence[str], path: tuple[str, ...]) -> bool:
         """Whether a constructor takes a member."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
-from osc2tx.backends.py_trees.code import PyDocLine, literal
+from osc2tx.backends.py_trees.code import PyDocLine, literal, name_expression
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -18,10 +18,10 @@ from osc2tx.backends.py_trees.view import FieldView, FunctionView, TypeView, sig
 def write_types(
     own: Sequence[ir.UserType], table: TypeTable, methods: TypeMethods, uses: Uses
 ) -> tuple[TypeView, ...]:
-    """Return the view models of the types, in their order.
+    """Return the view models of the types that a module defines, in their order.
 
     Args:
-        own: The types, bases first.
+        own: Those types, bases first.
         table: All types that the module knows.
         methods: The methods that stand in classes.
         uses: What the module has to import.
@@ -54,26 +54,30 @@ class _TypeWriter:
         own = self._own
         if not own.is_actor:
             self._uses.standard("dataclasses", "dataclass")
-        elif own.fields:
+        elif own.all_fields:
             self._uses.standard("typing", "Any")
         word = "Actor" if own.is_actor else "Struct"
+        kinds, above = self._table.kinds_of(own)
         about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
         return TypeView(
             class_name=self._table.class_of((own.name,)),
-            base=self._table.base_of(own),
-            kind=literal(own.name),
+            bases=self._table.bases_of(own),
+            kinds=tuple(map(literal, kinds)),
+            above=above,
             is_actor=own.is_actor,
             docstring=tuple(PyDocLine.of(line) for line in about),
-            fields=tuple(map(self._field, own.fields)),
+            fields=tuple(map(self._field, own.all_fields)),
             methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),
         )
 
     def _field(self, field: ir.UserField) -> FieldView:
-        writer = self._writer()
+        default = None if field.default is None else self._writer().write(field.default)
+        if field.is_optional:
+            default = name_expression(self._uses.name("not_given"))
         return FieldView(
             name=self._table.member(self._own.name, field.name),
             annotation=self._table.annotation(field.type, self._later),
-            default=None if field.default is None else writer.write(field.default),
+            default=default,
             comments=comments(field.comments),
         )
 

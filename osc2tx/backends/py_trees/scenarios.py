@@ -40,6 +40,7 @@ class ScenarioWriter:
     Args:
         scenario: The scenario.
         one_of: Policy of `one_of` in this module.
+        first_come: Durations and `until` end with whichever comes first.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
         type_methods: The methods of types that stand in their classes.
@@ -50,6 +51,7 @@ class ScenarioWriter:
         self,
         scenario: ir.Scenario,
         one_of: str,
+        first_come: bool,
         classes: NameTable,
         types: TypeTable,
         type_methods: TypeMethods,
@@ -58,6 +60,7 @@ class ScenarioWriter:
         """See the class."""
         self._scenario = scenario
         self._one_of = one_of
+        self._first_come = first_come
         self._classes = classes
         self._names = NameTable(SCENARIO_ATTRIBUTES)
         self._methods = [each for each in scenario.methods if each.name not in type_methods]
@@ -75,6 +78,8 @@ class ScenarioWriter:
         )
         self._calls = CallWriter(expressions, uses.name, uses.modifier)
         self._objects = ObjectWriter(expressions, types)
+        events = (each for each in scenario.declarations if isinstance(each, ir.Event))
+        self._first_implicit_event = next((each for each in events if each.is_implicit), None)
         self.source_map = ScenarioMap()
 
     def write(self) -> ScenarioView:
@@ -109,9 +114,14 @@ class ScenarioWriter:
         )
 
     def _attributes(self) -> tuple[StatementView, ...]:
-        values = {"name": self._scenario.name, "source": self._scenario.span.source.name}
+        values: dict[str, str | bool] = {
+            "name": self._scenario.name,
+            "source": self._scenario.span.source.name,
+        }
         if self._one_of != "race":
             values["one_of"] = self._one_of
+        if self._first_come:
+            values["first_come"] = True
         return tuple(
             StatementView(name_expression(PyName(name)), code(literal(value)))
             for name, value in values.items()
@@ -121,7 +131,7 @@ class ScenarioWriter:
         name = self._names[declaration.name]
         self.source_map.fields[str(name)] = declaration.span.line
         lines = declaration.comments
-        if declaration is self._first_implicit_event():
+        if declaration is self._first_implicit_event:
             lines = ("Events that the scenario uses without declaring them",)
         return StatementView(
             target=self_attribute(name),
@@ -169,10 +179,6 @@ class ScenarioWriter:
             for index, item in enumerate(self._scenario.coverage)
         )
 
-    def _first_implicit_event(self) -> ir.Event | None:
-        events = (d for d in self._scenario.declarations if isinstance(d, ir.Event))
-        return next((event for event in events if event.is_implicit), None)
-
     def _declared_value(self, declaration: ir.Declaration) -> ArgumentView:
         match declaration:
             case ir.Actor(name=name, lineage=lineage, is_given=True):
@@ -181,6 +187,8 @@ class ScenarioWriter:
                 return ArgumentView(call=call)
             case ir.Actor(name=name, lineage=lineage):
                 actor = self._objects.write(lineage, declaration.values)
+                if declaration.is_global:
+                    return self._shared(name, actor)
                 return self._from_invoker("cast", name, actor)
             case ir.Struct():
                 return self._struct(declaration)
@@ -191,20 +199,26 @@ class ScenarioWriter:
             case ir.Event(trigger=trigger):
                 arguments = () if trigger is None else self._calls.trigger(trigger)
                 arguments += self._event_parameters(declaration.parameters)
+                arguments += self._known_as(declaration.name)
                 return ArgumentView(call=self._calls.runtime_call("Event", *arguments))
 
     def _struct(self, struct: ir.Struct) -> ArgumentView:
-        """Write an object; one of an invoked scenario may come from the caller."""
+        """Write an object; it may come from the caller."""
         if struct.value is not None:
             value = code(self._calls.expressions.write(struct.value))
         else:
             value = self._objects.write(struct.lineage, struct.values)
+        if struct.is_global:
+            return self._shared(struct.name, value)
         return self._from_invoker("argument", struct.name, value)
+
+    def _shared(self, name: str, value: ArgumentView) -> ArgumentView:
+        """Write an object that all scenarios of a run share."""
+        known_as = code(literal(ir.setting_name(name)))
+        return ArgumentView(call=CallView(_self("global_object"), (known_as, value)))
 
     def _from_invoker(self, method: str, name: str, value: ArgumentView) -> ArgumentView:
         """Write what an invoker may hand in instead of the declared value."""
-        if not self._scenario.is_invoked:
-            return value
         return ArgumentView(call=CallView(_self(method), (code(literal(name)), value)))
 
     def _variable(self, variable: ir.Variable) -> ArgumentView:
@@ -215,7 +229,13 @@ class ScenarioWriter:
             return self._fixed(variable.type, initial[0])  # the verifier saw that there is one
         what = code(writer.late(writer.write(variable.sample.expression)))
         when, *condition = self._calls.trigger(variable.sample.trigger)
-        return ArgumentView(call=CallView(_self("sample"), (what, when, *initial, *condition)))
+        known_as = self._known_as(variable.name)
+        arguments = (what, when, *initial, *condition, *known_as)
+        return ArgumentView(call=CallView(_self("sample"), arguments))
+
+    def _known_as(self, name: str) -> tuple[ArgumentView, ...]:
+        """Write the name that a member has in the scenario, where its attribute has another."""
+        return () if str(self._names[name]) == name else (code(literal(name), "name"),)
 
     def _event_parameters(
         self, parameters: tuple[ir.MethodParameter, ...]
@@ -233,12 +253,12 @@ class ScenarioWriter:
     def _parameter(self, parameter: ir.Parameter) -> ArgumentView:
         """Write a constant as its value, anything else so that `--set` can reach it."""
         write = self._calls.expressions.write
-        if parameter.value is not None and self._is_constant(parameter):
+        if parameter.value is not None and parameter.is_fixed:
             return self._fixed(parameter.type, code(write(parameter.value)))
         if parameter.value is not None and parameter.type.element is not None:
             name, value = code(literal(parameter.name)), code(write(parameter.value))
             return ArgumentView(call=CallView(_self("argument"), (name, value)))
-        known_as = parameter.name.removeprefix("global ") if parameter.is_global else parameter.name
+        known_as = ir.setting_name(parameter.name) if parameter.is_global else parameter.name
         arguments = [code(literal(known_as))]
         is_plain = parameter.type.element is None and parameter.type.kind is not ir.Kind.STRUCT
         method = "global_parameter" if parameter.is_global else "parameter"
@@ -279,11 +299,6 @@ class ScenarioWriter:
             )
         return tuple(statements)
 
-    def _is_constant(self, parameter: ir.Parameter) -> bool:
-        """Whether nothing can change a value: lists and ranges only come from an invoker."""
-        is_single = parameter.type.element is None
-        return parameter.is_fixed or not (is_single or self._scenario.is_invoked)
-
     def _function(self, method: ir.Method, body: ir.Expression) -> FunctionView:
         return FunctionView(
             signature=signature(
@@ -306,8 +321,7 @@ class ScenarioWriter:
         actor = code(self._calls.expressions.field(placement.actor))
         # A placement speaks of the start anyway.
         modifiers = (self._calls.modifier(replace(m, at="all")) for m in placement.modifiers)
-        may_start_later = self._scenario.is_invoked and placement.is_throughout
-        later = (code(literal(True), "throughout"),) if may_start_later else ()
+        later = (code(literal(True), "throughout"),) if placement.is_throughout else ()
         method = _self("require" if placement.of_map else "place")
         call = CallView(method, (actor, *modifiers, *later))
         return StatementView(None, ArgumentView(call=call), comments(placement.comments))

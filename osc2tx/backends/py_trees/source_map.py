@@ -9,6 +9,8 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, field
 
+from osc2tx_text import in_json
+
 VERSION = 2
 
 
@@ -33,4 +35,4 @@ def render_source_map(maps: dict[str, ScenarioMap]) -> str:
     """Return the maps of a module's scenarios as one line of JSON."""
     scenarios = {name: asdict(each) for name, each in maps.items()}
     content = {"version": VERSION, "scenarios": scenarios}
-    return json.dumps(content, separators=(",", ":"), ensure_ascii=False) + "\n"
+    return in_json(json.dumps(content, separators=(",", ":"), ensure_ascii=False)) + "\n"

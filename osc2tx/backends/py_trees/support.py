@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from pathlib import PurePosixPath
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.call_support import CallCheck
-from osc2tx.backends.py_trees.naming import identifier
+from osc2tx.backends.py_trees.naming import identifier, module_name
 from osc2tx.backends.py_trees.object_support import ObjectCheck
+from osc2tx.backends.py_trees.own_names import declarations, has_module, is_own
 from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     ANNOTATIONS,
@@ -15,6 +17,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 )
 from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.support.python_modules import is_taken
 
 # CPython gives up on expressions of about 3,000 parts; nobody reads one of this length anyway.
 MAX_PARTS = 1000
@@ -24,38 +27,57 @@ INVOKE_KEYWORDS = frozenset({"caller", "known_as", "self", "settings"})
 
 
 def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
-    """Report every part of a module that the runtime does not know."""
+    """Report every part of a module that the runtime does not know, and a name it cannot have."""
+    check_name(module, sink)
     own = {each.name: each for each in module.types}
     for scenario in module.scenarios:
-        _SupportCheck(scenario, own, sink).run()
+        _SupportCheck(scenario.declarations, own, sink).run(scenario)
+
+
+def has_support(method: ir.Method, types: Iterable[ir.UserType]) -> bool:
+    """Return whether a class may have a method that nobody calls."""
+    sink = DiagnosticSink()
+    _SupportCheck((), {each.name: each for each in types}, sink).method(method)
+    return not sink.has_errors
+
+
+def check_name(module: ir.Module, sink: DiagnosticSink) -> None:
+    """Report that the module is not called as its file is, where that would hide another one."""
+    stem = PurePosixPath(module.source).stem
+    own = next((d.span.source for d in declarations(module) if is_own(d, module)), None)
+    if own is None or not has_module(module) or not is_taken(stem):
+        return
+    message = f"the module is called `{module_name(module.source)}`: Python has a module `{stem}`"
+    sink.report("OSC517", Span(own, 0, 0), message, help="rename the file")
 
 
 class _SupportCheck:
     def __init__(
-        self, scenario: ir.Scenario, own: dict[str, ir.UserType], sink: DiagnosticSink
+        self,
+        declarations: Sequence[ir.Declaration],
+        own: dict[str, ir.UserType],
+        sink: DiagnosticSink,
     ) -> None:
-        self.scenario = scenario
+        self.declarations = declarations
         self.own_fields = {(t.name, f.name) for t in own.values() for f in t.fields}
         self.own = own
         self.sink = sink
         self.objects = object_tables()
-        objects = (d for d in scenario.declarations if isinstance(d, ir.Actor | ir.Struct))
-        lineages = {each.name: each.lineage for each in objects}
-        self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, lineages)
+        self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, declarations)
 
-    def run(self) -> None:
-        for declaration in self.scenario.declarations:
+    def run(self, scenario: ir.Scenario) -> None:
+        for declaration in scenario.declarations:
             self.declaration(declaration)
-        for method in self.scenario.methods:
+        for method in scenario.methods:
             self.method(method)
-        for item in self.scenario.coverage:
+        for item in scenario.coverage:
             parts = (item.expression, item.ignore, item.illegal)
             self.expressions(part for part in parts if part is not None)
-        self.expressions(constraint.expression for constraint in self.scenario.constraints)
-        for placement in self.scenario.placements:
+        self.expressions(constraint.expression for constraint in scenario.constraints)
+        for placement in scenario.placements:
             for modifier in placement.modifiers:
                 self.calls.placing(modifier)
-        for node in ir.walk_behaviors(self.scenario.body):
+        for node in ir.walk_behaviors(scenario.body):
             self.behavior(node)
 
     def declaration(self, declaration: ir.Declaration) -> None:
@@ -241,7 +263,7 @@ class _SupportCheck:
     def said(self, part: ir.Attribute, base: ir.Expression) -> None:
         """Report a member of an actor that nothing says: no catalogue knows it."""
         name = base.name if isinstance(base, ir.FieldRef) else None
-        actors = (d for d in self.scenario.declarations if isinstance(d, ir.Actor))
+        actors = (d for d in self.declarations if isinstance(d, ir.Actor))
         actor = next((each for each in actors if each.name == name), None)
         if actor is not None and all(value.path[0] != part.name for value in actor.values):
             self.sink.report(

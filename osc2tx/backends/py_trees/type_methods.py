@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.backends.py_trees.support import has_support
 
 OF_THE_SCENARIO = (ir.FieldRef, ir.InvokedValue, ir.EventArgument, ir.UserShape)
 
@@ -27,11 +28,13 @@ class TypeMethods:
         self, types: Iterable[ir.UserType] = (), scenarios: Iterable[ir.Scenario] = ()
     ) -> None:
         """See the class."""
+        types = tuple(types)
         own = {each.name for each in types}
+        found = [each for type_ in types for each in type_.methods if has_support(each, types)]
+        found += [each for scenario in scenarios for each in scenario.methods]
         self._methods = {
             method.name: method
-            for scenario in scenarios
-            for method in scenario.methods
+            for method in found
             if method.name.rpartition(".")[0] in own and method.expression is not None
         }
         while wrong := [name for name in self._methods if self._reads_more(name)]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, name_expression
@@ -27,6 +27,11 @@ def class_key(type_: str) -> str:
     return f"type {type_}"
 
 
+def enum_key(name: str, members: Sequence[str]) -> str:
+    """Return the key of an enum in the same table: extended, it is another one."""
+    return f"enum {name}: {', '.join(members)}"
+
+
 class TypeTable:
     """Names classes and annotations, and knows the fields of the module's own types.
 
@@ -34,15 +39,23 @@ class TypeTable:
         own: The module's own types, bases first.
         classes: Names of the module's classes.
         uses: What the module has to import.
+        imported: Keys of what it imports of other modules.
     """
 
-    def __init__(self, own: Sequence[ir.UserType], classes: NameTable, uses: Uses) -> None:
+    def __init__(
+        self,
+        own: Sequence[ir.UserType],
+        classes: NameTable,
+        uses: Uses,
+        imported: Container[str] = (),
+    ) -> None:
         """See the class."""
+        self._imported = imported
         self._own = {each.name: each for each in own}
         self._classes = classes
         self._uses = uses
-        self._of_actors = object_tables().reserved | {"fields", "self"}
-        self._of_structs = frozenset(_seen_by_classes(own))
+        of_actors = object_tables().reserved | {"fields", "self"}
+        self._taken = {t.name: of_actors if t.is_actor else _seen_by_class(t) for t in own}
 
     def class_of(self, lineage: Sequence[str]) -> PyName:
         """Name the class of an object, the first type of its lineage that has one."""
@@ -55,24 +68,28 @@ class TypeTable:
         return self._uses.name(name)
 
     def class_or_object(self, type_: str) -> PyName:
-        """Name the class of a declared type; `object` if the module has none of it."""
+        """Name the class of a type; `object` if the module has none of it."""
         lineage = self.lineage(type_)
         is_known = class_key(type_) in self._classes or any(name in CLASSES for name in lineage)
         if lineage[-1] == ROOT and not is_known:
             return self._uses.name("Actor")
         return self.class_of(lineage) if is_known else PyName("object")
 
-    def annotation_or_object(self, type_: ir.ValueType) -> PyExpr:
-        """Write a declared type; `object` for structs that the module has no class of."""
-        if type_.kind in (ir.Kind.STRUCT, ir.Kind.ACTOR):
-            return name_expression(self.class_or_object(type_.name))
-        return self.annotation(type_)
+    def bases_of(self, own: ir.UserType) -> tuple[PyName, ...]:
+        """Name the base classes of an own type; an actor of no special kind is an `Actor`."""
+        if own.is_actor and own.bases in ((), (ROOT,)):
+            return (self._uses.name("Actor"),)
+        return tuple(self.class_of((base,)) for base in own.bases)
 
-    def base_of(self, own: ir.UserType) -> PyName | None:
-        """Name the base class of an own type; an actor of no special kind is an `Actor`."""
-        if own.is_actor and own.base in (None, ROOT):
-            return self._uses.name("Actor")
-        return None if own.base is None else self.class_of((own.base,))
+    def kinds_of(self, own: ir.UserType) -> tuple[tuple[str, ...], PyName | None]:
+        """Return the kinds that an own type adds, and the class whose kinds follow."""
+        bases = self.bases_of(own)
+        if len(bases) < 2:
+            return (own.name,), next(iter(bases), None)
+        lineages = [self.lineage(base) for base in own.bases]
+        above = next(name for name in lineages[0] if all(name in each for each in lineages))
+        names = ir.lineage(own.name, self._own)
+        return names[: names.index(above)], self.class_or_object(above)
 
     def member(self, owner: str, name: str) -> PyName:
         """Name a member of an object.
@@ -84,8 +101,7 @@ class TypeTable:
         own = self._own.get(owner)
         if own is None:
             return PyName(wanted)
-        taken = self._of_actors if own.is_actor else self._of_structs
-        return PyName(f"{wanted}_" if wanted in taken else wanted)
+        return PyName(f"{wanted}_" if wanted in self._taken[owner] else wanted)
 
     def annotation(self, type_: ir.ValueType | None, later: frozenset[str] = frozenset()) -> PyExpr:
         """Write a type; `None` is that of what is called for what it does.
@@ -101,13 +117,16 @@ class TypeTable:
             outer = "list" if is_list else str(self._uses.name("Range"))
             return PyExpr(f"{outer}[{self.annotation(type_.element, later)}]", Level.ATOM)
         if type_.kind is ir.Kind.ENUM:
-            return name_expression(self._uses.enum(type_, self._enum_name(type_)))
+            name = self._enum_name(type_)
+            if enum_key(type_.name, type_.members) in self._imported:
+                return name_expression(name)
+            return name_expression(self._uses.enum(type_, name))
         if type_.name in PHYSICAL_TYPES:
             return name_expression(self._uses.physical_type(PHYSICAL_TYPES[type_.name]))
         plain = ANNOTATIONS.get(type_.kind.value)
         if plain is not None:
             return name_expression(PyName(plain))
-        name = self.class_of((type_.name,))
+        name = self.class_or_object(type_.name)
         return literal(str(name)) if type_.name in later else name_expression(name)
 
     def _enum_name(self, type_: ir.ValueType) -> PyName:
@@ -115,7 +134,7 @@ class TypeTable:
         wanted = class_name(type_.name)
         if not type_.members:
             return PyName(wanted)
-        key = f"enum {type_.name}: {', '.join(type_.members)}"
+        key = enum_key(type_.name, type_.members)
         if key not in self._classes:
             self._classes.add(key, wanted, "Enum")
         return self._classes[key]
@@ -136,18 +155,17 @@ class TypeTable:
 
     def lineage(self, type_: str) -> tuple[str, ...]:
         """Return a type and its bases, up to the first one of the library."""
-        names = [type_]
-        while names[-1] in self._own and (base := self._own[names[-1]].base) is not None:
-            names.append(base)
-        return tuple(names)
+        return ir.lineage(type_, self._own)
 
 
-def _seen_by_classes(own: Sequence[ir.UserType]) -> Iterator[str]:
-    """Yield the names that annotations and defaults in classes of structs use."""
-    yield from {*ANNOTATIONS.values(), "list", "dataclass", *CLASSES.values(), "Range"}
-    fields = [field for type_ in own for field in type_.fields]
-    yield from (class_name(f.type.name) for f in fields if f.type.kind is ir.Kind.ENUM)
-    defaults = (field.default for field in fields)
-    for part in (part for default in defaults if default is not None for part in ir.walk(default)):
+def _seen_by_class(own: ir.UserType) -> frozenset[str]:
+    """Return the names that annotations and defaults in the class of a struct use."""
+    names = {*ANNOTATIONS.values(), "list", "dataclass", *CLASSES.values(), "Range", "not_given"}
+    fields = own.all_fields
+    names.update(class_name(f.type.name) for f in fields if f.type.kind is ir.Kind.ENUM)
+    parameters = [each for method in own.methods for each in method.parameters]
+    defaults = [*(each.default for each in fields), *(each.default for each in parameters)]
+    for part in (part for each in defaults if each is not None for part in ir.walk(each)):
         if isinstance(part, ir.Quantity):
-            yield identifier(part.unit.name)
+            names.add(identifier(part.unit.name))
+    return frozenset(names)

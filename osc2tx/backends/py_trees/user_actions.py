@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr, literal
-from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
+from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import UserActionView
@@ -22,42 +22,45 @@ def action_key(owner: str, action: str) -> str:
     return f"action {owner}.{action}"
 
 
+def protocol_key(action: str) -> str:
+    """Return the key of the type of the function of an action, from that of the action."""
+    return f"type of {action}"
+
+
 def is_function(node: ir.Invoke) -> bool:
     """Return whether an action is no method of the runtime's actors."""
-    return node.is_own and not _is_method(node.owner, node.action)
+    return node.is_own and has_function(node.owner, node.action)
 
 
-def _is_method(owner: str, action: str) -> bool:
-    return f"{owner}.{action}" in catalogue().actions
+def has_function(owner: str, action: str) -> bool:
+    """Return whether a module needs a function for an action of the user's own."""
+    return f"{owner}.{action}" not in catalogue().actions
 
 
 def write_actions(
     actions: Iterable[ir.UserAction], names: NameTable, types: TypeTable, uses: Uses
 ) -> tuple[UserActionView, ...]:
-    """Return the view models of the functions, in their order.
+    """Return the view models of the functions that a module defines, in their order.
 
     Args:
-        actions: The actions that the module invokes.
-        names: Names of the module; those of the functions are added.
+        actions: Those actions.
+        names: Names of the module.
         types: All types that the module knows.
         uses: What the module has to import.
     """
-    return tuple(
-        _write(action, names, types, uses)
-        for action in actions
-        if not _is_method(action.owner, action.name)
-    )
+    return tuple(_write(action, names, types, uses) for action in actions)
 
 
 def _write(action: ir.UserAction, names: NameTable, types: TypeTable, uses: Uses) -> UserActionView:
     key = action_key(action.owner, action.name)
     uses.standard("typing", "Protocol")
+    uses.name("Behaviour")
     about = [f"Action `{action.owner}.{action.name}`.", *action.comments]
     if action.comments:
         about.insert(1, "")
     return UserActionView(
-        function=names.add(key, identifier(action.name), "_action"),
-        protocol=names.add(f"type of {key}", class_name(action.name), "Action"),
+        function=names[key],
+        protocol=names[protocol_key(key)],
         action=literal(identifier(action.name)),
         binder=uses.name("user_action"),
         docstring=tuple(PyDocLine.of(line) for line in about),
@@ -74,7 +77,7 @@ def _parameters(action: ir.UserAction, types: TypeTable, uses: Uses) -> Iterable
         label = ("label: str | None = None", "/", "*")
     written = [f"actor: {owner}", *label]
     for parameter in action.parameters:
-        annotation = str(types.annotation_or_object(parameter.type))
+        annotation = str(types.annotation(parameter.type))
         if parameter.type.kind is not ir.Kind.ACTOR:
             annotation = f"{uses.name('Late')}[{annotation}]"
         default = "" if parameter.has_default else " = ..."

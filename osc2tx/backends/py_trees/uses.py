@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import PyName, literal
 from osc2tx.backends.py_trees.naming import identifier
@@ -15,7 +17,7 @@ class Uses:
 
     def __init__(self) -> None:
         """Start with what every module needs."""
-        self._names = {"Behaviour", "Scenario", "main", "require_api"}
+        self._names = {"require_api"}
         self._modifiers: set[str] = set()
         self._standard: dict[str, set[str]] = {}
         self._standard_units: set[str] = set()
@@ -63,10 +65,7 @@ class Uses:
 
     def standard_imports(self) -> tuple[ImportView, ...]:
         """Return the import lines for Python's standard library."""
-        return tuple(
-            ImportView(module, tuple(PyName(name) for name in sorted(names, key=_isort_key)))
-            for module, names in sorted(self._standard.items())
-        )
+        return tuple(_import(module, names) for module, names in sorted(self._standard.items()))
 
     def imports(self) -> tuple[ImportView, ...]:
         """Return the import lines, sorted as isort sorts them."""
@@ -76,11 +75,7 @@ class Uses:
             (f"{RUNTIME}.modifiers", self._modifiers),
             (f"{RUNTIME}.units", self._standard_units),
         )
-        return tuple(
-            ImportView(module, tuple(PyName(name) for name in sorted(names, key=_isort_key)))
-            for module, names in groups
-            if names
-        )
+        return tuple(_import(module, names, module == RUNTIME) for module, names in groups if names)
 
     def units(self) -> tuple[UnitView, ...]:
         """Return the units that the module defines, by name."""
@@ -97,7 +92,11 @@ class Uses:
         )
 
 
-def _isort_key(name: str) -> tuple[int, str]:
+def _import(module: str, names: Iterable[str], is_long: bool = False) -> ImportView:
+    return ImportView(module, tuple(map(PyName, sorted(names, key=isort_key))), is_long)
+
+
+def isort_key(name: str) -> tuple[int, str]:
     """Constants, then classes, then the rest: the order of isort and ruff."""
     if name.isupper() and len(name) > 1:
         return 0, name

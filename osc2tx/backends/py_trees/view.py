@@ -65,10 +65,17 @@ class MethodView:
 
 @dataclass(frozen=True, slots=True)
 class ImportView:
-    """`from module import names`."""
+    """`from module import names`.
+
+    Attributes:
+        module: Of the names.
+        names: In order, each a name or `name as other`.
+        is_long: Whether each name has a line, so that one more changes no other line.
+    """
 
     module: str
-    names: tuple[PyName, ...]
+    names: tuple[PyName | PyExpr, ...]
+    is_long: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +88,17 @@ class UnitView:
 
 @dataclass(frozen=True, slots=True)
 class EnumView:
-    """An enum that the scenario's own files declare or extend, as a type of the module."""
+    """An enum that the scenario's own files declare or extend, as a type of the module.
+
+    Attributes:
+        name: Its name.
+        members: Its members.
+        copied: Why it is a copy, if it is one.
+    """
 
     name: PyName
     members: tuple[PyExpr, ...]
+    copied: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,21 +117,25 @@ class TypeView:
 
     Attributes:
         class_name: Its name.
-        base: What it inherits from.
-        kind: Its name in the source.
+        bases: What it inherits from.
+        kinds: Its name in the source; for a combination also those of the types it combines.
+        above: The class whose kinds follow; a struct has none.
         is_actor: An actor takes its fields by its constructor, a struct is a dataclass.
         docstring: Lines of its docstring.
         fields: Its own fields.
         methods: Its own methods.
+        copied: Why it is a copy, if it is one.
     """
 
     class_name: PyName
-    base: PyName | None
-    kind: PyExpr
+    bases: tuple[PyName, ...]
+    kinds: tuple[PyExpr, ...]
+    above: PyName | None
     is_actor: bool
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
     methods: tuple[FunctionView, ...]
+    copied: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +149,7 @@ class UserActionView:
         binder: What makes the function.
         docstring: Lines of its docstring.
         parameters: As they are written, the actor first.
+        copied: Why it is a copy, if it is one.
     """
 
     function: PyName
@@ -139,11 +158,12 @@ class UserActionView:
     binder: PyName
     docstring: tuple[PyDocLine, ...]
     parameters: tuple[PyExpr, ...]
+    copied: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class ScenarioView:
-    """A scenario class."""
+    """A scenario class; `copied` says why it is a copy, if it is one."""
 
     class_name: PyName
     docstring: tuple[PyDocLine, ...]
@@ -153,6 +173,7 @@ class ScenarioView:
     placements: tuple[StatementView, ...]
     methods: tuple[MethodView, ...]
     end_comments: tuple[PyComment, ...] = ()
+    copied: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +183,8 @@ class ModuleView:
     Attributes:
         docstring: Lines of its docstring.
         imports: What it takes from the runtime.
+        siblings: What it takes from the modules of imported files.
+        root: The folder where those are found, if it is not that of the module.
         api_level: Level of the runtime it is made for.
         units: Units it defines.
         enums: Enums it defines.
@@ -170,17 +193,19 @@ class ModuleView:
         actions: Actions of the user's own.
         scenarios: Its classes.
         mains: The classes that it can run as a script.
-        shown: The class whose tree viewers get.
+        shown: The class whose tree viewers get, if there is any.
     """
 
     docstring: tuple[PyDocLine, ...]
     imports: tuple[ImportView, ...]
+    siblings: tuple[ImportView, ...]
+    root: PyExpr | None
     api_level: int
     units: tuple[UnitView, ...]
     enums: tuple[EnumView, ...]
     scenarios: tuple[ScenarioView, ...]
     mains: tuple[PyName, ...]
-    shown: PyName
+    shown: PyName | None
     standard_imports: tuple[ImportView, ...] = ()
     types: tuple[TypeView, ...] = ()
     actions: tuple[UserActionView, ...] = ()

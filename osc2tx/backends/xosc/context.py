@@ -8,7 +8,7 @@ from pathlib import Path
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.map_search import Stretch
+from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Roads, map_places, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
@@ -44,7 +44,7 @@ class Context:
         at_start: The states after the initial placement.
         init_gaps: Metres by which an actor starts behind another one.
         automatic_lights: What shines of vehicles whose lights follow the weather, by name.
-        stretches: Where declared roads and lanes are on the map, once they have been looked for.
+        segments: Where declared roads and lanes are on the map, once they have been looked for.
         init_globals: Actions of `Init` that concern no entity.
         weather: What the scenario has said about it up to the present place of the tree.
         monitors: Value at the start of monitors, by name.
@@ -93,7 +93,7 @@ class Context:
         self.weather: dict[str, float] = {}
         self.init_globals: list[Element] = []
         self.init_gaps: dict[tuple[str, str], float] = {}
-        self.stretches: dict[str, Stretch] | None = None
+        self.segments: dict[str, MapSegment] | None = None
         self.automatic_lights: dict[str, str] = {}
         self.variables: dict[str, tuple[str, str]] = {}
         self.lamps: dict[str, tuple[str, ...] | None] = {}

@@ -38,7 +38,7 @@ class XmlScenario:
         xml: The document; `None` if something in it cannot be said.
         parameters: A document with the values that open parameters may have; `None` without any.
         report: What became of its constructs.
-        report_json: The same as JSON.
+        report_json: What is not exact of it, and remarks, as JSON; `None` if there is nothing.
         origins: Where the members stand that the events of the document belong to, by event.
         map_places: Where its map was looked for, so that a change is noticed.
     """
@@ -48,7 +48,7 @@ class XmlScenario:
     xml: str | None
     parameters: str | None
     report: LossReport
-    report_json: str
+    report_json: str | None
     origins: Mapping[str, Span]
     map_places: tuple[Path, ...]
 

@@ -1,25 +1,25 @@
 """The loss report as JSON; `docs/xml-report.md` says what it holds.
 
-It is reviewed with the documents, so it has no line numbers: a place is the path of labels to a
-construct and its text. Diagnostics of the same constructs have lines and columns.
+It is reviewed with the documents, so it has neither line numbers nor counts: a place is the path of
+labels to a construct and its text. Diagnostics of the same constructs have lines and columns.
 """
 
 from __future__ import annotations
 
 import json
-from collections import Counter
 from collections.abc import Sequence
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Entry, Grade, LossReport
 from osc2tx.diagnostics import Span
 from osc2tx.ir.source_text import one_line
+from osc2tx_text import in_json
 
-FORMAT = 2
+FORMAT = 3
 
 
-def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) -> str:
-    """Return the report of a scenario.
+def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) -> str | None:
+    """Return the report of a scenario; none if all of it is exact and needs no remark.
 
     Args:
         report: What became of its constructs.
@@ -29,6 +29,8 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
     exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
     lost = [entry for entry in report.entries if entry.grade is not Grade.EXACT]
     notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)
+    if not lost and not notes:
+        return None
     head: dict[str, object] = {
         "format": FORMAT,
         "scenario": scenario.name,
@@ -37,7 +39,6 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
         "xml_profile": report.options.profile,
         "allow_approx": report.options.allow_approx,
         "written": report.is_expressible,
-        "exact": dict(sorted(Counter(entry.construct for entry in exact).items())),
     }
     lists: dict[str, Sequence[object]] = {
         "notes": list(notes),
@@ -55,7 +56,7 @@ def _list(values: Sequence[object]) -> str:
 
 
 def _text(value: object) -> str:
-    return json.dumps(value, ensure_ascii=False)
+    return in_json(json.dumps(value, ensure_ascii=False))
 
 
 def _entry_data(entry: Entry, module: ir.Module) -> dict[str, object]:

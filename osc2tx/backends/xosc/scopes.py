@@ -74,7 +74,9 @@ def open_scopes(
 
 def key_of(path: str, parameter: ir.Parameter) -> str:
     """Return what tells a parameter of a scope apart; a global one is the same everywhere."""
-    return parameter.name if not path or parameter.is_global else f"{path}.{parameter.name}"
+    if parameter.is_global:
+        return ir.setting_name(parameter.name)
+    return f"{path}.{parameter.name}" if path else parameter.name
 
 
 class _Place(NamedTuple):
@@ -92,6 +94,7 @@ class _Opener:
         self._names = Names()  # `|my car|` and `my_car` are two actors
         self._paths = Names()
         self._chosen = chosen
+        self._shared: dict[str, CastMember] = {}  # global actors
 
     def open(
         self,
@@ -110,16 +113,10 @@ class _Opener:
         values = Values(scenario, {**chosen, **given}, self._types)
         for name, error in (unknown or {}).items():
             values.hide(name, error)
-        prefix = place.prefix
-        scope = Scope(scenario, values, dict(handed_in), prefix, place.path)
+        scope = Scope(scenario, values, dict(handed_in), place.prefix, place.path)
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
-                member = cast_member(declaration, prefix + declaration.name, values)
-                if member is not None:
-                    member = replace(member, name=self._names.new(member.name))
-                    scope.cast[declaration.name] = member
-                    scope.own.append(member)
-                    values.know(declaration.name, member.sizes)
+                self._join(declaration, scope)
         if place.depth < MOST_DEPTH:
             first = _first_invocations(scenario.body)
             for node in ir.walk_behaviors(scenario.body):
@@ -127,6 +124,21 @@ class _Opener:
                     inner = self._invoke(node, scope, place.depth)
                     inner.is_first = scope.is_first and node.span in first
         return scope
+
+    def _join(self, actor: ir.Actor, scope: Scope) -> None:
+        """Add an actor to the cast; a global one is the same everywhere."""
+        shared = ir.setting_name(actor.name) if actor.is_global else None
+        member = None if shared is None else self._shared.get(shared)
+        if member is None:
+            member = cast_member(actor, shared or scope.prefix + actor.name, scope.values)
+            if member is None:
+                return
+            member = replace(member, name=self._names.new(member.name))
+            scope.own.append(member)
+            if shared is not None:
+                self._shared[shared] = member
+        scope.cast[actor.name] = member
+        scope.values.know(actor.name, member.sizes)
 
     def _invoke(self, node: ir.InvokeScenario, scope: Scope, depth: int) -> Scope:
         given: dict[str, Constant] = {}

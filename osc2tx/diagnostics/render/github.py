@@ -1,7 +1,7 @@
 """Diagnostics as commands of GitHub's workflows: they appear beside the lines of a pull request.
 
-A command ends with its line, and what a scenario says must not begin another one; so every part of
-it is escaped as GitHub's runner undoes it.
+A command ends with its line, and what a scenario says must not begin another one: every part of it
+is made visible, and escaped as GitHub's runner undoes it.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
+from osc2tx_text import visible, without_commands
 
 
 def render_github(report: Report) -> str:
@@ -46,7 +47,7 @@ def _command(diagnostic: Diagnostic, report: Report) -> str:
         lines.append(f"{place}: {label.message}")
     if diagnostic.help is not None:
         lines.append(f"help: {diagnostic.help}")
-    return f"::{diagnostic.severity.value} {_properties(properties)}::{_data(chr(10).join(lines))}"
+    return f"::{diagnostic.severity.value} {_properties(properties)}::{_data(*lines)}"
 
 
 def _properties(values: dict[str, object]) -> str:
@@ -57,5 +58,6 @@ def _property(text: str) -> str:
     return _data(text).replace(":", "%3A").replace(",", "%2C")
 
 
-def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+def _data(*lines: str) -> str:
+    shown = (without_commands(visible(line)) for line in lines)
+    return "%0A".join(line.replace("%", "%25") for line in shown)

@@ -14,6 +14,7 @@ from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx.diagnostics.source import Span
+from osc2tx_text import in_json
 
 SCHEMA_VERSION = 1
 
@@ -48,7 +49,7 @@ def render_json(report: Report, *, version: str) -> str:
     }
     if report.failure is not None:
         document["failure"] = report.failure
-    return json.dumps(document, indent=2) + "\n"
+    return in_json(json.dumps(document, indent=2)) + "\n"
 
 
 def _diagnostic(diagnostic: Diagnostic, folder: Path | None) -> dict[str, Any]:

@@ -7,6 +7,7 @@ left out: GitHub would show them as open alerts in spite of their `suppressions`
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -16,6 +17,7 @@ from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.render.explanation import code_block
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx.diagnostics.source import SourceFile, Span
+from osc2tx_text import in_json, visible
 
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -50,7 +52,8 @@ def render_sarif(report: Report, *, version: str, failed: bool = False) -> str:
         "columnKind": "utf16CodeUnits",
         "results": results,
     }
-    return json.dumps({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}, indent=2) + "\n"
+    document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+    return in_json(json.dumps(document, indent=2)) + "\n"
 
 
 def _rule(entry: Code) -> dict[str, Any]:
@@ -58,7 +61,7 @@ def _rule(entry: Code) -> dict[str, Any]:
         "id": entry.code,
         "name": "".join(part.capitalize() for part in entry.slug.split("-")),
         "shortDescription": {"text": _escape(entry.summary)},
-        "help": {"text": _escape(_help(entry)), "markdown": _escape(_markdown_help(entry))},
+        "help": {"text": _escape(_help(entry)), "markdown": _markdown_help(entry)},
         "defaultConfiguration": {"level": entry.severity.value},
     }
 
@@ -79,7 +82,7 @@ def _markdown_help(entry: Code) -> str:
         text += f"\n\nFaulty:\n\n{code_block(explanation.faulty)}"
         if explanation.fixed:
             text += f"\n\nMended:\n\n{code_block(explanation.fixed)}"
-    return text
+    return "\n".join(map(_escape, text.split("\n")))
 
 
 def _result(diagnostic: Diagnostic, index: int, folder: Path | None) -> dict[str, Any]:
@@ -90,7 +93,7 @@ def _result(diagnostic: Diagnostic, index: int, folder: Path | None) -> dict[str
         "ruleId": diagnostic.code,
         "ruleIndex": index,
         "level": diagnostic.severity.value,
-        "message": {"text": _escape("\n".join(lines))},
+        "message": {"text": "\n".join(map(_escape, lines))},
     }
     if diagnostic.primary is not None:
         result["locations"] = [{"physicalLocation": _location(diagnostic.primary, folder)}]
@@ -124,10 +127,10 @@ def _location(span: Span, folder: Path | None) -> dict[str, Any]:
 def _artifact(source: SourceFile, folder: Path | None) -> dict[str, str]:
     name = display_name(source, folder)
     if source.path is None:
-        return {"uri": quote(name)}
+        return {"uri": quote(os.fsencode(name))}
     if Path(name).is_absolute():
         return {"uri": Path(name).as_uri()}
-    return {"uri": quote(name), "uriBaseId": "%SRCROOT%"}
+    return {"uri": quote(os.fsencode(name)), "uriBaseId": "%SRCROOT%"}
 
 
 def _position(source: SourceFile, offset: int) -> tuple[int, int]:
@@ -138,4 +141,4 @@ def _position(source: SourceFile, offset: int) -> tuple[int, int]:
 
 def _escape(text: str) -> str:
     """Return a text as a SARIF message that says it: braces and links have a meaning there."""
-    return text.replace("{", "{{").replace("}", "}}").replace("](", "\\](")
+    return visible(text).replace("{", "{{").replace("}", "}}").replace("](", "\\](")

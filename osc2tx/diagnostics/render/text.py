@@ -15,6 +15,7 @@ from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.report import display_name
 from osc2tx.diagnostics.source import SourceFile, Span
+from osc2tx_text import visible
 
 TAB_WIDTH = 4
 MAX_CHARACTERS = 160  # of a source line; of longer ones only the part around the span is shown
@@ -44,7 +45,7 @@ def render_text(diagnostic: Diagnostic, *, color: bool = False, folder: Path | N
     severity = diagnostic.severity
     head = paint(f"{severity.value}[{diagnostic.code}]", _SEVERITY_COLORS[severity])
     section = CODES[diagnostic.code].section if diagnostic.code in CODES else ""
-    message = clean(diagnostic.message) + (f" (§{section})" if section else "")
+    message = visible(diagnostic.message) + (f" (§{section})" if section else "")
     spans = [s for s in (diagnostic.primary, *(x.span for x in diagnostic.labels)) if s is not None]
     gutter = max((len(str(_end_line(span))) for span in spans), default=1) + 1
 
@@ -57,11 +58,11 @@ def render_text(diagnostic: Diagnostic, *, color: bool = False, folder: Path | N
         marks = _snippet(diagnostic.primary, gutter) if diagnostic.primary.source.text else []
         lines += [paint(text, _SEVERITY_COLORS[severity]) if m else text for m, text in marks]
     for label in diagnostic.labels:
-        lines.append(f"  {_place(label.span, folder)}: {clean(label.message)}")
+        lines.append(f"  {_place(label.span, folder)}: {visible(label.message)}")
         lines += [paint(text, _BLUE) if m else text for m, text in _snippet(label.span, gutter)]
-    lines += [f"  note: {clean(note)}" for note in diagnostic.notes]
+    lines += [f"  note: {visible(note)}" for note in diagnostic.notes]
     if diagnostic.help is not None:
-        lines.append(f"  {paint('help', _BOLD)}: {clean(diagnostic.help)}")
+        lines.append(f"  {paint('help', _BOLD)}: {visible(diagnostic.help)}")
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -74,7 +75,7 @@ def _paint(text: str, style: str) -> str:
 
 
 def _place(span: Span, folder: Path | None) -> str:
-    return clean(f"{display_name(span.source, folder)}:{span.line}:{span.column}")
+    return visible(f"{display_name(span.source, folder)}:{span.line}:{span.column}")
 
 
 def _end_line(span: Span) -> int:
@@ -129,23 +130,10 @@ def _cells(text: str) -> list[str]:
     cells: list[str] = []
     column = 0
     for char in text:
-        cell = " " * (TAB_WIDTH - column % TAB_WIDTH) if char == "\t" else _visible(char)
+        cell = " " * (TAB_WIDTH - column % TAB_WIDTH) if char == "\t" else visible(char)
         cells.append(cell)
         column += _width(cell)
     return cells
-
-
-def _visible(char: str) -> str:
-    """Replace control, direction and other invisible characters."""
-    return char if char == " " or unicodedata.category(char) not in _INVISIBLE else "\ufffd"
-
-
-_INVISIBLE = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
-
-
-def clean(text: str) -> str:
-    """Return text that stays on its line and does not steer the terminal."""
-    return "".join(map(_visible, text))
 
 
 def _width(cell: str) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import member_alias, standard_member, write_instead
 from osc2tx.semantics.binding import find_parameter
+from osc2tx.semantics.builtins import LIST_METHODS, RANGE_METHODS
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.expressions.names import value_type
@@ -13,7 +14,7 @@ from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import resolve_type
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import Member, Symbol, TypeSymbol
-from osc2tx.semantics.types import BOOL, ERROR, EVENT, OBJECT, ListType, Type
+from osc2tx.semantics.types import BOOL, ERROR, EVENT, OBJECT, ListType, RangeType, Type
 from osc2tx.syntax import ast
 
 
@@ -36,7 +37,10 @@ def resolve_member(
         return None
     owner = symbol_of(base)
     if owner is None:
-        r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`")
+        is_method = isinstance(base, ListType) and node.name.text in LIST_METHODS
+        is_method |= isinstance(base, RangeType) and node.name.text in RANGE_METHODS
+        call = f"it is a method: write `{node.span.text}()`" if is_method else None
+        r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`", help=call)
         return None
     member = find_member(r, owner, node.name, env.context)
     if member is None and (standard := member_alias(r, owner, node.name)):

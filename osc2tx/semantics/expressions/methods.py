@@ -14,6 +14,7 @@ from osc2tx.semantics.builtins import (
     range_method_result,
 )
 from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.everyday_words import CONDITIONS
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
 from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.model import Binding
@@ -32,6 +33,7 @@ from osc2tx.semantics.types import (
     BOOL,
     ERROR,
     INT,
+    OBJECT,
     UINT,
     VOID,
     ListType,
@@ -68,7 +70,8 @@ def resolve_call(
             symbol = _find_plain(r, callee, env)
             receiver = None
         case ast.MemberAccess():
-            base = type_itself(r, callee.base, callee.name, env) or r.type_of(callee.base, env)
+            base = type_itself(r, callee.base, callee.name, env)
+            base = base or r.type_of(callee.base, env, OBJECT)
             if isinstance(base, ListType | RangeType) and isinstance(node, ast.Call):
                 return _resolve_operator(r, node, callee, base, env)
             symbol = _find_member(r, callee, base, env)
@@ -90,7 +93,8 @@ def type_itself(
 ) -> Type | None:
     """Return the struct or actor type that stands before the dot in place of an instance.
 
-    Sound where the type has no fields, for then all its instances are alike.
+    Sound where the type has no fields, for then all its instances are alike. Of other actor types
+    it is an object (`type_receivers`).
     """
     if not isinstance(receiver, ast.NameExpression):
         return None
@@ -101,9 +105,11 @@ def type_itself(
         return None
     symbol = named[0]
     kind = "struct" if isinstance(symbol, StructSymbol) else "actor type"
-    r.references[receiver] = symbol
     members = [m for ancestor in supertypes(symbol) for m in ancestor.members.values()]
     is_static = not any(isinstance(m, FieldSymbol) for m in members)
+    if isinstance(symbol, ActorSymbol) and not is_static:
+        return None
+    r.references[receiver] = symbol
     if is_static and r.relaxes(
         "OSC618",
         receiver.span,
@@ -148,6 +154,27 @@ def call_by_statement(r: Resolution, node: ast.ModifierApplication, env: Environ
 
 def _find_plain(r: Resolution, callee: ast.NameExpression, env: Environment) -> MethodSymbol | None:
     symbol = lookup_value(r, callee.name, env)
+    word = callee.name.text
+    if symbol is None and word in CONDITIONS:
+        help_ = f"name it, `event e is {word}(…)`, or wait for one after the other"
+        r.report(
+            "OSC201",
+            callee.span,
+            f"`{word}(…)` is an event condition, which stands alone",
+            help=help_,
+        )
+        return None
+    if symbol is None and word == "sample":
+        help_ = "declare the field with `var`"
+        r.report("OSC201", callee.span, "only a variable is sampled", help=help_)
+        return None
+    named = r.scope.select(r.scope.types_named(word), callee.name, env.context)
+    if symbol is None and named and isinstance(named[0], StructSymbol):
+        help_ = (
+            f"declare a field, `name: {word} with:`, and constrain its members by `keep(it.… == …)`"
+        )
+        r.report("OSC201", callee.span, f"`{word}` is a struct, not a method", help=help_)
+        return None
     if symbol is None:
         r.report(
             "OSC201",

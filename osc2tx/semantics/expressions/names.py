@@ -6,9 +6,11 @@ from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
+from osc2tx.semantics.everyday_words import NAMES, plain_word
+from osc2tx.semantics.expressions.type_receivers import type_as_receiver
 from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
-from osc2tx.semantics.resolve_types import resolve_type_name
+from osc2tx.semantics.resolve_types import choose, resolve_type_name
 from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
     EnumSymbol,
@@ -31,14 +33,27 @@ def infer_name(
     member = enum_member_of(node.name, expected) or _member_by_alias(r, node.name, expected)
     symbol = lookup_value(r, node.name, env, quiet=member is not None)
     if member is not None and (symbol is None or not _has_type(symbol, expected)):
-        r.references[node] = member
-        return EnumType(member.enum)
+        return _refer_to_member(r, node, member, env)
     if symbol is None:
         symbol = _lookup_in_invoked(r, node, env)
+    if symbol is None and expected == OBJECT:
+        receiver = type_as_receiver(r, node, env)
+        if receiver is not None:
+            return receiver
     if symbol is None:
         return _infer_unknown(r, node, env, expected)
     r.references[node] = symbol
     return value_type(r, symbol, node)
+
+
+def _refer_to_member(
+    r: Resolution, node: ast.NameExpression, member: EnumMemberSymbol, env: Environment
+) -> Type:
+    """Take a bare name for an enum member; its namespace has to offer it here (§7.7.4.2)."""
+    if member.origin != "builtin":
+        choose(r, [member], node.name, env.context)
+    r.references[node] = member
+    return EnumType(member.enum)
 
 
 def _has_type(symbol: Symbol, expected: Type | None) -> bool:
@@ -110,6 +125,7 @@ def _infer_unknown(
 ) -> Type:
     name = node.name
     members = [] if expected == OBJECT else r.scope.enum_members_named(name.text)
+    members = [m for m in members if r.scope.select([m], name, env.context)] or members
     if isinstance(expected, EnumType):
         r.report(
             "OSC208",
@@ -123,10 +139,9 @@ def _infer_unknown(
     if members and expected == ERROR:
         return ERROR
     if members and expected is None:
-        return _infer_unexpected_member(r, node, members)
+        return _infer_unexpected_member(r, node, members, env)
     if members and symbol_of(expected or ERROR) is None:
-        r.references[node] = members[0]
-        return EnumType(members[0].enum)
+        return _refer_to_member(r, node, members[0], env)
     if types := r.scope.select(r.scope.types_named(name.text), name, env.context):
         r.report(
             "OSC316",
@@ -139,7 +154,9 @@ def _infer_unknown(
         "OSC201",
         node.span,
         f"`{name}` is not defined",
-        help=_field_elsewhere(r, name) or did_you_mean(name.text, visible_names(r, env)),
+        help=plain_word(name.text, NAMES)
+        or _field_elsewhere(r, name)
+        or did_you_mean(name.text, visible_names(r, env)),
     )
     return ERROR
 
@@ -155,11 +172,10 @@ def _field_elsewhere(r: Resolution, name: ast.Name) -> str | None:
 
 
 def _infer_unexpected_member(
-    r: Resolution, node: ast.NameExpression, members: list[EnumMemberSymbol]
+    r: Resolution, node: ast.NameExpression, members: list[EnumMemberSymbol], env: Environment
 ) -> Type:
     if len(members) == 1:
-        r.references[node] = members[0]
-        return EnumType(members[0].enum)
+        return _refer_to_member(r, node, members[0], env)
     choices = ", ".join(f"`{m.enum.name}!{m.name}`" for m in members[:4])
     r.report(
         "OSC313",

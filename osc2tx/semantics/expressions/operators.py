@@ -9,6 +9,7 @@ from osc2tx.semantics.conversions import (
     dimension_of,
     is_numeric,
 )
+from osc2tx.semantics.everyday_words import SPEEDS
 from osc2tx.semantics.member_lookup import lookup_value
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
@@ -88,7 +89,24 @@ def _operand_types(r: Resolution, node: ast.Binary, env: Environment) -> tuple[T
         right = r.type_of(node.right, env)
         return r.type_of(node.left, env, right), right
     left = r.type_of(node.left, env)
+    if _divides_by_unit(r, node, env):
+        return left, ERROR
     return left, r.type_of(node.right, env, left)
+
+
+def _divides_by_unit(r: Resolution, node: ast.Binary, env: Environment) -> bool:
+    """Report `72km/h`, where `h` stands for nothing; the standard has a unit for it (§7.3.4)."""
+    number, below = node.left, node.right
+    if node.operator is not Op.DIVIDE or not isinstance(number, ast.PhysicalLiteral):
+        return False
+    if not isinstance(below, ast.NameExpression) or not _lacks_value(r, below, env):
+        return False
+    unit = SPEEDS.get((number.unit.text, below.name.text))
+    if unit is None:
+        return False
+    help_ = f"write `{number.value}{unit}`"
+    r.report("OSC201", below.span, f"`{below.name}` is not defined", help=help_)
+    return True
 
 
 def _lacks_value(r: Resolution, operand: ast.Expression, env: Environment) -> bool:
@@ -104,6 +122,8 @@ def _infer_in(r: Resolution, node: ast.Binary, env: Environment) -> Type:
         return BOOL
     match right:
         case RangeType():
+            if isinstance(left, RangeType):
+                r.needs_standard(node.left.span, "a range on the left of `in`")
             value = left.element if isinstance(left, RangeType) else left
             _check_comparable(r, node, value, right.element)
         case ListType():

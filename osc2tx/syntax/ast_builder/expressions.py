@@ -11,8 +11,8 @@ from osc2tx.syntax.ast_builder.base import BuilderBase, Tree
 from osc2tx.syntax.literals import (
     MAX_NEGATED,
     MAX_UINT,
-    float_value,
     integer_value,
+    is_integer,
     split_name,
     split_physical,
     string_value,
@@ -131,14 +131,16 @@ class ExpressionBuilder(BuilderBase):
         return position
 
     def _check_plus(self, children: list[Tree], position: int) -> None:
-        """`+` is a sign of numbers only."""
+        """`+` is a sign of floats only (§7.2.1.5.2)."""
         after = children[position + 1]
-        is_number = isinstance(after, int) and (
-            self._types[after] in _NUMBERS or self._text(after) in ("inf", "nan")
-        )
-        if not is_number:
-            span = self._span(children[position], children[position])
+        kind = self._types[after] if isinstance(after, int) else None
+        text = self._text(after) if isinstance(after, int) else ""
+        span = self._span(children[position], children[position])
+        if kind not in _NUMBERS and text not in ("inf", "nan"):
             self._report("OSC100", span, "a sign `+` stands before a number only")
+        elif kind == t.INTEGER or (kind == t.PHYSICAL and is_integer(split_physical(text)[0])):
+            message = "a sign `+` stands before numbers with a point or an exponent only"
+            self._report("OSC100", span, message, f"write `{text}`")
 
     def _reduce(self, operands: list[_Operand], pending: list[_Pending], level: int) -> None:
         """Apply the waiting operators that bind at least as strongly as `level`."""
@@ -203,7 +205,7 @@ class ExpressionBuilder(BuilderBase):
         return value
 
     def _float(self, text: str, span: Span) -> float:
-        value = float_value(text)
+        value = float(text)
         if value == float("inf"):
             message = "the number is too large for a float of 64 bits"
             self._report("OSC107", span, message, "write `inf` for an infinite value")
@@ -211,7 +213,7 @@ class ExpressionBuilder(BuilderBase):
 
     def _physical(self, text: str, span: Span) -> ast.Expression:
         number, unit = split_physical(text)
-        value = self._integer(number, span) if number.isdigit() else self._float(number, span)
+        value = self._integer(number, span) if is_integer(number) else self._float(number, span)
         namespace, name = split_name(unit)
         unit_span = Span(self._source, span.start + len(number), span.end)
         unit_name = ast.Name(span=unit_span, text=name, namespace=namespace)

@@ -188,5 +188,8 @@ class NameStatementBuilder(MemberBuilder):
         if len(tree.children) == 1 and self._types_of(tree.children[0]) == t.ID:
             return self._name(tree.children[0])
         span = self._tree_span(tree)
-        self._report("OSC100", span, f"the name of {what} is a single name")
+        message = f"the name of {what} is a single name"
+        if span.text[:1].isdigit():
+            message = f"`{span.text}` is no name: one begins with a letter or `_`"
+        self._report("OSC100", span, message)
         return None

@@ -3,24 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, TypeVar
 
 from osc2tx_rules import Rule
 from osc2tx_runtime.errors import (
-    USER_CODE_ERRORS,
-    ScenarioError,
+    OwnCode,
     UnsupportedError,
-    blame,
     is_own,
+    name_of,
 )
 from osc2tx_runtime.language.method import Method
-from osc2tx_runtime.language.tree.base import FAILURE, INVALID, RUNNING, SUCCESS, Leaf, Status
+from osc2tx_runtime.language.tree.base import (
+    FAILURE,
+    INVALID,
+    RUNNING,
+    SUCCESS,
+    Leaf,
+    Status,
+    checked,
+)
 from osc2tx_runtime.language.tree.duration_limits import Duration, Limits
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.declared import BaseActor
     from osc2tx_runtime.language.modifier import Modifier
     from osc2tx_runtime.world.commands import Command
+    from osc2tx_runtime.world.deviation import Deviation
 
 __all__ = ["Action", "ActionOptions"]
 
@@ -38,8 +47,9 @@ class Action(Leaf):
     """One action of one actor.
 
     Subclasses write `on_start`, `on_update`, `on_stop`. They read the world's snapshot
-    (`self.context.world.state(...)`, fields of actors) and hand in commands with `self.command`
-    and changes of state with `self.effect`; both act from this instant to the next.
+    (`self.context.world.state(...)`, fields of actors) and hand in commands with `self.command`,
+    which act from this instant to the next, and changes of state with `self.effect`, which are
+    carried out at this instant: the action does not end before they are.
 
     Attributes:
         method: How the class is registered: name, slots, ending.
@@ -88,6 +98,7 @@ class Action(Leaf):
         self.name = self.label or self.action_name
         self.open_ended = method.ends == "open" and self._limits is None
         self.instant = method.ends == "instant" and self._limits is None
+        self._momentary = method.is_momentary and self._limits is None
 
     # --- what subclasses write ---
 
@@ -117,9 +128,9 @@ class Action(Leaf):
         Args:
             what: What changes: `speed`, `lights`.
             value: The new value; parallel actions may only want equal ones.
-            apply: Carries it out once the instant is settled.
+            apply: Carries it out at this instant.
         """
-        self.context.effect((what, self.actor.id), self, value, apply)
+        self.context.effect((what, self.actor.id), self, value, partial(with_blame, self, apply))
 
     def length(self) -> int | None:
         """Return how many steps the action takes; None where only the run can tell.
@@ -127,7 +138,7 @@ class Action(Leaf):
         A subclass that knows overrides it; a `duration` is known anyway.
         """
         ends = self.registered.ends
-        content = 0 if ends == "instant" else None
+        content = 0 if self.registered.is_momentary else None
         return content if self._limits is None else self._limits.length(content, ends == "open")
 
     @property
@@ -145,7 +156,7 @@ class Action(Leaf):
     def setup(self, **kwargs: Any) -> None:
         """Check the modifiers, then take the context."""
         super().setup(**kwargs)
-        wrong = [m for m in self.modifiers if not self.takes(m)]
+        wrong = [m for m in self.modifiers if not with_blame(self, partial(self.takes, m))]
         if wrong:
             names = ", ".join(dict.fromkeys(f"{type(modifier).__name__}" for modifier in wrong))
             raise UnsupportedError(
@@ -165,23 +176,48 @@ class Action(Leaf):
     def update(self) -> Status:
         """Update, within the duration."""
         limits = self._limits
+        status = self._content()
         if limits is None:
-            return with_blame(self, self.on_update)
-        status = SUCCESS if limits.content_ended else with_blame(self, self.on_update)
-        return limits.judge(status, self.registered.ends == "open")
+            return status
+        holds = status is SUCCESS and self.fills_its_time()
+        return limits.judge(RUNNING if holds else status, holds or self.registered.ends == "open")
+
+    def fills_its_time(self) -> bool:
+        """Return whether what it has reached goes on for its duration."""
+        return self.registered.ends != "goal"
+
+    def _content(self) -> Status:
+        """Update; it does not end before its effects are carried out."""
+        status = checked(self, with_blame(self, self.on_update))
+        pending = status is SUCCESS and self.context.effects.is_pending(self)
+        return RUNNING if pending else status
+
+    def lateness(self) -> float:
+        """Return that of the duration, if it ends the action."""
+        late = None if self._limits is None else self._limits.late
+        return super().lateness() if late is None else late
 
     def terminate(self, new_status: Status) -> None:
         """Clean up, release the slots and write the trace."""
         try:
             with_blame(self, self.on_stop)
         finally:
+            if new_status is INVALID:
+                self.context.effects.withdraw(self)
+            momentary = self._momentary and new_status is SUCCESS
             for slot in self.slots:
-                self.context.release(self.actor.id, slot, self)
+                self.context.release(self.actor.id, slot, self, momentary)
             if new_status is FAILURE:
                 self.context.trace.action("fail", self, self.feedback_message)
             else:
                 reason = "stopped" if new_status is INVALID else None
-                self.context.trace.action("end", self, reason)
+                self.context.trace.action("end", self, reason, self._deviation())
+
+    def _deviation(self) -> Deviation | None:
+        """How far the actor is from where it was to be, if that was measured."""
+        if not self.slots:
+            return None
+        return self.context.world.deviation(self.actor.id, self.slots)
 
 
 def with_blame(action: Action, function: Callable[[], T]) -> T:
@@ -190,10 +226,7 @@ def with_blame(action: Action, function: Callable[[], T]) -> T:
     Raises:
         ScenarioError: If the class of the action does not come from this library.
     """
-    try:
+    if not is_own(type(action)):
         return function()
-    except USER_CODE_ERRORS as error:
-        if not is_own(type(action)):
-            raise
-        text = f"{action.action_name}: {blame(type(action), error)}"
-        raise ScenarioError(text, action.source or None) from error
+    with OwnCode(f"{action.action_name}: {name_of(type(action))} raised", action.source):
+        return function()

@@ -25,11 +25,12 @@ class GivenValues:
         return name in self._values
 
     def word(self, name: str) -> str | None:
-        """Return a value as the DSL writes it, if it is a word there."""
+        """Return a value as the DSL writes it, if it is a word there; of an object what it is."""
         value = self._values[name]
         if isinstance(value, bool):
             return str(value).lower()
-        return value if isinstance(value, str) else None
+        word = value if isinstance(value, str) else getattr(value, "kind", None)
+        return word if isinstance(word, str) else None
 
     def number(self, name: str) -> float | None:
         """Return a value that is a number; None for one that is read late."""

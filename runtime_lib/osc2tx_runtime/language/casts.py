@@ -1,4 +1,4 @@
-"""Conversions of actors to more special types (§7.4.2.6)."""
+"""Conversions of actors and structs to more special types (§7.4.2.6)."""
 
 from __future__ import annotations
 
@@ -9,15 +9,17 @@ from osc2tx_runtime.language.declared import BaseActor
 
 __all__ = ["as_type"]
 
-ActorT = TypeVar("ActorT", bound=BaseActor)
+ObjectT = TypeVar("ObjectT")
 
 
-def as_type(actor: BaseActor, kind: type[ActorT]) -> ActorT:
-    """Return an actor as one of a more special type.
+def as_type(value: object, kind: type[ObjectT]) -> ObjectT:
+    """Return an actor or a struct as one of a more special type.
 
     Raises:
         ScenarioError: If it is none.
     """
-    if not isinstance(actor, kind):
-        raise ScenarioError(f"{actor.id} is no {kind.kinds[0]}", actor.source)
-    return actor
+    if isinstance(value, kind):
+        return value
+    if isinstance(value, BaseActor) and issubclass(kind, BaseActor):
+        raise ScenarioError(f"{value.id} is no {kind.kinds[0]}", value.source)
+    raise ScenarioError(f"a {type(value).__name__} is no {kind.__name__}")

@@ -1,11 +1,12 @@
 """The state of one run that all nodes share: clock, events, slots, effects.
 
-Nothing a node does in a pass may change what another node reads at the same instant. So nodes
-hand their wishes in here, and `commit` carries them out once the instant is settled:
+Nothing a node does in a pass may change what another node reads in the same pass. So nodes hand
+their wishes in here:
 
 - `post`, `assign`: an event, a new value become visible with the next pass;
-- `claim`, `command`, `release`: who moves an actor;
-- `effect`: a change of state at one instant (assign_speed, set_lights).
+- `effect`: a change of state at one instant (assign_speed, set_lights), carried out together with
+  all others once the events of the instant have come to rest; a new snapshot follows;
+- `claim`, `command`, `release`: who moves an actor, from the settled instant on (`commit`).
 """
 
 from __future__ import annotations
@@ -14,14 +15,15 @@ import random
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Protocol
 
-from osc2tx_runtime.clock import whole_steps
+from osc2tx_runtime.clock import lateness, whole_steps
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.slots import Effect, Effects, Owner, Slots
 from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.world.command_checks import command_problem
 from osc2tx_runtime.world.commands import Command
-from osc2tx_runtime.world.protocol import World
+from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, World
 
 __all__ = ["MAX_PASSES", "ExecutionContext"]
 
@@ -33,8 +35,8 @@ class PostedEvent(Protocol):
 
     name: str
 
-    def occur(self, tick: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
-        """Become visible in pass `tick`."""
+    def occur(self, tick: int, step: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
+        """Become visible in pass `tick` of an instant."""
         ...
 
     def problem(self, given: Iterable[str]) -> str:
@@ -67,13 +69,16 @@ class ExecutionContext:
         step: Present step; `time` is `step * dt`.
         pass_number: Number of the present pass within the step, from 0.
         tick: Number of the present pass within the run, from 1: the clock of events.
-        snapshot: Number of the values that nodes read: changes with every step, and with every
-            pass in which a sampled variable gets a new value.
+        late: Seconds by which what begins now should have begun before this step: what time ends
+            in a serial carries its exact end on to what follows.
+        snapshot: Number of the values that nodes read: changes with every step, with every pass
+            in which a sampled variable gets a new value, and when effects are carried out.
         settled: The instant is settled; what is unfinished now is unfinished at this instant.
         one_of: Policy of the scenario: `race`, `first` or `seeded`.
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
             that draw from one generator would depend on the order of their visit.
         collisions: Time in seconds and the two actors of each new contact.
+        first_come: What has a duration or an `until` ends with whichever comes first.
         label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
     """
 
@@ -88,6 +93,7 @@ class ExecutionContext:
         trace: TraceWriter | None = None,
         label_events: Mapping[tuple[str, str], PostedEvent] | None = None,
         one_of: str = "race",
+        first_come: bool = False,
     ) -> None:
         self.world = world
         self.settings = settings or RunSettings()
@@ -97,10 +103,12 @@ class ExecutionContext:
         self.trace = trace or TraceWriter(enabled=False)
         self.label_events = dict(label_events or {})
         self.one_of = one_of
+        self.first_come = first_come
         self.dt = self.settings.dt
         self.step = 0
         self.pass_number = 0
         self.tick = 0
+        self.late = 0.0
         self.snapshot = 0
         self.settled = False
         self.random = random.Random(self.settings.seed)
@@ -122,6 +130,17 @@ class ExecutionContext:
     def steps(self, seconds: float) -> int:
         """Return a duration in steps: until the first one at or after its end."""
         return whole_steps(seconds, self.dt)
+
+    def due(self, seconds: float, late: float) -> tuple[int, float]:
+        """Return the step at which so many seconds are over that begin now, and how late that is.
+
+        Args:
+            seconds: How long.
+            late: Seconds by which they should have begun before this step.
+        """
+        left = seconds - late
+        steps = max(0, self.steps(left))
+        return self.step + steps, lateness(steps, left, self.dt)
 
     def cast(self) -> tuple[str, ...]:
         """Return the ids of the placed actors, in the order of their declaration.
@@ -162,6 +181,7 @@ class ExecutionContext:
         """Go to a step; its first pass comes next."""
         self.step = step
         self._left.clear()
+        self.effects.begin_step()
         self.snapshot += 1
         self.pass_number = -1
         self.settled = False
@@ -183,7 +203,7 @@ class ExecutionContext:
             )
         posted, self._posted = self._posted, {}
         for event, arguments in posted.items():
-            event.occur(self.tick, arguments)
+            event.occur(self.tick, self.step, arguments)
         if self._assigned:
             self.snapshot += 1
             for variable, value in self._assigned.items():
@@ -192,25 +212,49 @@ class ExecutionContext:
             self._assigned.clear()
         self._pass_wanted = self._settling_wanted = False
 
-    def next_pass(self) -> bool:
-        """Return whether this instant needs another pass, and say what kind in `settled`."""
-        if self._posted or self._pass_wanted:
-            self.settled = False
-            return True
-        if self._settling_wanted and not self.settled:
-            self.settled = True
-            return True
-        return False
+    def has_news(self) -> bool:
+        """Return whether events or values want another pass of this instant."""
+        if not self._posted and not self._pass_wanted:
+            return False
+        self.settled = False
+        return True
+
+    def carry_out(self) -> bool:
+        """Carry out the effects together; return whether there were any to look at."""
+        if not self.effects.is_pending():
+            return False
+        self.effects.apply()
+        self.snapshot += 1
+        self.settled = False
+        return True
+
+    def settles(self) -> bool:
+        """Return whether a pass is wanted after all others of this instant; say so in `settled`."""
+        if not self._settling_wanted:
+            return False
+        self.settled = True
+        return True
 
     # --- who controls what ---
 
     def claim(self, actor_id: str, slot: str, owner: Owner) -> None:
         """Make an action the owner of a slot; two live owners at a settled instant conflict."""
+        if slot not in (LONGITUDINAL, LATERAL):
+            raise ScenarioError(f"{owner.name} claims {slot!r:.40}, no slot", owner.source or None)
         self.slots.claim((actor_id, slot), owner)
 
-    def release(self, actor_id: str, slot: str, owner: Owner) -> None:
-        """Give a slot up. Without a new owner the actor holds its speed or keeps its lane."""
+    def release(self, actor_id: str, slot: str, owner: Owner, momentary: bool = False) -> None:
+        """Give a slot up. Without a new owner the actor holds its speed or keeps its lane.
+
+        Args:
+            actor_id: Who is moved.
+            slot: How.
+            owner: Who had it.
+            momentary: It had it for no time, to change a state.
+        """
         self.slots.release((actor_id, slot), owner)
+        if momentary:
+            self.slots.pass_through((actor_id, slot), owner)
 
     def leave(self, actor_id: str, slot: str, model: str, command: Command | None) -> None:
         """Let a slot without owner pursue the command of a behavioral model; None: hold, keep.
@@ -225,7 +269,14 @@ class ExecutionContext:
         self.slots.leave((actor_id, slot), command)
 
     def command(self, actor_id: str, slot: str, owner: Owner, command: Command) -> None:
-        """Set the command of an owner; the world gets it when the instant is settled."""
+        """Set the command of an owner; the world gets it when the instant is settled.
+
+        Raises:
+            ScenarioError: No world can carry it out.
+        """
+        problem = command_problem(command, slot, self.world.actors())
+        if problem:
+            raise ScenarioError(f"{owner.name}: {problem}", owner.source or None)
         self.slots.command((actor_id, slot), owner, command)
 
     def effect(
@@ -237,13 +288,12 @@ class ExecutionContext:
             key: What changes, as in ("speed", "hero").
             owner: Who wants it.
             value: New value: two actions that are not in sequence may only want equal ones.
-            apply: Carries it out, once the instant is settled: calls of the world and the trace.
+            apply: Carries it out at this instant: calls of the world and the trace.
         """
         self.effects.add(key, Effect(owner, value, apply))
 
     def commit(self) -> None:
-        """Carry out what the settled instant brought: effects first, then commands."""
-        self.effects.apply()
+        """Carry out what the settled instant brought."""
         self.slots.send(self.world)
 
     def note_collision(self, step: int, one: str, other: str) -> None:

@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
-__all__ = ["BaseActor", "DeclaredObject"]
+__all__ = ["BaseActor", "DeclaredObject", "not_given"]
+
+
+class _NotGiven:
+    def __repr__(self) -> str:
+        return "not_given"
+
+
+not_given: Any = _NotGiven()
+"""What a field of a user's own type is that its file never speaks of, and that nobody gives."""
 
 
 class DeclaredObject:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from osc2tx_runtime.errors import USER_CODE_ERRORS, ScenarioError, SettingsError
+from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
 
 __all__ = ["external_function"]
 
@@ -32,18 +32,14 @@ def external_function(
             source,
         )
     module, _, name = path.rpartition(".")
-    try:
+    with OwnCode(f"no function {path}:", source):
         function = getattr(import_module(module), name)
-    except (ImportError, AttributeError) as error:
-        raise ScenarioError(f"no function {path}: {error}", source) from error
     if not callable(function):
         raise ScenarioError(f"{path} is no function", source)
 
     def call(*arguments: Any) -> Any:
-        try:
+        with OwnCode(f"{path} raised", source):
             result = function(*arguments)
-        except USER_CODE_ERRORS as error:
-            raise ScenarioError(f"{path}: {type(error).__name__}: {error}", source) from error
         return result if kind is None else as_kind(result, kind, path, source)
 
     call.__name__ = name

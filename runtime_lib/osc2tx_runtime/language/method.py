@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["LATERAL", "LONGITUDINAL", "Ends", "Method", "Need"]
+from osc2tx_runtime.world.features import Feature
+
+__all__ = ["LATERAL", "LONGITUDINAL", "Ends", "Method"]
 
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
 
-Ends = Literal["goal", "open", "instant", "step"]
-Need = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
-"""What a world must have beside moving actors."""
+Ends = Literal["goal", "open", "instant", "at_once"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +24,9 @@ class Method:
         name: Method name (`change_lane`).
         slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
             moves as its modifiers say controls nothing itself.
-        ends: `goal` when its goal is reached, `open` only with its surroundings, `instant` at once,
-            `step` at the next step, where what it assigns can be seen.
+        ends: `goal` when its goal is reached, `at_once` with a goal that is reached in the instant
+            in which it starts, `open` only with its surroundings, `instant` at once. What is
+            instant has no goal either, so like an `emit` it bounds no composition.
         places: Whether its arguments say where the actor is.
         paces: Whether it sets or holds the speed of the actor.
         needs: What a world must have to carry it out.
@@ -38,5 +39,10 @@ class Method:
     ends: Ends
     places: bool = False
     paces: bool = False
-    needs: tuple[Need, ...] = ()
+    needs: tuple[Feature, ...] = ()
     undeclared: str = ""
+
+    @property
+    def is_momentary(self) -> bool:
+        """Whether it takes no time."""
+        return self.ends in ("instant", "at_once")

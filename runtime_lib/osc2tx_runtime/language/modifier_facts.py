@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from osc2tx_rules import ModifierRules
-from osc2tx_runtime.language.method import Need
+from osc2tx_runtime.world.features import Feature
 
 __all__ = ["COURSE", "LANE", "SIDE", "ModifierFacts"]
 
@@ -40,5 +40,5 @@ class ModifierFacts:
     placement: bool = False
     orders: tuple[str, ...] = ()
     amounts: tuple[str, ...] = ()
-    needs: tuple[Need, ...] = ()
+    needs: tuple[Feature, ...] = ()
     undeclared: str = ""

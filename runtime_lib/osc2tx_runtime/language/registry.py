@@ -11,19 +11,20 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from osc2tx_runtime.errors import (
-    USER_CODE_ERRORS,
+    OwnCode,
     ScenarioError,
     UnsupportedError,
-    blame,
     is_own,
+    name_of,
 )
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.argument_rules import check_arguments
 from osc2tx_runtime.language.declared import BaseActor
-from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method, Need
+from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method
 from osc2tx_runtime.language.refused_action import RefusedAction
 from osc2tx_runtime.language.tree.base import split_label
 from osc2tx_runtime.language.tree.module_text import call_arguments
+from osc2tx_runtime.world.features import Feature
 
 __all__ = [
     "ENTRY_POINTS",
@@ -83,13 +84,9 @@ class MethodRegistry:
         from importlib.metadata import entry_points
 
         for entry in sorted(entry_points(group=ENTRY_POINTS), key=lambda found: found.name):
-            try:
+            package = "" if entry.dist is None else f" of {entry.dist.name}"
+            with OwnCode(f"the actions in {entry.value}{package} cannot be loaded:"):
                 entry.load()
-            except (ImportError, AttributeError, ValueError, SyntaxError) as error:
-                package = "" if entry.dist is None else f" of {entry.dist.name}"
-                raise ScenarioError(
-                    f"the actions in {entry.value}{package} cannot be loaded: {error}"
-                ) from error
 
     def action(
         self,
@@ -100,7 +97,7 @@ class MethodRegistry:
         ends: Ends = "goal",
         places: bool = False,
         paces: bool | None = None,
-        needs: Iterable[Need] = (),
+        needs: Iterable[Feature] = (),
         undeclared: str = "",
         replace: bool = False,
     ) -> Callable[[ActionT], ActionT]:
@@ -213,12 +210,14 @@ def make(
     Raises:
         ScenarioError: If a class of the user's own raises something.
     """
-    try:
+    if not is_own(method.factory):
         return method.factory(actor, *args, **kwargs)
-    except USER_CODE_ERRORS as error:
-        if not is_own(method.factory):
-            raise
-        raise ScenarioError(f"{actor.id} {method.name}: {blame(method.factory, error)}") from error
+    with OwnCode(f"{actor.id} {method.name}: {name_of(method.factory)} raised"):
+        made: object = method.factory(actor, *args, **kwargs)
+    if not isinstance(made, Action):
+        kind = type(made).__name__
+        raise ScenarioError(f"{name_of(method.factory)} makes a {kind}, no Action")
+    return made
 
 
 def _check_arguments(

@@ -78,7 +78,23 @@ class BaseScenario(ScenarioParts):
             name: Name of the role.
             declared: The actor as declared.
         """
-        return declared if self._caller is None else self._caller.cast(name, declared)
+        given = None if self._caller is None else self._caller.cast(name, declared)
+        if given is not None:
+            return given
+        self._roles[id(declared)] = name
+        return self._only(declared) if declared.one_per_run else declared
+
+    def global_object(self, name: str, declared: AnyT) -> AnyT:
+        """Return a global actor or struct: the one that the first scenario of the run made.
+
+        Args:
+            name: Name of the global parameter.
+            declared: The object as declared.
+        """
+        if isinstance(declared, BaseActor) and declared.one_per_run:
+            declared = self._only(declared)
+        shared: AnyT = self._shared_objects.setdefault(name, declared)
+        return shared
 
     def place(self, actor: BaseActor, *modifiers: Modifier, throughout: bool = False) -> None:
         """Say where and how an actor starts.
@@ -99,6 +115,7 @@ class BaseScenario(ScenarioParts):
         default: Any = MISSING,
         *,
         condition: Guard | None = None,
+        name: str = "",
     ) -> AnyT:
         """Make a variable: `self.v = self.sample(lambda: self.ego.speed, self.near, 0 * mps)`.
 
@@ -110,8 +127,9 @@ class BaseScenario(ScenarioParts):
             trigger: When: an event, a condition or a boolean function.
             default: Value before the first sample; without it the variable cannot be read before.
             condition: With an event: only an occurrence at which this is true counts.
+            name: Name in the scenario, where its attribute cannot have it (`from`).
         """
-        variable: Any = Sampled(expression, trigger, default, condition)
+        variable: Any = Sampled(expression, trigger, default, condition, name)
         return variable  # type: ignore[no-any-return]
 
     @overload
@@ -232,7 +250,8 @@ class BaseScenario(ScenarioParts):
 
         def __setattr__(self, name: str, value: Any) -> None:
             if isinstance(value, Sampled):
-                value.name = f"{self._path}.{name}" if self._path else name
+                known_as = value.name or name
+                value.name = f"{self._path}.{known_as}" if self._path else known_as
                 self._variables[name] = value
                 return
             object.__setattr__(self, name, value)

@@ -16,22 +16,35 @@ __all__ = ["check_arguments", "check_settings", "name_members"]
 
 
 def name_members(scenario: ScenarioParts) -> None:
-    """Give actors, map objects and events the names of their attributes, and note them."""
+    """Give actors, map objects and events their names, and note them."""
     place_of = scenario._source_map.of_field
     handed_in = {id(actor) for actor in scenario._arguments.values()}
     handed_in.update(id(actor) for actor in scenario._root.actors.values())
+    shared = {id(value): name for name, value in scenario._shared_objects.items()}
     for attribute, value in vars(scenario).items():
-        path = f"{scenario._path}.{attribute}" if scenario._path else attribute
+        own = attribute  # but where it cannot have the name of the scenario
+        if isinstance(value, Event):
+            own = value.name or own
+        elif isinstance(value, BaseActor):
+            own = scenario._roles.get(id(value), own)
+        path = f"{scenario._path}.{own}" if scenario._path else own
         if isinstance(value, BaseActor) and id(value) not in handed_in:
+            name = shared.get(id(value))
+            if name is not None:  # as the scenario that runs sees it, if nothing hides it there
+                path = name if _is_free(name, value, scenario) else f"::{name}"
             value.id = path
             value.source = place_of(attribute)
-            scenario.actors[attribute] = scenario._root.actors[path] = value
+            scenario.actors[path if name else own] = scenario._root.actors[path] = value
         elif isinstance(value, DeclaredObject):
             value.source = place_of(attribute)
             scenario._root.map_objects.append(value)
         elif isinstance(value, Event):
             value.name = path
-            scenario.events[attribute] = scenario._root.events[path] = value
+            scenario.events[own] = scenario._root.events[path] = value
+
+
+def _is_free(name: str, actor: BaseActor, scenario: ScenarioParts) -> bool:
+    return vars(scenario._root).get(name, actor) is actor and name not in scenario._root.actors
 
 
 def check_arguments(scenario: ScenarioParts) -> None:
@@ -41,11 +54,12 @@ def check_arguments(scenario: ScenarioParts) -> None:
         TypeError: A program calls the class so.
         ScenarioError: A scenario invokes it so.
     """
+    known = (*scenario.parameters, *scenario._composite)
     for name in scenario._arguments:
-        if name not in scenario.parameters and not isinstance(vars(scenario).get(name), BaseActor):
+        if name not in known and not isinstance(vars(scenario).get(name), BaseActor):
             if scenario._caller is None:
                 raise TypeError(f"{type(scenario).__name__}() has no parameter {name!r}")
-            hint = near(name, scenario.parameters)
+            hint = near(name, known)
             raise ScenarioError(
                 f"{scenario._path}: scenario {scenario.name} has no parameter {name}{hint}",
                 scenario._caller.scenario.source,

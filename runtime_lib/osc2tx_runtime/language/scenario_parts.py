@@ -33,6 +33,7 @@ class ScenarioParts(ScenarioValues):
         name: Name in the scenario file.
         source: Scenario file.
         one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
+        first_come: Durations and `until` end with whichever comes first, as in dialect `carla`.
         settings: Of the run.
         actors: Declared actors by id, in order; the scenario that runs also has those of all that
             it invokes.
@@ -46,6 +47,7 @@ class ScenarioParts(ScenarioValues):
     name: ClassVar[str] = ""
     source: ClassVar[str] = ""
     one_of: ClassVar[str] = "race"
+    first_come: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -81,6 +83,11 @@ class ScenarioParts(ScenarioValues):
             raise ScenarioError(f"{label}: no invocation has this label{hint}", self.source)
         return self._invoked[label]
 
+    def _only(self, declared: ActorT) -> ActorT:
+        """Return the actor of a type of which a run has one, if a caller has it already."""
+        actors = self._root.actors.values() if self._caller is not None else ()
+        return next((actor for actor in actors if type(actor) is type(declared)), declared)
+
     def _label_event(self, label: str, moment: str) -> Event:
         event = self.label_events.setdefault((label, moment), Event())
         event.name = f"{self._path}.{label}.{moment}" if self._path else f"{label}.{moment}"
@@ -103,18 +110,15 @@ class Caller:
     key: str
     arguments: Mapping[str, Any]
 
-    def cast(self, name: str, declared: ActorT) -> ActorT:
-        """Return the actor handed in for a declared one; what there is one of is shared.
+    def cast(self, name: str, declared: ActorT) -> ActorT | None:
+        """Return the actor handed in for a declared one; `None` if none is.
 
         Raises:
             ScenarioError: If an actor of another kind was handed in.
         """
         given = self.arguments.get(name)
         if given is None:
-            if declared.one_per_run:
-                actors = self.scenario._root.actors.values()
-                return next((actor for actor in actors if type(actor) is type(declared)), declared)
-            return declared
+            return None
         if not isinstance(given, type(declared)):
             what = given.kinds[0] if isinstance(given, BaseActor) else repr(given)
             raise ScenarioError(

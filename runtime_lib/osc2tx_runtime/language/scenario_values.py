@@ -61,7 +61,10 @@ class ScenarioValues:
         self.parameters: dict[str, Any] = {}
         self._arguments = arguments
         self._source_map = source_map
+        self._composite: set[str] = set()  # lists, ranges and objects that the caller may give
         self._shared: dict[str, Any] = self.parameters if caller is None else caller._shared
+        self._roles: dict[int, str] = {}
+        self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
         self._generator = random.Random(settings.seed)
@@ -111,9 +114,12 @@ class ScenarioValues:
         return value
 
     def argument(self, name: str, default: AnyT) -> AnyT:
-        """Return a list or range: as the caller gives it, else its default; nobody can set it."""
+        """Return a list, range or object: as the caller gives it, else its default.
+
+        Settings cannot give it, so it is none of the parameters.
+        """
+        self._composite.add(name)
         value: AnyT = self._arguments.get(name, default)
-        self.parameters[name] = value
         return value
 
     def required_argument(self, name: str, kind: type[AnyT]) -> AnyT:
@@ -205,6 +211,7 @@ class ScenarioValues:
             ScenarioError: If they never hold, or a value cannot be computed.
         """
         members, shared = set(vars(self)), dict(self._shared)
+        objects = dict(self._shared_objects)
         for self._attempt in range(ATTEMPTS):
             self._kept, self._draws = 0, False
             try:
@@ -220,6 +227,8 @@ class ScenarioValues:
             self.parameters.clear()
             self._shared.clear()
             self._shared.update(shared)
+            self._shared_objects.clear()
+            self._shared_objects.update(objects)
 
     def _error(self, broken: _NotKeptError) -> ScenarioError:
         words = set(re.findall(r"\w+", broken.text))

@@ -10,8 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.world.protocol import ControlMode
 
-__all__ = ["RunSettings", "check_known", "near"]
+MOST_STEPS = 100_000_000
+"""What a run may take at most: hours of computing."""
+
+__all__ = ["FAIL_ON", "RunSettings", "check_known", "near"]
+
+FAIL_ON = ("collision", "off_road", "red_light")
+"""What a run may be told to fail on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +28,14 @@ class RunSettings:
     Attributes:
         map_path: Folders searched for map files, before the maps of this package; a file among
             them is used as the map itself.
+        world: Name of the world to run in.
+        world_options: Values of the options of its own, by `Option.field`.
+        control: Who moves an actor, by id; `""` stands for all others. Without: the world says.
+        expect: What the scenario has external actors do is expected of them, not an error.
+        physics: What to do about motions that tyres cannot do: `warn` or `fail`.
+        conduct: `as_told`: actors do what they are told; `standard`: they also avoid collisions and
+            obey lights, unless the scenario says otherwise (DSL 8.9.18).
+        fail_on: What makes a run fail whatever the scenario says, see `FAIL_ON`.
         signal: Events given from outside: name to time in seconds.
         spawn: Start position of actors: id to (road id, lane id, road s in metres).
         destination: Where vehicles go: id to an actor id or `ROAD,LANE,S`.
@@ -34,6 +49,13 @@ class RunSettings:
     """
 
     map_path: tuple[Path, ...] = ()
+    world: str = "embedded"
+    world_options: Mapping[str, Any] = field(default_factory=dict)
+    control: Mapping[str, ControlMode] = field(default_factory=dict)
+    expect: bool = False
+    physics: str = "warn"
+    conduct: str = "as_told"
+    fail_on: tuple[str, ...] = ()
     signal: Mapping[str, float] = field(default_factory=dict)
     spawn: Mapping[str, tuple[str, int, float]] = field(default_factory=dict)
     destination: Mapping[str, str] = field(default_factory=dict)
@@ -52,6 +74,14 @@ class RunSettings:
             raise SettingsError(
                 f"max-time is {self.max_time}: write seconds above zero, as in --max-time 60"
             )
+        if self.max_time / self.dt > MOST_STEPS:
+            raise SettingsError(
+                f"dt {self.dt:g} until max-time {self.max_time:g} would be more than {MOST_STEPS:,}"
+                " steps: give a larger --dt or a smaller --max-time"
+            )
+        for name, seconds in self.signal.items():
+            if not (math.isfinite(seconds) and seconds >= 0):
+                raise SettingsError(f"--signal {name}: {seconds} is no time of a run")
 
 
 def check_known(option: str, what: str, given: Any, known: Any) -> None:

@@ -1,7 +1,8 @@
 """Slots of actors with their owners and commands; effects of one instant.
 
-Both are judged when the instant is settled, so a hand-over from one action to the next is silent
-in whatever order the tree visits them, and two parallel actions on one slot are reported.
+Slots are judged when the instant is settled, so a hand-over from one action to the next is silent
+in whatever order the tree visits them, and two parallel actions on one slot are reported. Effects
+are carried out within the instant, all that are wanted at a time together.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ class Slots:
         self._touched: dict[SlotKey, None] = {}
         self._sent: dict[SlotKey, Command | None] = {}
         self._left: dict[SlotKey, Command | None] = {}
+        self._passed: dict[SlotKey, list[Owner]] = {}
 
     def leave(self, key: SlotKey, command: Command | None) -> None:
         """Let a slot pursue a command while it has no owner; None holds what is."""
@@ -55,6 +57,13 @@ class Slots:
         if owner in owners:
             del owners[owner]
             self._touched[key] = None
+
+    def pass_through(self, key: SlotKey, owner: Owner) -> None:
+        """Note an owner that had the slot for no time, and changed what it is about.
+
+        What was sent before no longer counts, and who has the slot beside it is in conflict.
+        """
+        self._passed.setdefault(key, []).append(owner)
 
     def command(self, key: SlotKey, owner: Owner, command: Command) -> None:
         """Keep the command of an owner until the instant is settled."""
@@ -82,15 +91,23 @@ class Slots:
             if len(owners) > 1:
                 yield key, owners
 
+    def passed(self) -> Iterator[tuple[SlotKey, Owner, Owner]]:
+        """Yield the slots that an owner had for no time while another has them, with both."""
+        for key in sorted(self._passed):
+            for owner in self._passed[key]:
+                for live in self._owners.get(key, ()):
+                    yield key, owner, live
+
     def send(self, world: World) -> None:
         """Hand the commands that changed to the world; an unowned slot gets what it is left to."""
         for key in sorted(self._touched):
             owners = self._owners.get(key, {})
             command = next(iter(owners.values()), self._left.get(key))
-            if command is not self._sent.get(key):
+            if command is not self._sent.get(key) or key in self._passed:
                 self._sent[key] = command
                 world.command(*key, command)
         self._touched.clear()
+        self._passed.clear()
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,26 +124,58 @@ class Effects:
 
     def __init__(self) -> None:
         self._wanted: dict[tuple[str, ...], dict[Owner, Effect]] = {}
+        self._done: dict[tuple[str, ...], list[Effect]] = {}
+
+    def begin_step(self) -> None:
+        """Forget what was carried out at the instant before."""
+        self._done.clear()
 
     def add(self, key: tuple[str, ...], effect: Effect) -> None:
-        """Remember an effect; a later one of the same owner takes its place."""
-        effects = self._wanted.setdefault(key, {})
-        effects.pop(effect.owner, None)  # so that the latest stands last
-        effects[effect.owner] = effect
+        """Remember an effect, unless its owner had it carried out at this instant already.
 
-    def contested(self) -> Iterator[tuple[tuple[str, ...], list[Effect]]]:
-        """Yield what several actions want to change, by its name."""
+        A later one of the same owner takes its place.
+        """
+        done = self._done.get(key)
+        if done and done[-1].owner is effect.owner and done[-1].value == effect.value:
+            return
+        self._wanted.setdefault(key, {})[effect.owner] = effect
+
+    def withdraw(self, owner: Owner) -> None:
+        """Forget what an owner wants."""
+        for effects in self._wanted.values():
+            effects.pop(owner, None)
+
+    def is_pending(self, owner: Owner | None = None) -> bool:
+        """Whether something, or what an owner wants, is not carried out yet."""
+        wanted = self._wanted.values()
+        return any(wanted) if owner is None else any(owner in each for each in wanted)
+
+    def contested(self) -> Iterator[tuple[tuple[str, ...], Effect, Effect]]:
+        """Yield what is to change differently from what another action made it, or wants it."""
         for key in sorted(self._wanted):
-            effects = list(self._wanted[key].values())
-            if len(effects) > 1:
-                yield key, effects
+            effects = [*self._done.get(key, ()), *self._wanted[key].values()]
+            for index, one in enumerate(effects):
+                for other in effects[index + 1 :]:
+                    if one.owner is not other.owner and one.value != other.value:
+                        yield key, one, other
 
     def apply(self) -> None:
-        """Carry the effects out, by name of what they change; the last of a sequence counts."""
+        """Carry out what is wanted, by name of what it changes."""
         wanted, self._wanted = self._wanted, {}
         for key in sorted(wanted):
-            list(wanted[key].values())[-1].apply()
+            if effects := list(wanted[key].values()):
+                _carry_out(effects[-1])
+                self._done.setdefault(key, []).extend(effects)
 
     def clear(self) -> None:
         """Forget all."""
         self._wanted.clear()
+        self._done.clear()
+
+
+def _carry_out(effect: Effect) -> None:
+    try:
+        effect.apply()
+    except ScenarioError as error:
+        error.source = error.source or effect.owner.source or None
+        raise

@@ -9,6 +9,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.world.deviation import Deviation
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["TRACE_VERSION", "TraceWriter", "number"]
@@ -98,8 +99,21 @@ class TraceWriter:
             values = {key: arguments[key] for key in sorted(arguments)} if arguments else {}
             self._events.add((name, f',"arguments":{to_json(values)}' if values else ""))
 
-    def action(self, status: str, action: TracedAction, reason: str | None = None) -> None:
-        """Note that an action starts, ends or fails; `reason` says why where it is not plain."""
+    def action(
+        self,
+        status: str,
+        action: TracedAction,
+        reason: str | None = None,
+        deviation: Deviation | None = None,
+    ) -> None:
+        """Note that an action starts, ends or fails.
+
+        Args:
+            status: `start`, `end` or `fail`.
+            action: Which one.
+            reason: Why, where it is not plain.
+            deviation: How far a driven actor is from where it was to be.
+        """
         if not self.enabled:
             return
         text = (
@@ -108,6 +122,9 @@ class TraceWriter:
         )
         if reason is not None:
             text += f',"reason":{json.dumps(reason)}'
+        if deviation is not None:
+            numbers = (f'"{name}":{number(value)}' for name, value in deviation._asdict().items())
+            text += f',"deviation":{{{",".join(numbers)}}}'
         key = action.position, action.action_name
         self._actions.append((key, ACTION_ORDER[status], text))
 

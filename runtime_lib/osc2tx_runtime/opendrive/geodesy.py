@@ -11,6 +11,8 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from osc2tx_runtime.plain_numbers import to_float
+
 __all__ = ["GeoReference", "GeoReferenceError", "TransverseMercator"]
 
 SEMI_MAJOR = 6_378_137.0
@@ -135,12 +137,10 @@ def _number(given: Mapping[str, str], names: tuple[str, ...], default: float) ->
     if text is None:
         return default
     try:
-        value = float(text)
+        return to_float(text)
     except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise GeoReferenceError(f"`+{names[0]}={text}` of its `geoReference` is no number")
-    return value
+        message = f"`+{names[0]}={text}` of its `geoReference` is no number"
+        raise GeoReferenceError(message) from None
 
 
 def _tmerc(given: Mapping[str, str]) -> TransverseMercator:

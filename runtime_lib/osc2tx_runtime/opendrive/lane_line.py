@@ -13,6 +13,7 @@ from .polynomials import Row
 __all__ = ["lane_line"]
 
 _STEP = 2.0  # m between nodes where curvature or width change
+_MOST = 10_000  # nodes of one piece: its steps are longer from 20 km on
 
 
 def lane_line(lane: Lane) -> LaneLine:
@@ -51,7 +52,7 @@ def _add_piece(line: LaneLine, lane: Lane, begin: float, end: float) -> None:
     _, b, c, d = lane.centre.rows[lane.centre.index(0.5 * (begin + end))]
     even = c == 0.0 and d == 0.0 and (b == 0.0 or curvature == 0.0)
     even = even and curvature is not None and lane.road.superelevation is None
-    count = 1 if even else max(1, math.ceil((end - begin) / _STEP))
+    count = 1 if even else min(max(1, math.ceil((end - begin) / _STEP)), _MOST)
     step = (end - begin) / count
     # One-sided values: at a joint the neighbouring piece may have another curvature.
     inset = 1e-9 * step

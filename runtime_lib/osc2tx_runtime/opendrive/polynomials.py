@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 
@@ -51,6 +52,16 @@ class Piecewise:
         a, b, c, d = self.rows[i]
         u = s - self.starts[i]
         return a + u * (b + u * (c + u * d)), b + u * (2.0 * c + u * 3.0 * d)
+
+    def least_at_ends(self, begin: float, end: float) -> float:
+        """Least value at both ends of the pieces that hold between two road coordinates."""
+        least = math.inf
+        for i, (start, (a, b, c, d)) in enumerate(zip(self.starts, self.rows, strict=True)):
+            stop = self.starts[i + 1] if i + 1 < len(self.starts) else end
+            if stop >= begin and start <= end:
+                u = min(stop, end) - start
+                least = min(least, a, a + u * (b + u * (c + u * d)))
+        return least
 
     def is_zero(self) -> bool:
         """True if every coefficient is zero."""

@@ -21,6 +21,9 @@ from .signal_reader import read_controllers, read_signals
 from .signals import Controller, Signal
 from .xml_reader import Attributes, parse_bytes, parse_xml, source_line
 
+LONGEST = 2e7
+"""Metres of all roads together: what is made of them has to fit into memory."""
+
 __all__ = ["MapContent", "read_content", "read_content_text"]
 
 
@@ -64,6 +67,9 @@ def _read(root: etree._Element, file: str, name: str) -> MapContent:
         if road.id in roads:
             raise attributes.error(element, f"road id `{road.id}` is used twice; make ids unique")
         roads[road.id] = road
+    total = sum(road.length for road in roads.values())
+    if total > LONGEST:
+        raise MapError(file, f"has {total / 1000:.0f} km of roads; at most {LONGEST / 1000:.0f} km")
     junctions = [_junction(element, attributes) for element in root.iterchildren("junction")]
     return MapContent(
         file,
@@ -165,6 +171,9 @@ def _segment(geometry: etree._Element, attributes: Attributes) -> Segment:
     return ParamPoly(x, y, h, length, u, v, 1.0 if normalized else length, scaled=True)
 
 
+NARROWEST = -0.05
+"""Metres below nothing that are the rounding of whoever wrote the map."""
+
 _SHAPES = frozenset({"arc", "line", "paramPoly3", "poly3", "spiral"})
 
 
@@ -179,23 +188,26 @@ def _sections(
     begins[0] = 0.0
     ends = [*begins[1:], length]
     return tuple(
-        LaneSection(i, begins[i], ends[i], _lanes(element, begins[i], attributes))
+        LaneSection(i, begins[i], ends[i], _lanes(element, (begins[i], ends[i]), attributes))
         for i, (_, element) in enumerate(elements)
     )
 
 
-def _lanes(section: etree._Element, begin: float, attributes: Attributes) -> list[Lane]:
+def _lanes(
+    section: etree._Element, ends: tuple[float, float], attributes: Attributes
+) -> list[Lane]:
     lanes: list[Lane] = []
     for side in section:
         if side.tag == "left" or side.tag == "right":
-            lanes.extend(_lane(e, begin, attributes) for e in side.iterchildren("lane"))
+            lanes.extend(_lane(e, ends, attributes) for e in side.iterchildren("lane"))
     # Edges are stacked from the centre outwards, so a repeated id would be an overlap.
     if len({lane.id for lane in lanes}) != len(lanes):
         raise attributes.error(section, "a lane id is used twice; make lane ids unique")
     return [lane for lane in lanes if lane.id != 0]
 
 
-def _lane(element: etree._Element, begin: float, attributes: Attributes) -> Lane:
+def _lane(element: etree._Element, ends: tuple[float, float], attributes: Attributes) -> Lane:
+    begin, end = ends
     lane = Lane(
         attributes.integer(element, "id"),
         element.get("type", "none"),
@@ -213,6 +225,8 @@ def _lane(element: etree._Element, begin: float, attributes: Attributes) -> Lane
             lane.previous_ids = _linked_ids(child, "predecessor", attributes)
             lane.next_ids = _linked_ids(child, "successor", attributes)
     lane.width = Piecewise.from_records(widths)
+    if lane.width is not None and (narrowest := lane.width.least_at_ends(begin, end)) < NARROWEST:
+        raise attributes.error(element, f"is {narrowest:g} m wide at one place; give a width")
     lane.border = Piecewise.from_records(borders)
     return lane
 

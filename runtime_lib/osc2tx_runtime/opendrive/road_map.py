@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -96,15 +97,6 @@ class RoadMap:
         best = self._index.best((x, y), lane_types, max_distance, z, heading)
         return None if best is None else position_of(*best)
 
-    def road_coordinates(
-        self, x: float, y: float, hint: LanePosition | None = None, max_distance: float = 50.0
-    ) -> tuple[str, float, float] | None:
-        """Road, s and t (m) of a point, for the road that contains it or is nearest."""
-        found = self._track(x, y, hint, None) if hint is not None else None
-        if found is None:
-            found = self._index.best((x, y), None, max_distance)
-        return None if found is None else (found[0].road.id, found[0].s, found[0].t)
-
     def _track(
         self,
         x: float,
@@ -151,15 +143,15 @@ class RoadMap:
         s: float,
         *,
         like: int | None = None,
-        lane_types: frozenset[str] = DRIVING,
     ) -> tuple[int, ...]:
-        """Lanes of one direction, from the right edge to the left in direction of travel.
+        """Drivable lanes of one direction, from the right edge to the left in direction of travel.
+
+        Lanes without width at `s` do not count.
 
         Args:
             road: Road id.
             s: Road coordinate (m).
             like: A lane of the wanted direction; default: the direction of s.
-            lane_types: Types that count; lanes without width at `s` never do.
         """
         found = self._road(road)
         s = min(max(s, 0.0), found.length)
@@ -170,7 +162,7 @@ class RoadMap:
         ids = sorted(
             lane.id
             for lane in (with_s if direction > 0 else against)
-            if lane.type in lane_types and lane.width_at(s) >= _THIN
+            if lane.type in DRIVING and lane.width_at(s) >= _THIN
         )
         return tuple(ids if direction > 0 else reversed(ids))
 
@@ -252,6 +244,12 @@ class RoadMap:
     def spawn_points(self) -> tuple[LanePosition, ...]:
         """Default start places: driving lanes outside junctions, every 20 m from 10 m."""
         return self._spawn_points
+
+    def with_spawn_points(self, points: Sequence[LanePosition]) -> RoadMap:
+        """Return this map with other default start places."""
+        other = copy(self)
+        other.__dict__["_spawn_points"] = tuple(points)
+        return other
 
     @cached_property
     def _spawn_points(self) -> tuple[LanePosition, ...]:

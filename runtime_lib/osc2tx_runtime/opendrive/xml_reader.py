@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 from lxml import etree
+
+from osc2tx_runtime.plain_numbers import to_float, to_int
 
 from .errors import MapError
 
@@ -101,11 +102,10 @@ class Attributes:
                 return default
             raise self.error(element, f"attribute `{name}` is missing; add it")
         try:
-            value = float(text)
+            value = to_float(text)
         except ValueError:
-            value = math.nan
-        if not math.isfinite(value):
-            raise self.error(element, f"attribute `{name}` is not a finite number: `{text}`")
+            message = f"attribute `{name}` is not a finite number: `{text[:40]}`"
+            raise self.error(element, message) from None
         if abs(value) > _LARGEST:
             raise self.error(element, f"attribute `{name}` is too large for a map: `{text}`")
         return value
@@ -123,25 +123,22 @@ class Attributes:
         """A whole number."""
         text = self.text(element, name)
         try:
-            return int(text)
+            return to_int(text)
         except ValueError:
-            raise self.error(
-                element, f"attribute `{name}` is not a whole number: `{text}`"
-            ) from None
+            message = f"attribute `{name}` is not a whole number: `{text[:40]}`"
+            raise self.error(element, message) from None
 
     def cubic(self, element: etree._Element, suffix: str = "") -> tuple[float, float, float, float]:
         """Coefficients a to d, with a suffix "U" or "V" for paramPoly3."""
         get = element.get
         try:  # the fast way: widths are most of the elements of a map
-            row = (
-                float(get("a" + suffix, "")),
-                float(get("b" + suffix, "")),
-                float(get("c" + suffix, "")),
-                float(get("d" + suffix, "")),
-            )
-            if abs(row[0]) + abs(row[1]) + abs(row[2]) + abs(row[3]) < _LARGEST:
+            a, b, c, d = (get(name + suffix, "") for name in "abcd")
+            row = float(a), float(b), float(c), float(d)
+            texts = a + b + c + d
+            is_plain = texts.isascii() and "_" not in texts
+            if is_plain and abs(row[0]) + abs(row[1]) + abs(row[2]) + abs(row[3]) < _LARGEST:
                 return row
         except ValueError:
             pass
-        a, b, c, d = (self.number(element, name + suffix) for name in "abcd")
-        return a, b, c, d
+        p, q, r, s = (self.number(element, name + suffix) for name in "abcd")
+        return p, q, r, s

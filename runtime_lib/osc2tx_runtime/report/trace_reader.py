@@ -170,7 +170,7 @@ def read_run(trace_lines: Sequence[str]) -> Run:
             continue
         try:
             value = json.loads(line)
-        except ValueError:
+        except (ValueError, RecursionError):
             value = None
         if isinstance(value, dict):
             run.add(value)

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial
+from osc2tx_text import visible
 
 __all__ = ["tree_svg", "tree_text"]
 
@@ -76,7 +77,7 @@ def tree_svg(root: Behaviour) -> str:
     svg.set("viewBox", f"0 0 {_number(width)} {_number(height)}")
     svg.set("font-family", "ui-monospace, 'DejaVu Sans Mono', Menlo, monospace")
     svg.set("font-size", "12")
-    ElementTree.SubElement(svg, "title").text = root.name
+    ElementTree.SubElement(svg, "title").text = visible(root.name)
     ElementTree.SubElement(svg, "rect", width="100%", height="100%", fill="#ffffff")
     _draw_branches(svg, rows)
     for index, row in enumerate(rows):
@@ -90,7 +91,7 @@ def _rows(root: Behaviour) -> Iterator[_Row]:
     pending: list[tuple[Behaviour, tuple[bool, ...]]] = [(root, ())]
     while pending:
         node, last = pending.pop()
-        yield _Row(last, _kind(node), _text(node), getattr(node, "source", ""))
+        yield _Row(last, _kind(node), visible(_text(node)), visible(getattr(node, "source", "")))
         children = list(node.children)
         shown = [(child, (*last, child is children[-1])) for child in children]
         pending += reversed(shown)

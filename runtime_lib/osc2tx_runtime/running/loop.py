@@ -17,8 +17,9 @@ from osc2tx_runtime.language.tree.base import (
     Status,
     pulse_of,
 )
-from osc2tx_runtime.language.tree.conflicts import check_conflicts
+from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
 from osc2tx_runtime.language.tree.failure_reasons import failure_reason, timeout_reason
+from osc2tx_runtime.running.criteria import Criteria
 
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
@@ -50,7 +51,8 @@ def run_tree(
     """
     outcome = Outcome("error", "", 0)
     try:
-        outcome = loop(root, context, on_progress)
+        criteria = Criteria(context)
+        outcome = judged(loop(root, context, criteria, on_progress), criteria)
     except BaseException as error:
         if isinstance(error, ScenarioError) and not isinstance(error, SettingsError):
             error.happened(context.time)
@@ -62,6 +64,14 @@ def run_tree(
     finally:
         close(root, context, outcome)
     return outcome
+
+
+def judged(outcome: Outcome, criteria: Criteria) -> Outcome:
+    """Return how a run ended, with what was against its criteria: that is a failure."""
+    if not criteria.broken:
+        return outcome
+    reasons = [*criteria.broken, outcome.reason] if outcome.reason else criteria.broken
+    return Outcome("failure", "; ".join(reasons), outcome.steps)
 
 
 def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
@@ -78,7 +88,12 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
         context.trace.result(outcome.status, outcome.reason, outcome.steps)
 
 
-def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | None) -> Outcome:
+def loop(
+    root: Behaviour,
+    context: ExecutionContext,
+    criteria: Criteria,
+    on_progress: OnProgress | None,
+) -> Outcome:
     """Settle one instant after the other until the tree ends or the time is over."""
     pulse = pulse_of(root)
     world, settings = context.world, context.settings
@@ -89,7 +104,7 @@ def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | N
     while True:
         context.begin_step(step)
         status = settle(pulse, context, signals.get(step, ()))
-        check_conflicts(context)
+        check_claims(context)
         context.commit()
         if status is SUCCESS:
             return Outcome("success", "", step)
@@ -104,12 +119,21 @@ def loop(root: Behaviour, context: ExecutionContext, on_progress: OnProgress | N
         step += 1
         for one, other in world.collisions():
             context.note_collision(step, one, other)
+        criteria.observe(step)
+        for kind, values in world.take_notes():
+            context.trace.other(8, kind, **values)
+        if settings.physics == "fail" and world.overloads():
+            context.begin_step(step)
+            return Outcome("failure", str(world.overloads()[0]), step)
 
 
 def settle(
     pulse: Callable[[], Status], context: ExecutionContext, signals: tuple[PostedEvent, ...]
 ) -> Status:
     """Pulse the tree until nothing more happens at this instant.
+
+    Events come to rest first. Then all assignments that are pending are carried out together, and
+    with the new snapshot it goes on, until nothing more is pending.
 
     Signals are visible from the first pass on, so a wait that starts just now does not see them.
     Those at the very start become visible one pass later: the first waits do see them.
@@ -120,10 +144,17 @@ def settle(
     if context.step == 0:
         post_all(context, signals)
     status = pulse()
-    while status is RUNNING and context.next_pass():
+    while status is RUNNING and (context.has_news() or assigns(context) or context.settles()):
         context.begin_pass()
         status = pulse()
+    assigns(context)
     return status
+
+
+def assigns(context: ExecutionContext) -> bool:
+    """Carry out the assignments that are pending; return whether there were any."""
+    check_effects(context)
+    return context.carry_out()
 
 
 def post_all(context: ExecutionContext, signals: tuple[PostedEvent, ...]) -> None:

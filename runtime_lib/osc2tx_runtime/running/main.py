@@ -4,12 +4,25 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Sequence
+from traceback import format_exc
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
+from osc2tx_runtime.worlds import EMBEDDED, Option, WorldType, find_world
+from osc2tx_text import (
+    OutputError,
+    clear_status,
+    complain,
+    explain,
+    is_watched,
+    put,
+    say,
+    show_status,
+    visible,
+)
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
@@ -17,7 +30,9 @@ if TYPE_CHECKING:
 __all__ = ["choose_scenario", "main", "verdict"]
 
 EXIT_SUCCESS = 0
+EXIT_UNREADABLE = 4
 EXIT_FAILED = 5
+EXIT_BUG = 70
 EXIT_INTERRUPTED = 130  # as shells have it: 128 + SIGINT
 
 
@@ -29,29 +44,50 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         argv: Arguments; those of the process by default.
 
     Returns:
-        0 success, 5 ran and failed or ran out of time, 4 unreadable input, 2 usage, 130 when the
-        user interrupts it.
+        0 success, 5 ran and failed or ran out of time, 4 unreadable input or no simulator,
+        2 usage, 130 when the user interrupts it, 70 a bug of ours.
     """
-    arguments = vars(make_parser(scenarios).parse_args(argv))
-    progress = show_progress if sys.stderr.isatty() else None
     try:
+        return run(scenarios, sys.argv[1:] if argv is None else argv)
+    except OutputError as error:
+        return explain(error)
+    except OSError as error:  # the folder that we work in is gone
+        complain(f"error: {error}")
+        return EXIT_UNREADABLE
+    except Exception:  # the edge of the process: whatever it is, it is ours
+        put(format_exc(), err=True)
+        complain("this is a bug of osc2tx; please report it with the lines above")
+        return EXIT_BUG
+
+
+def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
+    """Run a scenario from a command line; return the exit code.
+
+    Raises:
+        OutputError: If nobody takes what it prints.
+    """
+    progress = show_progress if is_watched() else None
+    try:
+        world = chosen_world(argv)
+        arguments = vars(make_parser(scenarios, world).parse_args(argv))
         scenario = choose_scenario(scenarios, arguments.pop("scenario"))
     except SettingsError as error:
-        print(f"error: {error.message}", file=sys.stderr)
+        complain(f"error: {error.message}")
         return error.exit_code
     try:
         settings = read_options(arguments)
         result = run_scenario(scenario, settings, progress, keep_trace=False)
     except ScenarioError as error:
         clear_progress(progress)
-        print(f"{error.source or scenario.source}: error: {error.message}", file=sys.stderr)
+        complain(f"{error.source or scenario.source}: error: {error.message}")
         return error.exit_code
     except KeyboardInterrupt:
         clear_progress(progress)
-        print(f"{scenario.name}: interrupted", file=sys.stderr)
+        complain(f"{scenario.name}: interrupted")
         return EXIT_INTERRUPTED
     clear_progress(progress)
-    print(verdict(scenario.name, result))
+    for line in verdict(scenario.name, result):
+        say(line)
     return EXIT_SUCCESS if result.status == "success" else EXIT_FAILED
 
 
@@ -75,38 +111,86 @@ def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> 
     return scenarios[0]
 
 
-def make_parser(scenarios: Sequence[type[Scenario]]) -> argparse.ArgumentParser:
-    """Return the parser of a module with these scenarios, from the table of options."""
+def chosen_world(argv: Sequence[str], default: str = EMBEDDED.name) -> WorldType:
+    """Return the world that a command line asks for: it has options of its own.
+
+    Args:
+        argv: The command line.
+        default: The world if it does not say.
+
+    Raises:
+        SettingsError: If there is no such world.
+    """
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
+    parser.add_argument("--world", default=default)
+    try:
+        found, _ = parser.parse_known_args(argv)
+    except argparse.ArgumentError:
+        return EMBEDDED  # the whole parser says what is wrong
+    return find_world(found.world)
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that prints as all of the runtime does."""
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        put(message, err=file is not sys.stdout)
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the command line, and end the process."""
+        super().error(visible(message))
+
+
+def make_parser(
+    scenarios: Sequence[type[Scenario]], world: WorldType = EMBEDDED
+) -> argparse.ArgumentParser:
+    """Return the parser of a module with these scenarios, from the tables of options."""
     names = ", ".join(scenario.name for scenario in scenarios)
-    parser = argparse.ArgumentParser(
-        description=f"Run a scenario of {scenarios[0].source}: {names}.", allow_abbrev=False
-    )
+    what = _plain(f"runs a scenario of {scenarios[0].source}: {names}.")
+    parser = Parser(description=f"%(prog)s {what}", allow_abbrev=False)
     parser.add_argument("--scenario", metavar="NAME", help="which scenario to run")
-    for option in OPTIONS:
-        shown = "" if option.default is None else f" (default: {option.default})"
-        parser.add_argument(
-            f"--{option.name}",
-            metavar=option.metavar,
-            help=f"{option.help}{shown}",
-            action="append" if option.repeatable else "store",
-        )
+    own = parser.add_argument_group(f"options of the world {world.name}")
+    for group, options in ((parser, OPTIONS), (own, world.options)):
+        for option in options:
+            add_option(group, option)
     return parser
 
 
-def verdict(name: str, result: RunResult) -> str:
-    """Return the lines that say how a run ended."""
+def _plain(text: str) -> str:
+    """Return a text in which argparse finds no format."""
+    return visible(text).replace("%", "%%")
+
+
+def add_option(group: argparse._ActionsContainer, option: Option) -> None:
+    """Add an option of the tables to a parser."""
+    shown = "" if option.default is None else f" (default: {option.default})"
+    text = _plain(f"{option.help}{shown}")
+    if option.is_flag:
+        group.add_argument(f"--{option.name}", help=text, action="store_const", const="true")
+        return
+    action = "append" if option.repeatable else "store"
+    group.add_argument(f"--{option.name}", metavar=option.metavar, help=text, action=action)
+
+
+def verdict(name: str, result: RunResult) -> Iterator[str]:
+    """Yield the lines that say how a run ended."""
     head = f"{name}: {result.status} after {result.time:.2f} s"
-    lines = [f"{head}: {result.reason}" if result.reason else head]
-    lines += [f"  collision at {t:.2f} s: {one}, {other}" for t, one, other in result.collisions]
-    return "\n".join(lines)
+    if result.collisions and result.status == "success":
+        count = len(result.collisions)
+        head += f", with {count} collision{'s' if count > 1 else ''}"
+    yield f"{head}: {result.reason}" if result.reason else head
+    for warning in result.warnings:
+        yield f"  warning: {warning}"
+    for time, one, other in result.collisions:
+        yield f"  collision at {time:.2f} s: {one}, {other}"
 
 
 def show_progress(time: float, most: float) -> None:
     """Show the simulated time on one line of the terminal."""
-    print(f"\r{time:7.1f} s of at most {most:g} s", end="", file=sys.stderr, flush=True)
+    show_status(f"{time:7.1f} s of at most {most:g} s")
 
 
 def clear_progress(progress: Callable[[float, float], None] | None) -> None:
     """Wipe the line of the progress."""
     if progress is not None:
-        print("\r\033[K", end="", file=sys.stderr, flush=True)
+        clear_status()

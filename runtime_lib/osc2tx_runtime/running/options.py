@@ -2,60 +2,20 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast, get_args
 
 from osc2tx_runtime.errors import SettingsError
-from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.settings import FAIL_ON, RunSettings
+from osc2tx_runtime.plain_numbers import to_float, to_int
+from osc2tx_runtime.world.protocol import ControlMode
+from osc2tx_runtime.worlds import Option, find_world
+from osc2tx_runtime.worlds.option import NUMBER_AND_UNIT, parse_pair, parse_seconds
 
-__all__ = ["OPTIONS", "Option", "parse_signal", "parse_spawn", "read_options"]
+__all__ = ["OPTIONS", "parse_signal", "parse_spawn", "read_options"]
 
-SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 0.001, "min": 60.0}
-NUMBER_AND_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z]*)")
-
-
-@dataclass(frozen=True, slots=True)
-class Option:
-    """One option of `python scenario.py` and `osc2tx run`.
-
-    Attributes:
-        name: As written after `--`.
-        metavar: Form of its value.
-        help: One line.
-        parse: Reads one text; (key, value) pairs for options that fill a mapping.
-        repeatable: May be given several times.
-        default: For the help page; None where there is nothing to say.
-    """
-
-    name: str
-    metavar: str
-    help: str
-    parse: Callable[[str], Any]
-    repeatable: bool = False
-    default: object = None
-
-    @property
-    def field(self) -> str:
-        """Name of the field of `RunSettings`."""
-        return self.name.replace("-", "_")
-
-    def read(self, texts: Sequence[str]) -> Any:
-        """Return the field's value for the given texts; the last one counts where one is wanted."""
-        values = [self.parse(text) for text in texts]
-        if not self.repeatable:
-            return values[-1]
-        return tuple(values) if self.name in LISTS else dict(values)
-
-
-def parse_seconds(text: str, example: str) -> float:
-    """Read `1`, `1.5s` or `500ms` as seconds."""
-    found = NUMBER_AND_UNIT.fullmatch(text.strip())
-    if found is None or found[2] not in SECONDS:
-        raise SettingsError(f"`{text}` is no time: write seconds, as in {example}")
-    return float(found[1]) * SECONDS[found[2]]
+CONTROLS: tuple[str, ...] = get_args(ControlMode)
 
 
 def parse_signal(text: str) -> tuple[str, float]:
@@ -72,11 +32,11 @@ def parse_signal(text: str) -> tuple[str, float]:
 
 def parse_spawn(text: str) -> tuple[str, tuple[str, int, float]]:
     """Read `hero=16,-3,10`."""
-    actor, place = _split(text, "--spawn", "ACTOR=ROAD,LANE,S", "hero=16,-3,10")
+    actor, place = parse_pair(text, "--spawn", "ACTOR=ROAD,LANE,S", "hero=16,-3,10")
     parts = [part.strip() for part in place.split(",")]
     try:
         road, lane, s = parts
-        return actor, (road, int(lane), float(s))
+        return actor, (road, to_int(lane), to_float(s))
     except ValueError:
         raise SettingsError(
             f"--spawn {text}: write ACTOR=ROAD,LANE,S with a road id, a lane id and metres along"
@@ -86,44 +46,117 @@ def parse_spawn(text: str) -> tuple[str, tuple[str, int, float]]:
 
 def parse_destination(text: str) -> tuple[str, str]:
     """Read `hero=obstacle` or `hero=16,-3,200`."""
-    return _split(text, "--destination", "ACTOR=ACTOR or ACTOR=ROAD,LANE,S", "hero=obstacle")
+    return parse_pair(text, "--destination", "ACTOR=ACTOR or ACTOR=ROAD,LANE,S", "hero=obstacle")
 
 
 def parse_set(text: str) -> tuple[str, float | str]:
     """Read `v=12.5`; what is no number stays text."""
-    name, value = _split(text, "--set", "NAME=VALUE", "v=12.5")
+    name, value = parse_pair(text, "--set", "NAME=VALUE", "v=12.5")
     try:
-        return name, float(value)
+        return name, to_float(value)
     except ValueError:
+        if NUMBER_AND_UNIT.fullmatch(value):
+            raise SettingsError(f"--set {text}: the value is larger than any number") from None
         return name, value
-
-
-def _split(text: str, option: str, form: str, example: str) -> tuple[str, str]:
-    key, equals, value = (part.strip() for part in text.partition("="))
-    if not (equals and key and value):
-        raise SettingsError(f"{option} {text}: write {form}, as in {option} {example}")
-    return key, value
 
 
 def parse_seed(text: str) -> int:
     """Read a whole number."""
     try:
-        return int(text)
+        return to_int(text)
     except ValueError:
         raise SettingsError(f"--seed {text}: write a whole number, as in --seed 7") from None
 
 
-LISTS = ("map-path", "allow-external")
-"""Repeatable options whose values are a list; those of the others are pairs."""
+def parse_control(text: str) -> dict[str, ControlMode]:
+    """Read `driven`, `hero=external` or `exact,hero=external`; `""` stands for all others."""
+    found: dict[str, ControlMode] = {}
+    for part in text.split(","):
+        actor, _, mode = part.rpartition("=")
+        if mode.strip() not in CONTROLS or ("=" in part and not actor.strip()):
+            raise SettingsError(
+                f"--control {text}: write MODE[,ACTOR=MODE] with {' or '.join(CONTROLS)}, as in"
+                " --control driven,hero=external"
+            )
+        found[actor.strip()] = cast(ControlMode, mode.strip())
+    return found
+
+
+def parse_physics(text: str) -> str:
+    """Read `warn` or `fail`."""
+    if text not in ("warn", "fail"):
+        raise SettingsError(f"--physics {text}: write warn or fail")
+    return text
+
+
+def parse_conduct(text: str) -> str:
+    """Read `as_told` or `standard`."""
+    if text not in ("as_told", "standard"):
+        raise SettingsError(f"--conduct {text}: write as_told or standard")
+    return text
+
+
+def parse_fail_on(text: str) -> tuple[str, ...]:
+    """Read `collision` or `collision,red_light`."""
+    names = tuple(part.strip() for part in text.split(","))
+    for name in names:
+        if name not in FAIL_ON:
+            raise SettingsError(f"--fail-on {text}: write {', '.join(FAIL_ON)} or several of them")
+    return names
+
+
+def _joined(given: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for names in given for name in names))
+
+
+def _merged(controls: Iterable[Mapping[str, ControlMode]]) -> dict[str, ControlMode]:
+    return {actor: mode for given in controls for actor, mode in given.items()}
+
 
 OPTIONS: tuple[Option, ...] = (
-    Option("map-path", "PATH", "folder with maps, or the map itself (.xodr)", Path, True),
-    Option("signal", "NAME@SECONDS", "send the event NAME from outside", parse_signal, True),
-    Option("spawn", "ACTOR=ROAD,LANE,S", "start position of an actor", parse_spawn, True),
+    Option("map-path", "PATH", "folder with maps, or the map itself (.xodr)", Path, tuple),
     Option(
-        "destination", "ACTOR=GOAL", "where a vehicle goes: actor or R,L,S", parse_destination, True
+        "world",
+        "NAME",
+        "where it runs; --world NAME --help has its options",
+        str.strip,
+        default="embedded",
     ),
-    Option("set", "NAME=VALUE", "value of a parameter, in SI units", parse_set, True),
+    Option(
+        "control",
+        "MODE[,ACTOR=MODE]",
+        "who moves the actors: exact, driven, external, autopilot",
+        parse_control,
+        _merged,
+    ),
+    Option.flag("expect", "actions of external actors are expected of them"),
+    Option(
+        "physics",
+        "warn|fail",
+        "what to do about motions that tyres cannot do",
+        parse_physics,
+        default="warn",
+    ),
+    Option(
+        "conduct",
+        "as_told|standard",
+        "whether actors avoid collisions and obey lights unless told otherwise",
+        parse_conduct,
+        default="as_told",
+    ),
+    Option(
+        "fail-on",
+        "collision|off_road|red_light",
+        "end with a failure if this happens, whatever the scenario says",
+        parse_fail_on,
+        _joined,
+    ),
+    Option("signal", "NAME@SECONDS", "send the event NAME from outside", parse_signal, dict),
+    Option("spawn", "ACTOR=ROAD,LANE,S", "start position of an actor", parse_spawn, dict),
+    Option(
+        "destination", "ACTOR=GOAL", "where a vehicle goes: actor or R,L,S", parse_destination, dict
+    ),
+    Option("set", "NAME=VALUE", "value of a parameter, in SI units", parse_set, dict),
     Option("seed", "N", "seed of all that is sampled", parse_seed, default=0),
     Option(
         "dt", "SECONDS", "length of a step", lambda t: parse_seconds(t, "--dt 0.05"), default=0.05
@@ -142,7 +175,7 @@ OPTIONS: tuple[Option, ...] = (
         "MODULE.FUNCTION",
         "let the scenario call this Python function",
         str.strip,
-        True,
+        tuple,
     ),
 )
 
@@ -152,20 +185,30 @@ def read_options(texts: Mapping[str, str | Sequence[str] | None]) -> RunSettings
 
     Args:
         texts: Option name (`map-path` or `map_path`) to what was written: one text, a sequence
-            for repeatable options, None or nothing at all for the default.
+            for repeatable options, None or nothing at all for the default. Flags: `true`.
 
     Raises:
-        SettingsError: If a text does not have the form of its option.
+        SettingsError: If a text does not have the form of its option, or no option of the chosen
+            world has this name.
     """
-    given = {name.replace("_", "-"): text for name, text in texts.items()}
-    values: dict[str, Any] = {}
-    for option in OPTIONS:
-        text = given.pop(option.name, None)
-        if text is None:
-            continue
-        many = [text] if isinstance(text, str) else list(text)
-        if many:
-            values[option.field] = option.read(many)
+    given = {
+        name.replace("_", "-"): [text] if isinstance(text, str) else list(text)
+        for name, text in texts.items()
+        if text is not None and text != () and text != []
+    }
+    values = _take(OPTIONS, given)
+    if given:
+        world = find_world(values.get("world", "embedded"))
+        values["world_options"] = _take(world.options, given)
     if given:
         raise SettingsError(f"unknown option --{min(given)}")
     return RunSettings(**values)
+
+
+def _take(options: Iterable[Option], given: dict[str, list[str]]) -> dict[str, Any]:
+    """Read what was given of some options, and take it away."""
+    return {
+        option.field: option.read(given.pop(option.name))
+        for option in options
+        if option.name in given
+    }

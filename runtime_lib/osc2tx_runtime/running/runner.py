@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.routes.map_search import find_map
-from osc2tx_runtime.errors import InputError
+from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import OnProgress, run_tree
+from osc2tx_runtime.running.output_files import check_outputs, write_output
+from osc2tx_runtime.running.requirements import check_requirements
+from osc2tx_runtime.worlds import WorldRequest, find_world
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
@@ -32,6 +35,7 @@ class RunResult:
         time: Simulated seconds.
         trace_lines: Lines of the trace, without line ends.
         collisions: Time in seconds and the two actors of each new contact.
+        warnings: What is wrong with a run that goes on all the same.
     """
 
     status: str
@@ -40,6 +44,7 @@ class RunResult:
     time: float
     trace_lines: tuple[str, ...] = ()
     collisions: tuple[tuple[float, str, str], ...] = field(default=())
+    warnings: tuple[str, ...] = ()
 
 
 def run_scenario(
@@ -56,23 +61,31 @@ def run_scenario(
         scenario_class: A generated class.
         settings: Of the run.
         on_progress: Called about once per simulated second with time and `max_time`, in seconds.
-        world: The world to run in; by default the embedded one on the scenario's map.
+        world: The world to run in; by default the one of the settings, on the scenario's map. It
+            is closed at the end.
         keep_trace: Keep the lines of the trace even if no file is asked for.
 
     Raises:
         ScenarioError: If the scenario cannot start, or cannot go on.
     """
     settings = settings or RunSettings()
+    check_outputs(settings)
     scenario = scenario_class(settings)
     root = scenario.create_tree()
-    context = make_context(scenario, world or embedded_world(scenario), keep_trace)
-    place_actors(scenario, context)
-    setup_tree(root, context)
-    write_header(scenario, context)
+    world = checked_world(world or make_world(scenario))
     try:
-        outcome = run_tree(root, context, on_progress)
+        context = make_context(scenario, world, keep_trace)
+        place_actors(scenario, context)
+        setup_tree(root, context)
+        check_requirements(root, context)
+        try:
+            write_header(scenario, context)
+            world.begin()
+            outcome = run_tree(root, context, on_progress)
+        finally:
+            write_files(context)
     finally:
-        write_files(context)
+        world.close()
     return RunResult(
         outcome.status,
         outcome.reason,
@@ -80,20 +93,32 @@ def run_scenario(
         outcome.steps * context.dt,
         tuple(context.trace.lines),
         tuple(context.collisions),
+        tuple(map(str, world.overloads())) if settings.physics == "warn" else (),
     )
 
 
-def embedded_world(scenario: Scenario) -> World:
-    """Make the embedded world on the scenario's map."""
-    from osc2tx_runtime.opendrive import MapError, read_map
-    from osc2tx_runtime.world.embedded import EmbeddedWorld
-
-    path = find_map(scenario.map_file(), scenario.settings.map_path)
-    try:
-        road_map = read_map(path)
-    except (MapError, OSError) as error:
-        raise InputError(f"the map cannot be read: {error}") from error
-    return EmbeddedWorld(road_map, scenario.settings.dt)
+def make_world(scenario: Scenario) -> object:
+    """Make the world that the settings choose, for the scenario's map."""
+    settings = scenario.settings
+    map_file = scenario.map_file()
+    request = WorldRequest(
+        map_file,
+        lambda: find_map(map_file, settings.map_path),
+        settings.dt,
+        settings.seed,
+        settings.control,
+        settings.world_options,
+    )
+    found = find_world(settings.world)
+    for actor, control in settings.control.items():
+        if control not in found.controls:
+            raise SettingsError(
+                f"--control {control}: the world {found.name} has {' and '.join(found.controls)}"
+            )
+        if actor:
+            check_known("--control", "actor", [actor], scenario.actors)
+    with OwnCode(f"the world {settings.world} raised"):
+        return found.make(request)
 
 
 def make_context(scenario: Scenario, world: World, keep_trace: bool) -> ExecutionContext:
@@ -109,6 +134,7 @@ def make_context(scenario: Scenario, world: World, keep_trace: bool) -> Executio
         trace=TraceWriter(enabled),
         label_events=scenario.label_events,
         one_of=scenario.one_of,
+        first_come=scenario.first_come,
     )
 
 
@@ -141,18 +167,25 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
             "height": state.height,
             "rear": state.rear,
         }
-    context.trace.header(
-        {
-            "scenario": scenario.name,
-            "source": scenario.source,
-            "map": context.world.map.name,
-            "dt": context.dt,
-            "seed": context.settings.seed,
-            "parameters": dict(sorted(scenario.parameters.items(), key=_path)),
-            "actors": actors,
-            "one_of": scenario.one_of,
-        }
-    )
+    world = context.world
+    header = {
+        "scenario": scenario.name,
+        "source": scenario.source,
+        "map": context.world.map.name,
+        "dt": context.dt,
+        "seed": context.settings.seed,
+        "parameters": dict(sorted(scenario.parameters.items(), key=_path)),
+        "actors": actors,
+        "one_of": scenario.one_of,
+    }
+    if context.settings.conduct != "as_told":
+        header["conduct"] = context.settings.conduct
+    if world.name != "embedded":
+        header["world"] = world.name
+    controls = {actor: world.control(actor) for actor in context.cast()}
+    if any(control != "exact" for control in controls.values()):
+        header["control"] = controls
+    context.trace.header(header)
 
 
 def _path(parameter: tuple[str, Any]) -> str:
@@ -164,21 +197,9 @@ def write_files(context: ExecutionContext) -> None:
     """Write trace and report where the settings want them."""
     settings = context.settings
     if settings.trace is not None:
-        write_text(settings.trace, "".join(f"{line}\n" for line in context.trace.lines))
+        write_output("trace", settings.trace, "".join(f"{line}\n" for line in context.trace.lines))
     if settings.report is not None:
-        from osc2tx_runtime.report import write_report
+        from osc2tx_runtime.report import render_report
 
-        try:
-            settings.report.parent.mkdir(parents=True, exist_ok=True)
-            write_report(settings.report, context.trace.lines, context.world.map)
-        except OSError as error:
-            raise InputError(f"the report cannot be written: {error}") from error
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a file and the folders above it."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise InputError(f"the trace cannot be written: {error}") from error
+        page = render_report(context.trace.lines, context.world.map)
+        write_output("report", settings.report, page)

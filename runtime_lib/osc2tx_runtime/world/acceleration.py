@@ -7,7 +7,7 @@ from .commands import AccelerationChange
 from .profiles import Linear, Profile, Quintic
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = ["AccelerationRun", "ConstantAcceleration", "acceleration_profile"]
 
@@ -22,10 +22,10 @@ class ConstantAcceleration:
         self._start = start
         self._steps = 0
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Start speed plus acceleration times time."""
         self._steps += 1
-        speed = self._start + self._acceleration * self._steps * senses.dt
+        speed = self._start + self._acceleration * self._steps * inputs.dt
         return 0.0 if self._start >= 0.0 > speed or self._start < 0.0 < speed else speed
 
     def progress(self) -> Progress:
@@ -63,10 +63,10 @@ class AccelerationRun:
         self._steps = 0
         self._standing = False
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Start speed plus the integral of the acceleration; zero once it comes to a stand."""
         self._steps += 1
-        before, self._time = self._time, self._steps * senses.dt
+        before, self._time = self._time, self._steps * inputs.dt
         if isinstance(self._profile, Linear | Quintic):
             self._gained = _integral(self._profile, self._time)
         else:

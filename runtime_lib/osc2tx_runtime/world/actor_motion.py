@@ -3,51 +3,110 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_runtime.opendrive import Pose, RoadMap
 
-from .actor_step import ANY_LANE, CRUISE, Moving, cruise_of
+from .acceleration import ConstantAcceleration
+from .actor_step import ANY_LANE, CRUISE, MovingActor, cruise_of
 from .attitude_control import Turning
+from .collision_avoidance import Cautious
 from .commands import Command, FollowRoute, KeepLane, RunOut, Turn
-from .curve_following import course_of
+from .curve_following import Replay, TimedReplay, course_of
+from .expectations import Expectation, expected
+from .gap_control import ArrivalRun
 from .lane_return import turn_from
 from .lateral import (
     HoldOffset,
     Impossible,
+    Shift,
     lateral_of,
 )
 from .longitudinal import acceleration_of, longitudinal_of
-from .protocol import PENDING, REACHED, Progress
+from .measurement import MeasuredMotion
+from .position_control import CoverRun
+from .protocol import LATERAL, LONGITUDINAL, PENDING, REACHED, Progress
 from .route_following import Way
+from .state import ActorState
+from .step_inputs import StepInputs
+from .tracking import Tracking
 
-__all__ = ["ANY_LANE", "CRUISE", "Body", "cruise_of"]
+__all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
 
 
 @dataclass(slots=True)
-class Body(Moving):
-    """An actor with what it is asked for."""
+class CommandedActor(MovingActor):
+    """An actor with what it is asked for.
+
+    Attributes:
+        follows: It does what its commands say; False if somebody else drives it, and they are only
+            expected of it.
+        tracking: How well it follows, if it was measured.
+        motion: How it moves, if that was measured.
+        heading: Heading (rad) of its reference when the friction circle was last looked at.
+    """
+
+    follows: bool = True
+    _expected: dict[str, Expectation] = field(default_factory=dict)
+    tracking: Tracking | None = None
+    motion: MeasuredMotion | None = None
+    heading: float | None = None
+
+    def progress(self, slot: str) -> Progress:
+        """Progress of the command in a slot, by reference and measurement."""
+        if not self.follows:
+            expectation = self._expected.get(slot)
+            return REACHED if expectation is None else expectation.progress()
+        wished = self.speed_progress() if slot == LONGITUDINAL else self.side_progress()
+        return wished if self.tracking is None else self.tracking.progress(slot, wished)
+
+    @property
+    def is_physical(self) -> bool:
+        """Whether it moves as its commands want it, and nobody put it there."""
+        return self.follows and not isinstance(self._course, Replay | TimedReplay)
+
+    def pursue(self, slot: str, command: Command | None, road_map: RoadMap) -> None:
+        """Puts the command of a slot to work; None holds the speed, or keeps the lane."""
+        if not self.follows:
+            self._expected[slot] = expected(command, self.state, road_map, self.route)
+        elif slot == LONGITUDINAL:
+            self.pursue_speed(command)
+        else:
+            self.pursue_side(command, road_map)
+
+    def observe(self, inputs: StepInputs) -> None:
+        """Sees after a step what has come of what is expected."""
+        for expectation in self._expected.values():
+            expectation.look(self.state, inputs)
 
     def pursue_speed(self, command: Command | None) -> None:
         """Puts a longitudinal command to work; None holds the speed."""
+        if self.tracking is not None:
+            self.tracking.forget(LONGITUDINAL)
         if command is None:
             self._speed = None
             return
         slips = self.wheels is not None and self.wheels.slipping
-        now = self.state.a if slips else acceleration_of(self._speed, self.state)
-        state = self.state._replace(a=now)
+        now = self.reference.a if slips else acceleration_of(self._speed, self.reference)
+        state = self.reference._replace(a=now)
         self._speed = longitudinal_of(command, state, self.limits, self.route)
+
+    def go_on_with(self, speed: float, acceleration: float) -> None:
+        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes."""
+        self._speed = ConstantAcceleration(acceleration, speed)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        if self.tracking is not None:
+            self.tracking.forget(LATERAL)
         if self._way is not None:
             self.route, self._way = self._way.before, None
         if isinstance(command, FollowRoute):
             self._way = Way(command, road_map, self.route)
-            self.route, command = self._way.route, KeepLane()
-        course = course_of(command, self.state, self.limits)
+            self.route, command = self._way.route, command.side or KeepLane()
+        course = course_of(command, self.reference, self.limits)
         if course is not None:
-            self._course, self.bound, self._home = course, None, None
+            self._course, self.bound, self.home = course, None, None
             self._side = HoldOffset()
             return
         returned = self._course is not None
@@ -56,14 +115,14 @@ class Body(Moving):
             self._return_to_lane(road_map)
             if self.bound is not None and (command is None or isinstance(command, KeepLane)):
                 return  # on its way to the middle of the lane
-        if self._home is not None:
+        if self.home is not None:
             held = command is None or isinstance(command, KeepLane)
             self._side = HoldOffset() if held else Impossible(f"{self.spec.id} is in no lane yet")
             return
         if self.bound is None:
             self._pursue_heading(command)
             return
-        state = self.state
+        state = self.reference
         here, rate = state.lane_position or self.bound, state.lateral_speed
         if returned:
             here, rate = self.bound, state.v * math.sin(turn_from(road_map, self.bound, state))
@@ -86,7 +145,7 @@ class Body(Moving):
             )
 
     def speed_progress(self) -> Progress:
-        """Progress of the longitudinal command."""
+        """Progress of the longitudinal command, by the reference."""
         if self._hindrance is not None:
             return Progress(False, self._hindrance)
         progress = REACHED if self._speed is None else self._speed.progress()
@@ -101,21 +160,44 @@ class Body(Moving):
         return sliding if arrived else self.blocked or sliding
 
     def side_progress(self) -> Progress:
-        """Progress of the lateral command."""
+        """Progress of the lateral command, by the reference."""
         if self._hindrance is not None:
             return Progress(False, self._hindrance)
         if self._course is not None:
             return self._course.progress()
-        if self._way is not None:
+        if self._way is not None and self._way.ends:
             return self._way.progress()
         lost = isinstance(self._side, Impossible)
-        if self.bound is not None or self._home is not None or lost:
+        if self.bound is not None or self.home is not None or lost:
             return self._side.progress()
-        return REACHED if self._turning is None else self._turning.progress(self.state)
+        return REACHED if self._turning is None else self._turning.progress(self.reference)
 
     def drift(self, aside: float, road_map: RoadMap) -> None:
         """Has a lateral speed (m/s) at the start."""
         if self.bound is not None:
-            state = self._state_on_lane(self.bound, self.state.v, aside, 0.0, road_map)
-            self.state = state
+            self.settle(self.on_lane(self.bound, self.reference.v, aside, 0.0, road_map))
             self.pursue_side(RunOut(aside), road_map)
+
+    # --- what a controller follows -------------------------------------------------------------
+
+    def settle(self, state: ActorState) -> None:
+        """Is where it was wished."""
+        self.state = self.reference = state
+
+    def slid(self, along: float) -> None:
+        """Its reference is so many metres further along its path than its commands count on."""
+        if self._course is not None:
+            self._course.slid(along)
+        if isinstance(self._speed, ArrivalRun | Cautious | CoverRun):
+            self._speed.slid(along)
+
+    def course_ahead(self, way: float) -> Pose | None:
+        """Place so many metres on along its course; None if it follows none."""
+        return None if self._course is None else self._course.ahead(way)
+
+    def offset_after(self, seconds: float, rate: float) -> float:
+        """Offset in its lane some time from now, if it moves to the left so fast (m/s)."""
+        assert self.bound is not None
+        if isinstance(self._side, Shift):
+            return self._side.offset_in(seconds)
+        return self.bound.offset + rate * seconds

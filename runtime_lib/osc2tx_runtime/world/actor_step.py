@@ -28,9 +28,9 @@ from .position_control import PlacedRun
 from .protocol import ActorSpec
 from .route_following import Way
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
-__all__ = ["ANY_LANE", "CRUISE", "Moving", "cruise_of"]
+__all__ = ["ANY_LANE", "CRUISE", "MovingActor", "cruise_of"]
 
 CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
 """Speed (m/s) at which those who stand set out on a course; vehicles: `CRUISE_VEHICLE`."""
@@ -55,30 +55,36 @@ _ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 
 @dataclass(slots=True)
-class Moving:
+class MovingActor:
     """An actor over its steps, with its commands at work.
 
     Attributes:
         spec: What it is.
-        state: Snapshot of the present step.
+        state: Snapshot of the present step: what all read of it.
+        reference: State that its commands start from. The same, unless somebody measures the actor:
+            then it keeps the speed and the place in the lane that were commanded, abreast of it.
         bound: Lane it follows, with its offset from there; None off the lanes.
         route: Decides at forks; None: the smallest change of heading.
         blocked: Why it cannot go on; None while it can.
         jumped: In the last step it was put somewhere instead of moving there.
         wheels: Its grip on the road; None for those without wheels.
         tilt: Pitch and roll that it was told; wheels that roll forget them.
+        left: Where it was in its lane before the last step.
+        home: Lane that it returns to; None: it is in one, or goes to none.
     """
 
     spec: ActorSpec
     state: ActorState
+    reference: ActorState
     bound: LanePosition | None
     route: Route | None = None
     blocked: str | None = None
     jumped: bool = False
     wheels: Wheels | None = None
     tilt: Tilt = LEVEL
+    left: LanePosition | None = None
+    home: LanePosition | None = None
     _course: Course | None = None
-    _home: LanePosition | None = None  # lane it returns to
     _way: Way | None = None
     _speed: Longitudinal | None = None
     _side: Lateral = field(default_factory=HoldOffset)
@@ -98,13 +104,13 @@ class Moving:
 
     # --- motion -------------------------------------------------------------------------------
 
-    def moved(self, senses: Senses, road_map: RoadMap) -> ActorState:
+    def moved(self, inputs: StepInputs, road_map: RoadMap) -> ActorState:
         """State at the next step; the snapshot itself stays as it is."""
-        state, dt = self.state, senses.dt
+        state, dt = self.reference, inputs.dt
         if self._course is not None and self._speed is None and state.v == 0.0:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
-        speed = state.v if self._speed is None else self._speed.speed_after(state, senses)
+        speed = state.v if self._speed is None else self._speed.speed_after(state, inputs)
         path = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.limited:
             way = curvature_ahead(road_map, self.bound, self.route)
@@ -113,12 +119,12 @@ class Moving:
         if path is None:
             path = 0.5 * (state.v + speed) * dt
         self.jumped = False
-        if self._home is not None or self._astray:
+        if self.home is not None or self._astray:
             self._return_to_lane(road_map)
         if path and self.wheels is not None:
             self.tilt = LEVEL
         if self.bound is not None:
-            return self._along_lane(speed, path, road_map, senses)
+            return self._along_lane(speed, path, road_map, inputs)
         if self._course is not None:
             return self._on_course(self._course, speed, path, road_map, dt)
         if path == 0.0 and self._turning is None:
@@ -126,11 +132,12 @@ class Moving:
         return self._straight_on(speed, path, road_map, dt)
 
     def _along_lane(
-        self, speed: float, path: float, road_map: RoadMap, senses: Senses
+        self, speed: float, path: float, road_map: RoadMap, inputs: StepInputs
     ) -> ActorState:
-        bound, dt = self.bound, senses.dt
+        bound, dt = self.bound, inputs.dt
         assert bound is not None
-        offset, rate = self._side.offset_after(bound.offset, path, self.state, senses)
+        self.left = bound
+        offset, rate = self._side.offset_after(bound.offset, path, self.reference, inputs)
         aside = offset - bound.offset
         if path == 0.0 and aside == 0.0:
             return self._standing(speed, dt)
@@ -149,11 +156,11 @@ class Moving:
         if offset != place.offset:
             place = LanePosition(place.road, place.lane, place.s, offset)
         self.bound = place
-        return self._state_on_lane(place, speed, rate, (speed - self.state.v) / dt, road_map)
+        return self.on_lane(place, speed, rate, (speed - self.reference.v) / dt, road_map)
 
     def _standing(self, speed: float, dt: float) -> ActorState:
         """The same place; the same state if nothing else changes."""
-        state, a = self.state, (speed - self.state.v) / dt
+        state, a = self.reference, (speed - self.reference.v) / dt
         if speed == state.v and a == state.a and state.lateral_speed == 0.0:
             return state
         return state._replace(v=speed, a=a, lateral_speed=0.0)
@@ -165,16 +172,25 @@ class Moving:
         self._speed = None
         return 0.0
 
-    def _state_on_lane(
+    def on_lane(
         self, bound: LanePosition, speed: float, rate: float, a: float, road_map: RoadMap
     ) -> ActorState:
+        """State at a place in its lane.
+
+        Args:
+            bound: The place.
+            speed: m/s.
+            rate: m/s to the left.
+            a: m/s^2.
+            road_map: The map.
+        """
         pose = road_map.pose(bound)
         h = pose.h
         if rate and abs(speed) > _STILL:
             h += math.asin(min(max(rate / speed, -SIDEWAYS), SIDEWAYS))
             h = math.pi - (math.pi - h) % math.tau
         elif abs(speed) <= _STILL and self._half_way(bound):
-            h = self.state.h  # standing half way through a lane change
+            h = self.reference.h  # standing half way through a lane change
         under = lane_under(road_map, bound, pose) if bound.offset else bound
         pitch, roll = self._tilted(pose, h)
         return ActorState(
@@ -188,13 +204,13 @@ class Moving:
         return self.tilt.over(tilt_on(ground, heading))
 
     def _half_way(self, bound: LanePosition) -> bool:
-        return not self._side.progress().done and bound.road == self.state.road
+        return not self._side.progress().done and bound.road == self.reference.road
 
     def _straight_on(self, speed: float, path: float, road_map: RoadMap, dt: float) -> ActorState:
-        state = self.state
+        state = self.reference
         h = state.h
-        if self._home is not None:
-            pose = self._towards_lane(self._home, path, road_map)
+        if self.home is not None:
+            pose = self._towards_lane(self.home, path, road_map)
             return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
         if self._turning is not None:
             h, self.tilt = self._turning.after(state, self.tilt, dt)
@@ -206,7 +222,7 @@ class Moving:
     def _on_course(
         self, course: Course, speed: float, path: float, road_map: RoadMap, dt: float
     ) -> ActorState:
-        state = self.state
+        state = self.reference
         pose, speed = course.after(state, speed, path, dt)
         way = math.hypot(pose.x - state.x, pose.y - state.y)
         self.jumped = way > max(abs(path), abs(speed) * dt) + _NEAR
@@ -214,14 +230,14 @@ class Moving:
 
     def _return_to_lane(self, road_map: RoadMap) -> None:
         """Is in its lane again if it stands in it and along it, else on the way there, if any."""
-        state, home, self._astray = self.state, self._home, False
+        state, home, self._astray = self.reference, self.home, False
         if not self.spec.lane_bound:
             return
         if home is None:
             home = lane_near(road_map, state)
         else:
             home = abreast(road_map, home, state, self.route)
-        self._home = home
+        self.home = home
         if home is None:
             return
         turn = turn_from(road_map, home, state)
@@ -231,23 +247,28 @@ class Moving:
             rate = state.v * math.sin(turn)
             profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.limits)
             self.bound = LanePosition(home.road, home.lane, home.s, offset)
-            self._side, self._home = Shift(profile, 0.0), None
+            self._side, self.home = Shift(profile, 0.0), None
 
     def _towards_lane(self, home: LanePosition, path: float, road_map: RoadMap) -> Pose:
         """Steers at the centre of the lane, some way ahead."""
-        state = self.state
+        state = self.reference
         steering = Steering(state.shape, self.limits)
         ahead = road_map.advance(home, steering.look_ahead(state.v), self.route).position
         goal = road_map.pose(ahead)
         return steering.towards(state, goal.x, goal.y, path)
 
-    def free_state(self, pose: Pose, speed: float, a: float, road_map: RoadMap) -> ActorState:
-        """State off the lanes: where it is, and which lane is under it, if any."""
-        hint = self.state.lane_position
+    def lane_at(
+        self, pose: Pose, hint: LanePosition | None, road_map: RoadMap
+    ) -> LanePosition | None:
+        """The lane under a place; None off the lanes."""
         heading = pose.h if self.spec.lane_bound else None
-        on = road_map.locate(
+        return road_map.locate(
             pose.x, pose.y, pose.z, heading, hint=hint, lane_types=ANY_LANE, max_distance=_NEAR
         )
+
+    def free_state(self, pose: Pose, speed: float, a: float, road_map: RoadMap) -> ActorState:
+        """State off the lanes: where it is, and which lane is under it, if any."""
+        on = self.lane_at(pose, self.reference.lane_position, road_map)
         ground = Pose(pose.x, pose.y, pose.z, pose.h) if on is None else road_map.pose(on)
         pitch, roll = self._tilted(ground, pose.h)
         return ActorState(
@@ -256,7 +277,7 @@ class Moving:
 
     def unbind(self) -> None:
         """Is on no lane any more, and goes straight on."""
-        self.bound, self._course, self._home = None, None, None
+        self.bound, self._course, self.home = None, None, None
 
     def turn_away(self) -> None:
         """Is turned by force: a vehicle goes back to its lane from there."""
@@ -265,7 +286,7 @@ class Moving:
 
     def rebind(self, bound: LanePosition, speed: float, road_map: RoadMap) -> ActorState:
         """State after a jump to a place on a lane."""
-        self.bound, self.blocked, self.tilt = bound, None, LEVEL
-        self._course, self._home, self._astray = None, None, False
+        self.bound, self.left, self.blocked, self.tilt = bound, None, None, LEVEL
+        self._course, self.home, self._astray = None, None, False
         self._side = HoldOffset()
-        return self._state_on_lane(bound, speed, 0.0, 0.0, road_map)
+        return self.on_lane(bound, speed, 0.0, 0.0, road_map)

@@ -8,7 +8,7 @@ from .actor_dimensions import Limits
 from .commands import KeepSchedule
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = ["Schedule", "towards"]
 
@@ -39,12 +39,12 @@ class Schedule:
         self._late = math.inf
         self._failed: str | None = None
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """A step towards the speed that keeps the schedule."""
-        curve, now = self._curve, self._begin + self._steps * senses.dt
+        curve, now = self._curve, self._begin + self._steps * inputs.dt
         self._steps += 1
-        after = min(now + senses.dt, self._end)
-        reach = max(2.0 * abs(me.v) * senses.dt, 1.0)
+        after = min(now + inputs.dt, self._end)
+        reach = max(2.0 * abs(me.v) * inputs.dt, 1.0)
         self._along = curve.nearest(me.x, me.y, self._along, reach)
         behind = curve.length_at(min(now, self._end)) - self._along
         self._late = self._goal - self._along
@@ -57,7 +57,7 @@ class Schedule:
         brake = 0.5 * self._limits.deceleration
         catch_up = min(_CATCH_UP * abs(behind), math.sqrt(2.0 * brake * abs(behind)))
         wanted = max(feed + math.copysign(catch_up, behind), 0.0)
-        return towards(me.v, wanted, self._limits, 1.0, senses.dt)
+        return towards(me.v, wanted, self._limits, 1.0, inputs.dt)
 
     def progress(self) -> Progress:
         """Done at the end of the curve."""

@@ -18,7 +18,7 @@ from .commands import Careful
 from .protocol import REACHED, Progress
 from .red_lights import RedLights
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = ["Cautious", "Hold"]
 
@@ -26,7 +26,7 @@ _LEAST_GAP = 0.1  # m: nearer counts as so near
 
 
 class _Inner(Protocol):
-    def speed_after(self, me: ActorState, senses: Senses) -> float: ...
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float: ...
     def progress(self) -> Progress: ...
 
 
@@ -36,7 +36,7 @@ class Hold:
     def __init__(self, speed: float) -> None:
         self._speed = speed
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Always the same."""
         return self._speed
 
@@ -73,18 +73,24 @@ class Cautious:
         self._lights = RedLights(limits, route)
         self._held = False
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """The inner speed, or what others and lights leave room for."""
-        speed = wanted = self._inner.speed_after(me, senses)
-        found = senses.obstacle(me)
+        speed = wanted = self._inner.speed_after(me, inputs)
+        found = inputs.obstacle(me)
         if found is not None or self._held:
             rise = COMFORT * self._limits.acceleration
             if found is not None:
                 rise = max(self._acceleration(me.v, found), -self._limits.deceleration)
-            speed = min(wanted, max(me.v + rise * senses.dt, 0.0))
-        speed = self._lights.allowed(me, speed, senses)
+            speed = min(wanted, max(me.v + rise * inputs.dt, 0.0))
+        speed = self._lights.allowed(me, speed, inputs)
         self._held = speed < wanted
         return speed
+
+    def slid(self, along: float) -> None:
+        """Hands on what a measured step was longer."""
+        slid = getattr(self._inner, "slid", None)
+        if slid is not None:
+            slid(along)
 
     def _acceleration(self, speed: float, found: tuple[float, float]) -> float:
         gap, other = found

@@ -20,11 +20,17 @@ class Contacts:
     def __init__(self) -> None:
         self.new: tuple[tuple[str, str], ...] = ()
         self._boxes: list[Box] = []
+        self._states: list[ActorState] = []  # to which the boxes belong
         self._touching: frozenset[tuple[int, int]] = frozenset()
 
     def begin(self, states: Mapping[str, ActorState]) -> None:
         """Take the places before step 0."""
-        self._boxes = [box_of(state) for state in states.values()]
+        self._states = list(states.values())
+        self._boxes = [box_of(state) for state in self._states]
+
+    def put(self, index: int, state: ActorState) -> None:
+        """Take a new place of an actor, by its number in the cast, between two steps."""
+        self._boxes[index], self._states[index] = box_of(state), state
 
     def step(
         self,
@@ -43,11 +49,11 @@ class Contacts:
         """
         boxes = []
         for i, (actor, state) in enumerate(zip(before, states, strict=True)):
-            boxes.append(self._boxes[i] if state is before[actor] else box_of(state))
+            boxes.append(self._boxes[i] if state is self._states[i] else box_of(state))
             if actor in jumped:
                 self._boxes[i] = boxes[i]
         touching = swept_contacts(self._boxes, boxes)
-        self._boxes = boxes
+        self._boxes, self._states = boxes, list(states)
         if touching or self._touching:
             self._compare(tuple(before), touching, coupled)
         else:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from osc2tx_runtime.opendrive import RoadMap
 
-from .actor_motion import Body
+from .actor_motion import CommandedActor
 from .state import ActorState
 from .towing import drawn
 
@@ -39,25 +39,29 @@ class Couplings:
         return tuple(self._towed.items())
 
     def draw(
-        self, bodies: Mapping[str, Body], states: list[ActorState], dt: float, road_map: RoadMap
+        self,
+        members: Mapping[str, CommandedActor],
+        states: list[ActorState],
+        dt: float,
+        road_map: RoadMap,
     ) -> None:
         """Put trailers behind the new states of what tows them, the foremost first.
 
         Args:
-            bodies: All actors, with their states at the begin of the step.
+            members: All actors, with their states at the begin of the step.
             states: Those at its end, in the same order; those of trailers are replaced.
             dt: Length of the step (s).
             road_map: The map.
         """
         if not self._towed:
             return
-        place = {actor: i for i, actor in enumerate(bodies)}
+        place = {actor: i for i, actor in enumerate(members)}
         waiting = [tow for tow in self._towed if not self.is_towed(tow)]
         for tow in waiting:
             trailer = self._towed[tow]
-            body, new = bodies[trailer], states[place[tow]]
-            pose, speed = drawn(body.state, new, bodies[tow].state, dt)
-            a = (speed - body.state.v) / dt
-            states[place[trailer]] = body.free_state(pose, speed, a, road_map)
+            member, new = members[trailer], states[place[tow]]
+            pose, speed = drawn(member.state, new, members[tow].state, dt)
+            a = (speed - member.state.v) / dt
+            states[place[trailer]] = member.free_state(pose, speed, a, road_map)
             if trailer in self._towed:
                 waiting.append(trailer)

@@ -18,7 +18,7 @@ from .curve import Curve, turn_between
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 
-__all__ = ["Course", "Steering", "course_of"]
+__all__ = ["Course", "Replay", "Steering", "TimedReplay", "course_of"]
 
 TURN_RATE = math.pi
 """Radians per second at which actors without wheels turn."""
@@ -44,6 +44,12 @@ class Course(Protocol):
             path: Metres driven in this step.
             dt: Length of the step (s).
         """
+
+    def slid(self, along: float) -> None:
+        """The actor was measured so many metres further along than it was put."""
+
+    def ahead(self, way: float) -> Pose:
+        """Place so many metres on along the course; beyond its end straight on."""
 
     def progress(self) -> Progress:
         """Progress at the present step."""
@@ -134,6 +140,13 @@ class Follow:
                 self._failed = f"it does not get onto the path, which is {away:.1f} m away"
         return pose, speed
 
+    def slid(self, along: float) -> None:
+        """Nothing to do: it looks anew in each step where it is."""
+
+    def ahead(self, way: float) -> Pose:
+        """A place on the curve."""
+        return _place_on(self._curve, self._along + way)
+
     def progress(self) -> Progress:
         """Done when the end is passed."""
         if self._failed is not None:
@@ -154,6 +167,14 @@ class Replay:
         """The place on the curve after the way driven."""
         self._along = max(self._along + path, self._begin)
         return _pose_at(self._curve, self._curve.at_length(self._along), me.h), speed
+
+    def slid(self, along: float) -> None:
+        """Goes on from there."""
+        self._along += along
+
+    def ahead(self, way: float) -> Pose:
+        """A place on the curve."""
+        return _place_on(self._curve, self._along + way)
 
     def progress(self) -> Progress:
         """Done when the end is passed."""
@@ -178,9 +199,23 @@ class TimedReplay:
         backwards = dx * math.cos(pose.h) + dy * math.sin(pose.h) < 0.0
         return pose, math.copysign(math.hypot(dx, dy), -1.0 if backwards else 1.0)
 
+    def slid(self, along: float) -> None:
+        """Nothing: its times hold."""
+
+    def ahead(self, way: float) -> Pose:
+        """A place on the curve."""
+        return _place_on(self._curve, self._curve.length_at(self._time) + way)
+
     def progress(self) -> Progress:
         """Done at the last time."""
         return REACHED if self._time >= self._end - 1e-9 else PENDING
+
+
+def _place_on(curve: Curve, along: float) -> Pose:
+    """Pose so many metres along a curve, in the direction of the way."""
+    at = curve.at_length(along)
+    x, y, z = curve.point(at)
+    return Pose(x, y, z, curve.heading(at) or 0.0)
 
 
 def _pose_at(curve: Curve, at: float, before: float) -> Pose:

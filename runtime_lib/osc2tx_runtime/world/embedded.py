@@ -1,44 +1,60 @@
-"""The world that needs no simulator: lane-bound actors on an OpenDRIVE map."""
+"""The world: actors on an OpenDRIVE map, moved in closed form or by the plant of a simulator."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
 from .actor_dimensions import Limits
-from .actor_motion import Body
+from .actor_motion import CommandedActor
+from .anchoring import arrive
 from .attitude import LEVEL, Tilt
+from .checked_plant import CheckedPlant
 from .commands import Command, Standstill
 from .contacts import Contacts
 from .couplings import Couplings
+from .deviation import Deviation
 from .distances import along_lanes, lateral_on_road
-from .features import FEATURES
+from .feasibility import FrictionWatch
+from .features import Feature
 from .friction import grip
-from .friction_circle import Wheels
-from .kinematics import Kinematics, Track
+from .kinematics import Motion, Track
 from .obstacles import nearest_ahead
+from .overload import Overload
+from .plant import Identity, Plant
 from .projected_motion import projected
 from .protocol import (
-    LONGITUDINAL,
+    EXTERNAL,
     ActorSpec,
+    ControlMode,
     LightMode,
     LightState,
+    Note,
     Progress,
 )
+from .scene import Scene
+from .starts import Start, placed
 from .state import ActorState
-from .state_changes import Wish
+from .state_changes import StateChange
 from .stop_lines_ahead import StopLine, StopLines
 from .sun_and_moon import Sky
 from .traffic_light_states import Signals
+from .value_checks import in_words, problem_of
 from .weather_effects import Lights, Surroundings
 
 __all__ = ["EmbeddedWorld"]
 
 
 class EmbeddedWorld:
-    """Deterministic world with closed-form motion.
+    """Turns commands into states in closed form, and reads what has become of them.
+
+    Args:
+        road_map: The road map.
+        dt: Length of a step (s).
+        plant: What moves the actors; by default they are where the closed forms put them.
 
     Attributes:
         map: The road map.
@@ -46,25 +62,60 @@ class EmbeddedWorld:
         signals: The traffic lights.
     """
 
-    def __init__(self, road_map: RoadMap, dt: float = 0.05) -> None:
+    def __init__(self, road_map: RoadMap, dt: float = 0.05, plant: Plant | None = None) -> None:
         self.map = road_map
         self.dt = dt
         self.signals = Signals(road_map)
         self._stop_lines = StopLines(road_map, self.signals)
         self._specs: dict[str, ActorSpec] = {}
-        self._bodies: dict[str, Body] = {}
-        self._wishes: dict[str, Wish] = {}
+        self._cast: dict[str, CommandedActor] = {}
+        self._changes: dict[str, StateChange] = {}
+        self._outside: tuple[CommandedActor, ...] = ()  # driven by somebody else
         self._couplings = Couplings()
         self._lights = Lights()
         self._surroundings = Surroundings(dt)
         self._track = Track()
         self._contacts = Contacts()
+        self._friction = FrictionWatch(dt)
+        self._plant: Plant = Identity() if plant is None else CheckedPlant(plant)
+        self._scene = Scene(
+            *(road_map, dt, self.signals, self._lights, self._surroundings, self._couplings)
+        )
+
+    # --- life ---------------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """What moves its actors: `embedded`, or a simulator."""
+        return self._plant.name
+
+    def control(self, actor: str) -> ControlMode:
+        """Who moves an actor."""
+        return self._plant.control(actor)
+
+    def begin(self) -> None:
+        """Puts the actors where they were placed, before step 0."""
+        members = tuple(self._cast.values())
+        for member in members:
+            member.follows = self._plant.control(member.spec.id) not in EXTERNAL
+        self._outside = tuple(member for member in members if not member.follows)
+        self._scene.wish(members, [member.state for member in members], frozenset(), frozenset())
+        found = self._plant.begin(self._scene)
+        if found:
+            placed = [member.state for member in members]
+            arrive(self._cast, placed, found, (), self._couplings, self.map, 0.0)
+            self._contacts.begin({member.spec.id: member.state for member in members})
+
+    def close(self) -> None:
+        """Leaves the simulator, if there is one."""
+        self._plant.close()
 
     # --- cast ---------------------------------------------------------------------------------
 
     def add(self, spec: ActorSpec) -> None:
         """Makes an actor known; it has a state from its placement on."""
-        self._specs[spec.id] = spec
+        shape = self._plant.shape(spec)
+        self._specs[spec.id] = spec if shape is None else replace(spec, shape=shape)
 
     def place(
         self,
@@ -75,55 +126,32 @@ class EmbeddedWorld:
         tilt: Tilt = LEVEL,
         aside: float = 0.0,
     ) -> None:
-        """Puts an actor somewhere before step 0.
-
-        Lane-bound actors follow the lane if `at` is one; others, and those placed by a pose, go
-        straight. With a heading (rad) against it they have to get into it first. `aside` is
-        a lateral speed (m/s), which runs out if no command holds it.
-        """
-        spec = self._specs[actor]
-        pose = self.map.pose(at) if isinstance(at, LanePosition) else at
-        if heading is not None:
-            pose = Pose(pose.x, pose.y, pose.z, heading)
-        unplaced = ActorState(pose.x, pose.y, pose.z, pose.h, 0.0, 0.0, None, 0.0, spec.shape)
-        body = Body(spec, unplaced, None)
-        if spec.shape.wheelbase > 0.0:
-            body.wheels = Wheels(self._surroundings.road)
-        if spec.lane_bound and isinstance(at, LanePosition) and heading is None:
-            body.state = body.rebind(at, speed or 0.0, self.map)
-        else:
-            if isinstance(at, LanePosition):
-                body.turn_away()
-            body.state = body.free_state(pose, speed or 0.0, 0.0, self.map)
-        if aside:
-            body.drift(aside, self.map)
-        if tilt != LEVEL:
-            body.tilt = tilt
-            pitch, roll = tilt.over((body.state.pitch, body.state.roll))
-            body.state = body.state._replace(pitch=pitch, roll=roll)
-        self._bodies[actor] = body
-        self._bodies = {each: self._bodies[each] for each in self._specs if each in self._bodies}
+        """Puts an actor somewhere before step 0; `Start` says what the arguments mean."""
+        start = Start(at, speed or 0.0, heading, tilt, aside)
+        self._cast[actor] = placed(self._specs[actor], start, self.map, self._surroundings.road)
+        self._cast = {each: self._cast[each] for each in self._specs if each in self._cast}
         self._lights.add(actor)
-        self._contacts.begin({each: body.state for each, body in self._bodies.items()})
+        self._contacts.begin({each: member.state for each, member in self._cast.items()})
 
     def actors(self) -> tuple[str, ...]:
         """Ids of the placed actors in the order of the cast."""
-        return tuple(self._bodies)
+        return tuple(self._cast)
 
     def set_route(self, actor: str, route: Route | None) -> None:
         """Decides which branch the actor takes at forks."""
-        self._body(actor).route = route
+        self._member(actor).route = route
 
     # --- reading ------------------------------------------------------------------------------
 
     def state(self, actor: str) -> ActorState:
         """State of an actor at the present step."""
-        body = self._bodies.get(actor)
-        return self._body(actor).state if body is None else body.state
+        member = self._cast.get(actor)
+        return self._member(actor).state if member is None else member.state
 
-    def motion(self, actor: str) -> Kinematics:
+    def motion(self, actor: str) -> Motion:
         """Velocity and acceleration of an actor at the present step, in its own axes."""
-        return self._track.of(actor, self.state(actor), self.dt)
+        member = self._member(actor)
+        return member.motion or self._track.of(actor, member.state, self.dt)
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
         """Where an actor would be after some time if it went on in its lane at its speed."""
@@ -139,7 +167,8 @@ class EmbeddedWorld:
 
     def obstacle(self, me: ActorState) -> tuple[float, float] | None:
         """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
-        others = [body.state for body in self._bodies.values()]
+        cast = self._cast.values()
+        others = [me if member.reference is me else member.state for member in cast]
         return nearest_ahead(self.map, me, others, self._surroundings.sight)
 
     def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
@@ -156,13 +185,21 @@ class EmbeddedWorld:
 
     def limits(self, actor: str, *, of_vehicle: bool = True) -> Limits:
         """What an actor can do on the road as it is; without its own limits what tyres can."""
-        body = self._body(actor)
-        return body.limits if of_vehicle else body.tyres
+        member = self._member(actor)
+        return member.limits if of_vehicle else member.tyres
 
     def progress(self, actor: str, slot: str) -> Progress:
         """Progress of the command in a slot."""
-        body = self._body(actor)
-        return body.speed_progress() if slot == LONGITUDINAL else body.side_progress()
+        return self._member(actor).progress(slot)
+
+    def reference(self, actor: str) -> ActorState:
+        """State that commands start from: as it was wished, abreast of where the actor is."""
+        return self._member(actor).reference
+
+    def deviation(self, actor: str, slots: Sequence[str]) -> Deviation | None:
+        """How far an actor is from its reference; None unless it is driven towards it."""
+        tracking = self._member(actor).tracking
+        return None if tracking is None else tracking.deviation(slots)
 
     def lights(self, actor: str) -> LightState:
         """Lights at the present step."""
@@ -176,51 +213,79 @@ class EmbeddedWorld:
         """Pairs of actors (ids sorted) whose contact began during the last step, sorted."""
         return self._contacts.new
 
-    def capabilities(self) -> frozenset[str]:
-        """Names of the commands (classes) and other features the world carries out."""
-        return FEATURES
+    def overloads(self) -> Sequence[Overload]:
+        """Motions up to now that no tyre can transmit."""
+        return self._friction.overloads
+
+    def capabilities(self) -> frozenset[Feature]:
+        """What it has beside moving actors."""
+        return self._plant.capabilities()
+
+    def take_notes(self) -> Sequence[Note]:
+        """Hands over what a simulator has to say of the last step."""
+        return self._scene.take_notes()
 
     # --- writing ------------------------------------------------------------------------------
 
     def command(self, actor: str, slot: str, command: Command | None) -> None:
         """Sets what a slot pursues; None: hold the speed, keep the lane."""
-        body = self._body(actor)
+        member = self._member(actor)
         if command is not None and self._couplings.is_towed(actor):
             raise ScenarioError(f"{actor} is towed, so it cannot move by itself")
-        if slot == LONGITUDINAL:
-            body.pursue_speed(command)
-        else:
-            body.pursue_side(command, self.map)
+        member.pursue(slot, command, self.map)
 
     def assign(
         self,
         actor: str,
         *,
         speed: float | None = None,
+        acceleration: float | None = None,
         at: LanePosition | Pose | None = None,
         heading: float | None = None,
         tilt: Tilt = LEVEL,
     ) -> None:
-        """Changes a state at once; it can be seen from the next step on."""
-        self._body(actor)
-        before = self._wishes.get(actor, Wish())
-        self._wishes[actor] = before.with_also(speed, at, heading, tilt)
+        """Changes a state at once; what one instant assigns holds together.
+
+        Raises:
+            ScenarioError: Somebody else drives the actor.
+        """
+        member = self._member(actor)
+        if not member.follows:
+            raise ScenarioError(f"{actor} is driven from outside, so nothing can be assigned to it")
+        for name, value, wanted in (
+            ("speed", speed, float | None),
+            ("acceleration", acceleration, float | None),
+            ("at", at, LanePosition | Pose | None),
+            ("heading", heading, float | None),
+        ):
+            problem = problem_of(value, wanted)
+            if problem:
+                raise ScenarioError(f"{actor} cannot be put so: {in_words(name, problem)}")
+        before = self._changes.get(actor, StateChange())
+        change = before.with_also(speed, acceleration, at, heading, tilt)
+        self._changes[actor] = change
+        change.carry_out(member, self.map)
+        if change.jumps or change.turns:
+            member.motion = None
+            self._track.interrupt(actor)
+        if change.jumps:
+            self._contacts.put(tuple(self._cast).index(actor), member.state)
 
     def attach(self, tow: str, trailer: str | None) -> None:
-        """Couples a trailer to a vehicle, from the next step on; None uncouples what it tows."""
+        """Couples a trailer to a vehicle; None uncouples what it tows."""
         before = self._couplings.attach(tow, trailer)
         if before is not None:
-            self._body(before).pursue_speed(Standstill())
+            self._member(before).pursue_speed(Standstill())
         if trailer is not None:
-            self._body(trailer).unbind()
+            self._member(trailer).unbind()
 
     def trailer_of(self, tow: str) -> str | None:
         """Id of the trailer that a vehicle tows."""
         return self._couplings.trailer_of(tow)
 
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
-        """Switches lights from the next step on; returns what they will be."""
-        self._body(actor)
+        """Switches lights; returns what they are now."""
+        self._member(actor)
         return self._lights.switch(actor, mode, self._surroundings.automatic_light)
 
     def begin_under(self, sky: Sky) -> None:
@@ -228,46 +293,49 @@ class EmbeddedWorld:
         self._surroundings.begin_under(sky)
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
-        """Changes the environment from the next step on; returns the lights that switch."""
+        """Changes the environment at once; returns the lights that switch."""
         self._surroundings.set(values)
-        for body in self._bodies.values():
-            if body.wheels is not None:
-                body.wheels.road = self._surroundings.road
+        for member in self._cast.values():
+            if member.wheels is not None:
+                member.wheels.road = self._surroundings.road
         return self._lights.follow(self._surroundings.automatic_light)
 
     # --- time ---------------------------------------------------------------------------------
 
     def step(self) -> None:
         """Goes from step k to k+1."""
-        bodies = tuple(self._bodies.values())
+        members = tuple(self._cast.values())
         # All read the snapshot; none is replaced before every actor has moved.
-        jumped = {actor for actor, wish in self._wishes.items() if wish.jumps}
-        turned = {actor for actor, wish in self._wishes.items() if wish.turns}
-        before = {actor: body.state for actor, body in self._bodies.items()}
-        states = [self._next_state(body) for body in bodies]
-        self._couplings.draw(self._bodies, states, self.dt, self.map)
-        for body, state in zip(bodies, states, strict=True):
-            body.state = state
-            if body.jumped:
-                jumped.add(body.spec.id)
-        self._track.add(before, frozenset(jumped | turned))
+        before = {actor: member.state for actor, member in self._cast.items()}
+        wished = [self._next_state(member) for member in members]
+        self._couplings.draw(self._cast, wished, self.dt, self.map)
+        put = {a for a, change in self._changes.items() if change.jumps or change.turns}
+        kicked = {a for a, change in self._changes.items() if change.speed is not None}
+        jumped = {member.spec.id for member in members if member.jumped}
+        self._scene.wish(members, wished, put | jumped, kicked)
+        self._changes.clear()
+        found = self._plant.moved(self._scene)
+        self._scene.step += 1
+        states = arrive(
+            *(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
+        )
+        self._track.add(before, frozenset(jumped))
         self._contacts.step(before, states, jumped, self._couplings.pairs())
-        self._lights.step()
+        self._friction.step(members, put | jumped, self._surroundings.road)
+        for member in self._outside:
+            member.observe(self)
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)
-        self.signals.step()
 
-    def _next_state(self, body: Body) -> ActorState:
-        if self._couplings.is_towed(body.spec.id):
-            return body.state  # what tows it draws it along
-        wish = self._wishes.pop(body.spec.id, None)
-        if wish is not None:
-            return wish.carried_out(body, self, self.map)
-        return body.moved(self, self.map) if body.spec.movable else body.state
+    def _next_state(self, member: CommandedActor) -> ActorState:
+        if self._couplings.is_towed(member.spec.id):
+            return member.state  # what tows it draws it along
+        moves = member.spec.movable and member.follows
+        return member.moved(self, self.map) if moves else member.state
 
-    def _body(self, actor: str) -> Body:
-        body = self._bodies.get(actor)
-        if body is None:
+    def _member(self, actor: str) -> CommandedActor:
+        member = self._cast.get(actor)
+        if member is None:
             raise ScenarioError(f"{actor} is not placed in the world")
-        return body
+        return member

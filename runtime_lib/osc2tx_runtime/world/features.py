@@ -1,41 +1,12 @@
-"""Names of the commands and features of the embedded world."""
+"""What a world may have beside moving actors."""
 
 from __future__ import annotations
 
-__all__ = ["FEATURES"]
+from typing import Literal, get_args
 
-FEATURES = frozenset(
-    {
-        "Accelerate",
-        "AccelerationChange",
-        "Arrive",
-        "Beside",
-        "Careful",
-        "Cover",
-        "FollowCourse",
-        "FollowRoute",
-        "FollowSpeed",
-        "GapCourse",
-        "KeepGap",
-        "KeepLane",
-        "KeepSchedule",
-        "LaneChange",
-        "LaneOffset",
-        "ReplayCourse",
-        "ReplayTrajectory",
-        "RunOut",
-        "Sideways",
-        "Slant",
-        "SpeedChange",
-        "Standstill",
-        "Turn",
-        "assign_orientation",
-        "assign_position",
-        "assign_speed",
-        "collisions",
-        "environment",
-        "lights",
-        "signals",
-        "trailers",
-    }
-)
+__all__ = ["FEATURES", "Feature"]
+
+Feature = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
+"""What an action or modifier may need of a world."""
+
+FEATURES: frozenset[Feature] = frozenset(get_args(Feature))

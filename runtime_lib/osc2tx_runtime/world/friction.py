@@ -20,8 +20,10 @@ from .actor_dimensions import RATE_CAP, Limits
 
 __all__ = [
     "ADHESION",
+    "DRY_ADHESION",
     "GRAVITY",
     "RoadCondition",
+    "adhesion_of",
     "along_limit",
     "grip",
     "held_by",
@@ -35,6 +37,9 @@ RoadCondition = Literal["dry", "wet", "snow", "ice"]
 
 ADHESION: Mapping[RoadCondition, float] = {"wet": 0.6, "snow": 0.2, "ice": 0.1}
 """Coefficient of friction of a road: wet, under snow, under ice."""
+
+DRY_ADHESION = 0.9
+"""The same of a dry road."""
 
 _FREEZING = 273.15  # K
 
@@ -58,8 +63,16 @@ def road_condition(environment: Mapping[str, float]) -> RoadCondition:
     return "dry"
 
 
+def adhesion_of(condition: RoadCondition) -> float:
+    """Coefficient of friction of a road."""
+    return ADHESION.get(condition, DRY_ADHESION)
+
+
 def grip(condition: RoadCondition) -> float:
-    """Largest acceleration (m/s^2) in any direction."""
+    """Largest acceleration (m/s^2) in any direction that commands are held to.
+
+    On a dry road explicit rates beyond `RATE_CAP` are refused, and nothing is held back.
+    """
     adhesion = ADHESION.get(condition)
     return RATE_CAP if adhesion is None else adhesion * GRAVITY
 

@@ -171,14 +171,9 @@ def change_profile(
     return Quintic(start, end, duration or 0.0, rate)
 
 
-def turns_back(course: Profile, end: float | None = None) -> float | None:
-    """When (s) a course begins to run the other way; None if it never does.
-
-    Args:
-        course: The course.
-        end: Seconds of it that count; None: all.
-    """
-    last = course.duration if end is None else min(end, course.duration)
+def turns_back(course: Profile) -> float | None:
+    """When (s) a course begins to run the other way; None if it never does."""
+    last = course.duration
     if math.isinf(last) or last == 0.0:
         return None
     values = [course.value(last * i / _SAMPLES) for i in range(_SAMPLES + 1)]

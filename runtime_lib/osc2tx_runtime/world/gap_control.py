@@ -14,13 +14,15 @@ from .guidance import mean_rate_to_place, rate_to_place, rate_to_place_and_speed
 from .projected_motion import Tracked
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
+from .tolerances import PLACE_TOLERANCE
 
-__all__ = ["ArrivalRun", "GapRun"]
+__all__ = ["ArrivalRun", "GapRun", "allowed_gap"]
 
 _SPEED_TOLERANCE = 0.2  # m/s between the speeds at which a gap can count as reached
 _GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
 _GAP_STEPS = 4  # steps for which it must stay so
+_UNCORRECTED = 1.0  # s before the end
 _STIFFNESS = 0.4  # of the spring that closes a gap, in units of the limit that counts at the end
 
 
@@ -41,10 +43,10 @@ class GapRun:
         self._settled = 0
         self._failed: str | None = None
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """A step towards the speed that closes the error."""
-        other = self._other.state(senses)
-        found = _allowed(self._command, me, other, me.v, senses)
+        other = self._other.state(inputs)
+        found = allowed_gap(self._command, me, other, me.v, inputs)
         if found is None:
             self._failed = _no_way(self._command)
             return me.v
@@ -52,14 +54,14 @@ class GapRun:
         error = min(max(here, low), high) - here  # > 0: more speed is needed
         last = self._limits.acceleration if error < 0.0 else self._limits.deceleration
         pace = math.sqrt(_STIFFNESS * last)  # 1/s
-        soon = abs(error + 0.5 * (other.v - me.v) * senses.dt)  # in the middle of the step
+        soon = abs(error + 0.5 * (other.v - me.v) * inputs.dt)  # in the middle of the step
         closing = min(0.5 * pace * soon, math.sqrt(2.0 * COMFORT * last * soon))
-        its_speed = other.v + other.a * senses.dt  # if it goes on so
+        its_speed = other.v + other.a * inputs.dt  # if it goes on so
         goal = max(its_speed + math.copysign(closing, error), 0.0)
         if error == 0.0 and low < high:
             goal = me.v if low < here < high else goal  # anywhere in the range will do
-        blend = 1.0 - math.exp(-2.0 * pace * senses.dt)
-        speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, senses.dt)
+        blend = 1.0 - math.exp(-2.0 * pace * inputs.dt)
+        speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, inputs.dt)
         close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
         near = abs(error) < _GAP_TOLERANCE and close
         self._settled = self._settled + 1 if near else 0
@@ -73,7 +75,9 @@ class GapRun:
 class ArrivalRun:
     """Is somewhere when its time is over.
 
-    In each step it takes the acceleration of `guidance` for a goal that goes on at its speed.
+    In each step it takes the acceleration of `guidance` for a goal that goes on at its speed. That
+    answers an error the harder the less time is left, so what a driven actor is off its reference
+    in the last second is not corrected but judged at the end.
     """
 
     def __init__(self, command: Arrive, limits: Limits) -> None:
@@ -82,24 +86,28 @@ class ArrivalRun:
         gap = command.gap
         self._other = None if gap is None else Tracked(gap.reference, gap.projected)
         self._steps: int | None = None  # to go
+        self._last_steps = 0
         self._covered = 0.0
+        self._left_off = 0.0  # m that it is further on than the guidance counts on
+        self._near = _GAP_TOLERANCE
         self._progress = PENDING
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """One step on the way there; afterwards the same speed."""
-        dt = senses.dt
+        dt = inputs.dt
         if self._steps is None:
             self._steps = max(whole_steps(self._command.duration, dt), 1)
+            self._last_steps = whole_steps(_UNCORRECTED, dt)
         if self._steps == 0:
             return me.v
-        end = self._end_speed(senses)
-        found = self._rest(me, senses, self._steps * dt, end)
+        end = self._end_speed(inputs)
+        found = self._rest(me, inputs, self._steps * dt, end)
         if found is None:
             assert self._command.gap is not None
             self._progress = Progress(False, _no_way(self._command.gap))
             return me.v
         rest, moving = found
-        rate = self._rate(me.v, rest, moving, end, dt)
+        rate = self._rate(me.v, rest + self._left_off, moving, end, dt)
         speed = towards(me.v, me.v + rate * dt, self._limits, 1.0, dt)
         if me.v >= 0.0 > speed:
             speed = 0.0
@@ -110,21 +118,28 @@ class ArrivalRun:
             self._judge(rest + moving * dt - step, speed, end)
         return speed
 
-    def _end_speed(self, senses: Senses) -> float | None:
+    def slid(self, along: float) -> None:
+        """Counts what a measured step was longer."""
+        self._near = PLACE_TOLERANCE
+        self._covered += along
+        if self._steps is not None and self._steps <= self._last_steps:
+            self._left_off += along
+
+    def _end_speed(self, inputs: StepInputs) -> float | None:
         wanted = self._command.speed
         if isinstance(wanted, FollowSpeed):
-            return senses.state(wanted.reference).v * wanted.factor + wanted.difference
+            return inputs.state(wanted.reference).v * wanted.factor + wanted.difference
         return wanted
 
     def _rest(
-        self, me: ActorState, senses: Senses, time: float, end: float | None
+        self, me: ActorState, inputs: StepInputs, time: float, end: float | None
     ) -> tuple[float, float] | None:
         """Metres from here to the goal, and the speed of the goal (m/s)."""
         gap = self._command.gap
         if gap is None or self._other is None:
             return (self._command.way or 0.0) - self._covered, 0.0
-        other = self._other.state(senses)
-        found = _allowed(gap, me, other, me.v if end is None else end, senses)
+        other = self._other.state(inputs)
+        found = allowed_gap(gap, me, other, me.v if end is None else end, inputs)
         if found is None:
             return None
         here, low, high = found
@@ -144,7 +159,7 @@ class ArrivalRun:
     def _judge(self, missed: float, speed: float, end: float | None) -> None:
         limits = self._limits
         can = f"it can do {limits.acceleration:g} and -{limits.deceleration:g} m/s^2"
-        if abs(missed) > _GAP_TOLERANCE:
+        if abs(missed) > self._near:
             side = "short of" if missed > 0.0 else "beyond"
             reason = f"when its time is over it is {abs(missed):.1f} m {side} its place; {can}"
             self._progress = Progress(False, reason)
@@ -159,11 +174,11 @@ class ArrivalRun:
         return self._progress
 
 
-def _allowed(
-    command: KeepGap, me: ActorState, other: ActorState, own_speed: float, senses: Senses
+def allowed_gap(
+    command: KeepGap, me: ActorState, other: ActorState, own_speed: float, inputs: StepInputs
 ) -> tuple[float, float, float] | None:
     """Where the actor is ahead of the other one (m), and between what it may be."""
-    along = senses.along(other, me)
+    along = inputs.along(other, me)
     if along is None:
         return None
     match command.measure:

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.velocities import (
@@ -29,12 +29,24 @@ from osc2tx_runtime.world.velocities import (
 from .curve import turn_between
 from .state import ActorState
 
-__all__ = ["Kinematics", "Track"]
+__all__ = ["Kinematics", "Motion", "Track"]
 
 _STILL = 1e-9  # m
 _STRAIGHT = 1e-3  # rad beside its axis at which an actor still goes along it
 
 Vector = tuple[float, float, float]
+
+
+class Motion(Protocol):
+    """How an actor moves at one instant, in its own axes."""
+
+    @property
+    def velocity(self) -> Velocity:
+        """Velocity (m/s) and turning (rad/s)."""
+
+    @property
+    def acceleration(self) -> Acceleration:
+        """Acceleration (m/s^2) and change of turning (rad/s^2)."""
 
 
 class _Step(NamedTuple):
@@ -58,6 +70,12 @@ class Track:
             jumped: Who was put somewhere in it.
         """
         self._steps = (*self._steps[-1:], _Step(before, jumped))
+
+    def interrupt(self, actor: str) -> None:
+        """Note that an actor was put somewhere, or turned, at the present step."""
+        if self._steps:
+            last = self._steps[-1]
+            self._steps = (*self._steps[:-1], last._replace(jumped=last.jumped | {actor}))
 
     def of(self, actor: str, now: ActorState, dt: float) -> Kinematics:
         """Return the motion of an actor.

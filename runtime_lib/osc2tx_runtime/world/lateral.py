@@ -32,7 +32,7 @@ from .lateral_limits import HEADING_LIMIT, SIDEWAYS
 from .profiles import Linear, Profile, Quintic, quintic_duration
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = [
     "HEADING_LIMIT",
@@ -62,7 +62,7 @@ class Lateral(Protocol):
     """A command at work on one actor."""
 
     def offset_after(
-        self, offset: float, path: float, me: ActorState, senses: Senses
+        self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
         """Offset (m) and lateral speed (m/s) at the next step; called once per step.
 
@@ -70,7 +70,7 @@ class Lateral(Protocol):
             offset: Offset at the present step (m).
             path: Metres driven in this step.
             me: State at the present step.
-            senses: What can be read at the present step.
+            inputs: What can be read at the present step.
         """
 
     def progress(self) -> Progress:
@@ -83,7 +83,7 @@ class HoldOffset:
     __slots__ = ()
 
     def offset_after(
-        self, offset: float, path: float, me: ActorState, senses: Senses
+        self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
         """The same offset."""
         return offset, 0.0
@@ -119,12 +119,12 @@ class Shift:
         self.end = end
 
     def offset_after(
-        self, offset: float, path: float, me: ActorState, senses: Senses
+        self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
         """Value of the profile, at a time that does not run on where the actor is too slow."""
         if self._time >= self._profile.duration:
             return self.end, 0.0
-        dt = senses.dt
+        dt = inputs.dt
         self._steps += 1
         if path == 0.0:
             self._lag += dt
@@ -139,6 +139,11 @@ class Shift:
         self._time = self._steps * dt - self._lag
         reached = self._profile.value(self._time)
         return reached, (reached - offset) / dt
+
+    def offset_in(self, seconds: float) -> float:
+        """Offset (m) some time from the present step, if nothing delays it."""
+        time = self._time + seconds
+        return self.end if time >= self._profile.duration else self._profile.value(time)
 
     def progress(self) -> Progress:
         """Done when the profile has ended."""

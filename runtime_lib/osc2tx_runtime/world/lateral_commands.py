@@ -159,13 +159,17 @@ class FollowCourse(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FollowRoute(Command):
-    """Lateral: stay in the lane, and take the branches that lead to a place.
+    """Lateral: take the branches that lead to a place, and stay in the lane but for `side`.
 
     Attributes:
         goal: The place; any lane beside it will do.
+        side: Where to go across the road on the way.
+        ends: It is done at the place, and not when `side` is.
     """
 
     goal: LanePosition
+    side: Command | None = None
+    ends: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,7 +15,7 @@ from .profiles import Profile
 from .projected_motion import Tracked
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = ["BesideRun", "SidewaysRun"]
 
@@ -34,31 +34,31 @@ class SidewaysRun:
         self._over = False  # the course, if there is one
         self._reached = False
 
-    def _wanted(self, path: float, senses: Senses) -> float:
+    def _wanted(self, path: float, inputs: StepInputs) -> float:
         """Speed (m/s) to the left."""
-        command, time = self._command, self._steps * senses.dt
+        command, time = self._command, self._steps * inputs.dt
         course = command.course
         self._over = course is None or time >= course.duration - 1e-9
         if isinstance(command, Slant):
             angle = command.angle if course is None else course.value(time)
-            return math.sin(angle) * path / senses.dt
+            return math.sin(angle) * path / inputs.dt
         speed = command.speed if course is None else course.value(time)
         if command.reference is None:
             return speed
-        return speed + command.factor * senses.state(command.reference).lateral_speed
+        return speed + command.factor * inputs.state(command.reference).lateral_speed
 
     def offset_after(
-        self, offset: float, path: float, me: ActorState, senses: Senses
+        self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
         """One step to the side."""
         self._steps += 1
-        room = abs(path) * SIDEWAYS / senses.dt
-        wanted = self._wanted(path, senses)
+        room = abs(path) * SIDEWAYS / inputs.dt
+        wanted = self._wanted(path, inputs)
         speed = min(max(wanted, -room), room)
         self._reached = speed == wanted and self._over
         if isinstance(self._command, Sideways) and self._command.course is not None:
-            return offset + 0.5 * (me.lateral_speed + speed) * senses.dt, speed
-        return offset + speed * senses.dt, speed
+            return offset + 0.5 * (me.lateral_speed + speed) * inputs.dt, speed
+        return offset + speed * inputs.dt, speed
 
     def progress(self) -> Progress:
         """Done while it has the last speed."""
@@ -79,12 +79,12 @@ class BesideRun:
         self._failed: str | None = None
 
     def offset_after(
-        self, offset: float, path: float, me: ActorState, senses: Senses
+        self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
         """A step at the lateral speed that closes the error, within the limits."""
-        command, dt = self._command, senses.dt
-        other = self._other.state(senses)
-        to_left = senses.aside(me, other)
+        command, dt = self._command, inputs.dt
+        other = self._other.state(inputs)
+        to_left = inputs.aside(me, other)
         if to_left is None:
             self._failed = f"there is no way along lanes to {command.reference}"
             return offset, 0.0

@@ -31,7 +31,7 @@ from .position_control import CoverRun, GapCourseRun
 from .profiles import COSINE_PEAK, Cosine, Linear, Profile, SCurve, cosine_duration
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = [
     "Longitudinal",
@@ -48,7 +48,7 @@ _SPEED_TOLERANCE = 0.05  # m/s at which a followed speed counts as reached
 class Longitudinal(Protocol):
     """A command at work on one actor."""
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Speed (m/s) at the next step; called once per step."""
 
     def progress(self) -> Progress:
@@ -65,10 +65,10 @@ class _ProfileRun:
         self._steps = 0
         self._time = 0.0
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Value of the profile, at a time counted in steps."""
         self._steps += 1
-        self._time = self._steps * senses.dt
+        self._time = self._steps * inputs.dt
         return self._profile.value(self._time)
 
     def progress(self) -> Progress:
@@ -91,14 +91,14 @@ class _CourseRun(_ProfileRun):
         self._limits = limits
         self._failed: str | None = None
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Value of the course; the nearest possible one where that cannot be reached."""
-        speed, limits = super().speed_after(me, senses), self._limits
+        speed, limits = super().speed_after(me, inputs), self._limits
         if limits is None:
             return speed
-        possible = towards(me.v, speed, limits, 1.0 + 1e-9, senses.dt)
+        possible = towards(me.v, speed, limits, 1.0 + 1e-9, inputs.dt)
         if possible != speed and self._failed is None:
-            rate = (speed - me.v) / senses.dt
+            rate = (speed - me.v) / inputs.dt
             self._failed = f"its shape asks for {rate:.2f} m/s^2, which is more than it can do"
         return possible
 
@@ -118,22 +118,22 @@ class _Following:
         self._steps = 0
         self._done = False
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """A step towards the speed of the reference at the present step."""
         command, course = self._command, self._command.course
         self._steps += 1
-        other = senses.state(command.reference)
+        other = inputs.state(command.reference)
         if course is not None:
-            time = self._steps * senses.dt
-            its_speed = other.v + other.a * senses.dt  # if it goes on so
+            time = self._steps * inputs.dt
+            its_speed = other.v + other.a * inputs.dt  # if it goes on so
             wanted = its_speed * command.factor + course.value(time)
-            speed = towards(me.v, wanted, self._limits, 1.0, senses.dt)
+            speed = towards(me.v, wanted, self._limits, 1.0, inputs.dt)
             over = time >= course.duration - 1e-9
             self._done = over and abs(speed - wanted) < _SPEED_TOLERANCE
             return speed
         least = other.v * command.factor + command.difference
         wanted = min(max(me.v, least), least + command.spread)
-        speed = towards(me.v, wanted, self._limits, COMFORT, senses.dt)
+        speed = towards(me.v, wanted, self._limits, COMFORT, inputs.dt)
         self._done = abs(speed - wanted) < _SPEED_TOLERANCE
         return speed
 

@@ -15,7 +15,7 @@ from .profiles import Profile
 from .projected_motion import Tracked
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = ["CoverRun", "GapCourseRun", "PlacedRun"]
 
@@ -80,9 +80,9 @@ class CoverRun(PlacedRun):
         self._covered = 0.0
         self._before: tuple[float, float] | None = None  # speeds of the last step
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Speed at the next step."""
-        dt = senses.dt
+        dt = inputs.dt
         self._note(me.v, dt)
         self._steps += 1
         t = self._steps * dt
@@ -91,6 +91,10 @@ class CoverRun(PlacedRun):
         self._before = (me.v, speed)
         self._judge(t, way - (0.5 * (me.v + speed) * dt if self.path is None else self.path))
         return speed
+
+    def slid(self, along: float) -> None:
+        """Counts what a measured step was longer."""
+        self._covered += along
 
     def _note(self, speed: float, dt: float) -> None:
         """Counts the last step; who was slowed down did not do all of it."""
@@ -109,13 +113,13 @@ class GapCourseRun(PlacedRun):
         self._reference = command.reference
         self._other = Tracked(command.reference, command.projected)
 
-    def speed_after(self, me: ActorState, senses: Senses) -> float:
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Speed at the next step, if the other one goes on with its acceleration."""
-        dt = senses.dt
+        dt = inputs.dt
         self._steps += 1
         t = self._steps * dt
-        other = self._other.state(senses)
-        here = senses.along(other, me)
+        other = self._other.state(inputs)
+        here = inputs.along(other, me)
         if here is None:
             self._failed = f"there is no way along lanes to {self._reference}"
             return me.v

@@ -7,7 +7,7 @@ import math
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 from .state import ActorState
-from .step_inputs import Senses
+from .step_inputs import StepInputs
 
 __all__ = ["Tracked", "projected"]
 
@@ -42,11 +42,11 @@ class Tracked:
         self._first: ActorState | None = None
         self._steps = 0
 
-    def state(self, senses: Senses) -> ActorState:
+    def state(self, inputs: StepInputs) -> ActorState:
         """Its state at the present step; called once per step."""
         if not self._projected:
-            return senses.state(self._actor)
+            return inputs.state(self._actor)
         if self._first is None:
-            self._first = senses.state(self._actor)
+            self._first = inputs.state(self._actor)
         self._steps += 1
-        return senses.projected(self._first, (self._steps - 1) * senses.dt)
+        return inputs.projected(self._first, (self._steps - 1) * inputs.dt)

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
 from .actor_dimensions import Limits, Shape
 from .attitude import LEVEL, Tilt
 from .commands import Command
-from .kinematics import Kinematics
+from .deviation import Deviation
+from .features import Feature
+from .kinematics import Motion
+from .overload import Overload
 from .state import ActorState
+from .stop_lines_ahead import StopLine
 from .sun_and_moon import Sky
 from .traffic_light_states import Signals
 
 __all__ = [
+    "EXTERNAL",
     "FOG_LIGHT_RANGE",
     "LATERAL",
     "LONGITUDINAL",
@@ -24,8 +29,10 @@ __all__ = [
     "PENDING",
     "REACHED",
     "ActorSpec",
+    "ControlMode",
     "LightMode",
     "LightState",
+    "Note",
     "Progress",
     "World",
 ]
@@ -39,6 +46,15 @@ LOW_BEAM_SUN_ELEVATION = 0.2617993877991494
 
 FOG_LIGHT_RANGE = 100.0
 """Visual range (m) below which they are so, too (UK Highway Code, rule 226)."""
+
+ControlMode = Literal["exact", "driven", "external", "autopilot"]
+"""Who moves an actor: nobody, it is where it is wished; a controller that follows; somebody else,
+from outside or of the simulator."""
+EXTERNAL: frozenset[ControlMode] = frozenset({"external", "autopilot"})
+"""Those in which somebody else does."""
+
+Note = tuple[str, Mapping[str, Any]]
+"""Kind of a line of the trace, and what it says."""
 
 LightMode = Literal["off", "auto", "daytime", "position", "low_beam", "high_beam"]
 
@@ -56,6 +72,7 @@ class ActorSpec:
         lane_bound: True if it follows lanes where it can (vehicles).
         movable: False for stationary objects.
         color: As written in the scenario.
+        role: Name by which others find it in a simulator; None: its id.
     """
 
     id: str
@@ -66,6 +83,7 @@ class ActorSpec:
     lane_bound: bool = False
     movable: bool = True
     color: str | None = None
+    role: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +119,26 @@ class LightState:
 class World(Protocol):
     """A world in steps of fixed length.
 
-    Commands and assignments given at step k act from k to k+1. States, progress, lights and
-    environment are those of step k until `step` is called.
+    Commands given at step k act from k to k+1; progress is that of step k until `step` is called.
+    What is assigned, attached, switched and set at step k is so at once, and can be read.
     """
 
     dt: float
     map: RoadMap
     signals: Signals
+
+    @property
+    def name(self) -> str:
+        """What moves its actors: `embedded`, or a simulator."""
+
+    def control(self, actor: str) -> ControlMode:
+        """Who moves an actor."""
+
+    def begin(self) -> None:
+        """Puts the actors where they were placed, before step 0."""
+
+    def close(self) -> None:
+        """Leaves the simulator, if there is one, however the run ended."""
 
     def add(self, spec: ActorSpec) -> None:
         """Makes an actor known; it has a state from its placement on."""
@@ -126,7 +157,13 @@ class World(Protocol):
     def state(self, actor: str) -> ActorState:
         """State of an actor at the present step."""
 
-    def motion(self, actor: str) -> Kinematics:
+    def reference(self, actor: str) -> ActorState:
+        """State that commands start from: as it was wished, abreast of where the actor is."""
+
+    def deviation(self, actor: str, slots: Sequence[str]) -> Deviation | None:
+        """How far an actor is from its reference; None unless it is driven towards it."""
+
+    def motion(self, actor: str) -> Motion:
         """Velocity and acceleration of an actor at the present step, in its own axes."""
 
     def actors(self) -> Sequence[str]:
@@ -143,14 +180,15 @@ class World(Protocol):
         actor: str,
         *,
         speed: float | None = None,
+        acceleration: float | None = None,
         at: LanePosition | Pose | None = None,
         heading: float | None = None,
         tilt: Tilt = LEVEL,
     ) -> None:
-        """Changes a state at once; it can be seen from the next step on."""
+        """Changes a state at once; what one instant assigns holds together."""
 
     def attach(self, tow: str, trailer: str | None) -> None:
-        """Couples a trailer to a vehicle, from the next step on; None uncouples what it tows."""
+        """Couples a trailer to a vehicle; None uncouples what it tows."""
 
     def trailer_of(self, tow: str) -> str | None:
         """Id of the trailer that a vehicle tows."""
@@ -164,8 +202,11 @@ class World(Protocol):
     def grip(self, me: ActorState) -> float:
         """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""
 
+    def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
+        """First line within so many metres at which a light asks to stop; None if none does."""
+
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
-        """Switches lights from the next step on; returns what they will be."""
+        """Switches lights; returns what they are now."""
 
     def lights(self, actor: str) -> LightState:
         """Lights at the present step."""
@@ -174,9 +215,9 @@ class World(Protocol):
         """Puts sun and moon where they stand at a place and time, before step 0."""
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
-        """Changes the environment from the next step on; names that are left out stay.
+        """Changes the environment at once; names that are left out stay.
 
-        Returns the actors whose automatic lights switch, with what they will be.
+        Returns the actors whose automatic lights switch, with what they are now.
         """
 
     def environment(self) -> Mapping[str, float]:
@@ -188,5 +229,11 @@ class World(Protocol):
     def collisions(self) -> Sequence[tuple[str, str]]:
         """Pairs of actors (ids sorted) whose contact began during the last step, sorted."""
 
-    def capabilities(self) -> frozenset[str]:
-        """Names of the commands (classes) and other features the world carries out."""
+    def overloads(self) -> Sequence[Overload]:
+        """Motions up to now that no tyre can transmit, in order of time."""
+
+    def take_notes(self) -> Sequence[Note]:
+        """Hands over lines for the trace, as kind and values, since the last call."""
+
+    def capabilities(self) -> frozenset[Feature]:
+        """What it has beside moving actors."""

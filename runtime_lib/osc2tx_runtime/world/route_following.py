@@ -21,11 +21,13 @@ class Way:
     Attributes:
         route: What decides at forks now.
         before: Likewise, once the actor goes along it no more.
+        ends: As of the command.
     """
 
     def __init__(self, command: FollowRoute, road_map: RoadMap, before: Route | None) -> None:
         self.route = road_map.route_to(command.goal)
         self.before = before
+        self.ends = command.ends
         self._progress = PENDING
 
     def look(self, place: LanePosition, along: float) -> None:

@@ -9,10 +9,10 @@ from osc2tx_runtime.opendrive import Route
 from .state import ActorState
 from .stop_lines_ahead import StopLine
 
-__all__ = ["Senses"]
+__all__ = ["StepInputs"]
 
 
-class Senses(Protocol):
+class StepInputs(Protocol):
     """The snapshot of the present step.
 
     Attributes:

@@ -25,6 +25,8 @@ _NAMED = 12  # signals that a message lists
 class Signals:
     """What the lights of a map show; all are off until somebody switches them.
 
+    Those of a simulator run by themselves until the scenario switches one of them.
+
     As everywhere in a world, what is set at step k can be read from step k+1 on.
 
     Args:
@@ -39,7 +41,6 @@ class Signals:
             each: BOXES[type_] for each, type_ in self._types.items() if type_ in BOXES
         }
         self._shown: dict[str, tuple[BulbState, ...]] = {}
-        self._next: dict[str, tuple[BulbState, ...]] = {}
         self._shown_by: dict[str, object] = {}
         self._moved: dict[str, tuple[LinePlace, ...]] = {}
 
@@ -122,10 +123,6 @@ class Signals:
         """States of the lamps at the present step, in their order."""
         return self._shown.get(signal) or tuple(OFF for _ in self.lamps(signal))
 
-    def latest(self, signal: str) -> tuple[BulbState, ...]:
-        """States that the lamps have or will have at the next step."""
-        return self._next.get(signal) or self.states(signal)
-
     def meaning(self, signal: str) -> SemanticTrafficLightState:
         """What the light says at the present step."""
         return meaning_of(self.lamps(signal), self.states(signal))
@@ -137,7 +134,7 @@ class Signals:
     # --- writing ------------------------------------------------------------------------------
 
     def show(self, signal: str, lamp: int, state: BulbState, by: object) -> bool:
-        """Switches a lamp from the next step on; returns whether that changes anything.
+        """Switches a lamp; returns whether that changes anything.
 
         Args:
             signal: The box.
@@ -145,19 +142,23 @@ class Signals:
             state: What it is to do.
             by: Who switches it, for `shown_by`.
         """
-        before = self.latest(signal)
+        before = self.states(signal)
         new = (*before[:lamp], state, *before[lamp + 1 :])
         changes = signal not in self._shown_by or before != new
-        self._next[signal] = new
+        self._shown[signal] = new
         self._shown_by[signal] = by
         return changes
+
+    def observe(self, signal: str, states: tuple[BulbState, ...]) -> None:
+        """Notes what a simulator lets a light show, unless the scenario has switched it.
+
+        Args:
+            signal: The box.
+            states: Of its lamps, in their order, at the end of the step that is made.
+        """
+        if signal not in self._shown_by:
+            self._shown[signal] = states
 
     def shown_by(self, signal: str) -> object:
         """Who switched a light last."""
         return self._shown_by.get(signal)
-
-    def step(self) -> None:
-        """Goes to the next step."""
-        if self._next:
-            self._shown.update(self._next)
-            self._next.clear()

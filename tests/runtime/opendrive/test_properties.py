@@ -46,9 +46,10 @@ def test_locate_inverts_pose(own: Own, where: tuple[str, float, float, float]) -
         assert (found.road, found.lane) == (p.road, p.lane)
         assert found.s == pytest.approx(p.s, abs=1e-6)
         assert found.offset == pytest.approx(p.offset, abs=1e-6)
-    coordinates = road_map.road_coordinates(pose.x, pose.y)
-    assert coordinates is not None
-    again = road_map.road_pose(*coordinates)
+    line, beside = (road_map.road_pose(p.road, p.s, t) for t in (0.0, 1.0))
+    across = beside.x - line.x, beside.y - line.y
+    t = (pose.x - line.x) * across[0] + (pose.y - line.y) * across[1]
+    again = road_map.road_pose(p.road, p.s, t / math.hypot(*across) ** 2)
     assert math.hypot(again.x - pose.x, again.y - pose.y) < 1e-6
 
 

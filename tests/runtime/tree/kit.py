@@ -14,6 +14,9 @@ from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.language.tree import Behaviour, Event, Status
 from osc2tx_runtime.running.loop import Outcome, run_tree
 from osc2tx_runtime.running.runner import setup_tree
+from osc2tx_runtime.world.actor_dimensions import Shape
+from osc2tx_runtime.world.commands import SpeedChange
+from osc2tx_runtime.world.state import ActorState
 
 
 class FakeActor:
@@ -25,6 +28,8 @@ class FakeActor:
 
 class FakeWorld:
     """Actors that drive at the commanded speed along x; remembers all commands."""
+
+    name = "embedded"
 
     def __init__(self, ids: tuple[str, ...] = (), dt: float = 0.05) -> None:
         self.dt = dt
@@ -40,17 +45,14 @@ class FakeWorld:
         return self.ids
 
     def state(self, actor: str) -> Any:
-        return SimpleNamespace(
-            **{"x": self.x[actor], "y": 0.0, "z": -0.0, "h": 0.0, "v": self.v[actor], "a": 0.0},
-            **{"road": None, "lane": None, "s": None, "offset": None},
-            **{"length": 4.5, "width": 1.8, "height": 1.5, "rear": 1.0},
-            **{"pitch": 0.0, "roll": 0.0},
-        )
+        place = self.x[actor], 0.0, -0.0, 0.0
+        return ActorState(*place, self.v[actor], 0.0, None, 0.0, Shape(4.5, 1.8, 1.5, 1.0))
 
     def command(self, actor: str, slot: str, command: Any) -> None:
-        self.commands.append((self.k, actor, slot, command))
-        if slot == "longitudinal" and command is not None:
-            self.v[actor] = command
+        wanted = None if command is None else command.target
+        self.commands.append((self.k, actor, slot, wanted))
+        if slot == "longitudinal" and wanted is not None:
+            self.v[actor] = wanted
 
     def step(self) -> None:
         self.k += 1
@@ -59,6 +61,27 @@ class FakeWorld:
 
     def collisions(self) -> list[tuple[str, str]]:
         return self.contacts.get(self.k, [])
+
+    def control(self, actor: str) -> str:
+        return "exact"
+
+    def capabilities(self) -> frozenset[str]:
+        return frozenset()
+
+    def begin(self) -> None:
+        self.begun = True
+
+    def close(self) -> None:
+        self.closed = True
+
+    def deviation(self, actor: str, slots: Any) -> None:
+        return None
+
+    def overloads(self) -> tuple[()]:
+        return ()
+
+    def take_notes(self) -> tuple[()]:
+        return ()
 
 
 class Drive(Action):
@@ -71,7 +94,7 @@ class Drive(Action):
         self.speed = speed
 
     def on_start(self) -> None:
-        self.command("longitudinal", self.speed)  # type: ignore[arg-type]
+        self.command("longitudinal", SpeedChange(self.speed))
 
 
 class Task(Action):

@@ -166,7 +166,9 @@ def test_until_ends_a_running_child_with_success() -> None:
 
 
 def test_until_passes_the_end_of_its_child_on() -> None:
-    assert run(Until(Task(HERO, 2), elapsed(9))).outcome.steps == 2
+    done = run(Until(Task(HERO, 2), elapsed(9))).outcome
+    assert (done.status, done.steps) == ("failure", 2)  # it has to go on until then
+    assert "over by itself after 0.1 s, before until elapsed 9 s" in done.reason
     assert run(Until(Task(HERO, 2, fails=True), elapsed(9))).outcome.status == "failure"
 
 
@@ -174,9 +176,8 @@ def test_until_passes_the_end_of_its_child_on() -> None:
     ("content", "duration", "status", "steps"),
     [
         (lambda **o: Drive(HERO, **o), 0.5, "success", 10),
-        (lambda **o: Drive(HERO, **o), (0.2, 0.5), "success", 4),
         (lambda **o: Task(HERO, 6, **o), 0.3, "success", 6),
-        (lambda **o: Task(HERO, 4, **o), 0.3, "success", 6),  # held until the least
+        (lambda **o: Task(HERO, 4, **o), (0.3, 0.5), "failure", 4),  # nothing fills the rest
         (lambda **o: Task(HERO, 5, **o), (0.1, 0.3), "success", 5),
         (lambda **o: Task(HERO, 7, **o), 0.3, "failure", 6),
         (lambda **o: Serial("s", Task(HERO, 2), Drive(HERO), **o), 0.3, "success", 6),
@@ -190,7 +191,15 @@ def test_duration(content: Any, duration: Any, status: str, steps: int) -> None:
     done = run(content(duration=duration))
     assert (done.outcome.status, done.outcome.steps) == (status, steps)
     if status == "failure":
-        assert "not finished within 0.3 s" in done.outcome.reason
+        why = "over after 0.2 s" if steps == 4 else "not finished within 0.3 s"
+        assert why in done.outcome.reason
+
+
+def test_open_content_ends_somewhere_in_a_range_of_durations() -> None:
+    """Times are drawn evenly: means of 200 seeds within four standard errors."""
+    steps = [run(Drive(HERO, duration=(1.0, 3.0)), seed=seed).outcome.steps for seed in range(200)]
+    assert 20 <= min(steps) < 24 and 56 < max(steps) <= 60
+    assert abs(sum(steps) / len(steps) - 40.0) < 4 * (40.0 / 12**0.5) / 200**0.5 + 0.5
 
 
 def test_an_event_of_the_last_instant_still_ends_the_content() -> None:

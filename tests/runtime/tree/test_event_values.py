@@ -140,7 +140,7 @@ def test_a_sample_is_seen_from_the_next_pass_on(order: Any) -> None:
         (0.2, "x", 5.0),
         (0.2, "y", 1.0),
     ]
-    assert [v["t"] for v in values if v["name"] == "count"] == [0.0, 0.1, 0.2]
+    assert [v["t"] for v in values if v["name"] == "count"] == [0.0, 0.1, 0.2, 0.3]
 
 
 def test_the_context_of_a_sample_starts_with_its_scenario() -> None:

@@ -92,7 +92,7 @@ def test_two_emissions_at_one_instant_are_one_event_line() -> None:
 
 
 class PingPong(Leaf):
-    """Answers an event with another for ever."""
+    """Answers an event with another for ever, each time with a number that was not there yet."""
 
     def __init__(self, mine: Event, other: Event) -> None:
         super().__init__("ping")
@@ -104,7 +104,7 @@ class PingPong(Leaf):
     def update(self) -> Status:
         if self.other.occurred > self.seen:
             self.seen = self.other.occurred
-            self.context.post(self.mine)
+            self.context.post(self.mine, {"number": self.seen})
         return Status.RUNNING
 
 

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.processes import HANGING
-
-ROOT = Path(__file__).parents[3]
-DOCUMENT = ROOT / "docs/extending.md"
+from tests.own_actions import DOCUMENT, install, run_module
+from tests.processes import Ended
 
 SCENARIO = """
 from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main
@@ -43,29 +38,14 @@ class Slow(Scenario):
 if __name__ == "__main__":
     raise SystemExit(main(Slow))
 """
-ENTRY_POINTS = "[osc2tx.methods]\nmy_actions = my_actions\n"
 
 
-def run(folder: Path, body: str, *, actions: str | None = None) -> Any:
+def run(folder: Path, body: str, *, actions: str | None = None) -> Ended:
     """Install the package of the document into a folder, and run a scenario with it on the path."""
-    text = DOCUMENT.read_text(encoding="utf-8")
-    blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    (folder / "my_actions.py").write_text("\n".join(blocks) if actions is None else actions)
-    info = folder / "my_actions-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: my-actions\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(ENTRY_POINTS)
+    install(folder, actions)
     script = folder / "slow.py"
     script.write_text(SCENARIO.replace("BODY", body))
-    path = os.pathsep.join([str(folder), str(ROOT / "runtime_lib")])
-    return subprocess.run(
-        [sys.executable, str(script), "--trace", str(folder / "t.jsonl")],
-        capture_output=True,
-        text=True,
-        timeout=HANGING,
-        env={**os.environ, "PYTHONPATH": path},
-        check=False,
-    )
+    return run_module(script, folder / "t.jsonl", folder)
 
 
 def trace(folder: Path, kind: str) -> list[Any]:
@@ -84,7 +64,7 @@ def test_own_actions_are_found_and_run(tmp_path: Path) -> None:
     roll_out = 'methods.bind(self.ego, "roll_out")()'
     body = f'Serial("slow", creep(self.ego, v=1.5, duration=2.0), {roll_out})'
     done = run(tmp_path, body)
-    assert done.returncode == 0, done.stderr
+    assert done.code == 0, done.err
     ends = [(a["t"], a["name"]) for a in trace(tmp_path, "action") if a["status"] == "end"]
     assert ends == [(2.0, "ego creep"), (5.0, "ego roll_out")]  # 1.5 m/s at 0.5 m/s2
     speeds = {line["t"]: line["v"] for line in trace(tmp_path, "state")}
@@ -94,8 +74,8 @@ def test_own_actions_are_found_and_run(tmp_path: Path) -> None:
 def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
     body = 'Parallel("both", creep(self.ego), self.ego.change_speed(target=5.0))'
     done = run(tmp_path, body)
-    assert done.returncode == 5
-    assert done.stderr == (
+    assert done.code == 5
+    assert done.err == (
         "slow.osc: error: ego.change_speed(target=5.0) (slow.osc) and ego.creep() (slow.osc)"
         " control the longitudinal slot of ego at the same time; let them run one after the other"
         " (at 0.000 s)\n"
@@ -104,17 +84,17 @@ def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
 
 def test_a_broken_package_is_named(tmp_path: Path) -> None:
     done = run(tmp_path, 'Serial("s", creep(self.ego))', actions="import no_such_module\n")
-    assert done.returncode == 5
-    assert done.stderr == (
+    assert done.code == 5
+    assert done.err == (
         "slow.osc: error: the actions in my_actions of my-actions cannot be loaded:"
-        " No module named 'no_such_module'\n"
+        " ModuleNotFoundError: No module named 'no_such_module'\n"
     )
 
 
 def test_packages_are_only_read_for_unknown_actions(tmp_path: Path) -> None:
     actions = "raise ImportError('loaded')\n"
     done = run(tmp_path, 'Serial("s", self.ego.drive(duration=0.1))', actions=actions)
-    assert done.returncode == 0, done.stderr
+    assert done.code == 0, done.err
 
 
 BROKEN = """
@@ -136,6 +116,6 @@ class Creep(Action):
 def test_mistakes_of_own_actions_are_theirs(tmp_path: Path, where: str, then: str) -> None:
     text = BROKEN.replace("WHERE", where).replace("THEN", then)
     ended = run(tmp_path, "creep(self.ego)", actions=text)
-    assert ended.returncode == 5
-    assert "ego creep: my_actions.Creep raised AttributeError:" in ended.stderr
-    assert "Traceback" not in ended.stderr
+    assert ended.code == 5
+    assert "ego creep: my_actions.Creep raised AttributeError:" in ended.err
+    assert "Traceback" not in ended.err

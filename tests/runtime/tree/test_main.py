@@ -46,7 +46,7 @@ def fake(monkeypatch: pytest.MonkeyPatch) -> None:
         made.contacts[3] = [("hero", "npc")]
         return made
 
-    monkeypatch.setattr(runner, "embedded_world", world)
+    monkeypatch.setattr(runner, "make_world", world)
     monkeypatch.setattr(runner, "place_actors", lambda scenario, context: None)
 
 
@@ -54,7 +54,10 @@ def test_success(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     trace = tmp_path / "new" / "t.jsonl"
     assert main(Waits, argv=["--signal", "go@1s", "--trace", str(trace), "--set", "time=1"]) == 0
     out = capsys.readouterr()
-    assert out.out == "waits: success after 2.00 s\n  collision at 0.15 s: hero, npc\n"
+    assert (
+        out.out
+        == "waits: success after 2.00 s, with 1 collision\n  collision at 0.15 s: hero, npc\n"
+    )
     assert out.err == ""
     lines = [json.loads(line) for line in trace.read_text().splitlines()]
     assert lines[0] == {

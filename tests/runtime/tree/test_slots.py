@@ -8,6 +8,7 @@ import pytest
 
 from osc2tx_runtime.errors import ScenarioError, SlotConflict
 from osc2tx_runtime.language.tree import Behaviour, Parallel, Serial, Wait, elapsed
+from osc2tx_runtime.world.commands import KeepLane
 from tests.runtime.tree.kit import Drive, FakeActor, Run, Switch, Task
 
 HERO: Any = FakeActor("hero")
@@ -56,7 +57,7 @@ def test_two_live_owners_conflict(swap: bool) -> None:
 def test_command_without_claim_is_refused() -> None:
     class Pushy(Task):
         def on_start(self) -> None:
-            self.command("lateral", 1)  # type: ignore[arg-type]
+            self.command("lateral", KeepLane())
 
     with pytest.raises(ScenarioError, match="commands the lateral slot of hero without owning it"):
         Run(Pushy(HERO, 1), ids=("hero",)).go()

@@ -110,9 +110,13 @@ def test_the_document_names_every_kind() -> None:
 
 
 def test_sources_use_no_py_trees_clock_and_no_blackboard() -> None:
+    """Simulators are other processes: waiting for them takes a clock, and errors cross over."""
     root = Path(__file__).parents[3] / "runtime_lib/osc2tx_runtime"
     words = ("timers", "blackboard", "Timeout", "import time\n", "from time ", "except Exception")
     for path in sorted(root.rglob("*.py")):
         text = path.read_text(encoding="utf-8")
-        assert not [word for word in words if word in text], path
-        assert not re.search(r"\bosc2tx\.(?!methods\")", text), path
+        edge = ("except Exception",) if path.name == "main.py" else ()  # of the process
+        if path.is_relative_to(root / "simulators"):
+            edge = ("import time\n", "Timeout", "except Exception")
+        assert not [word for word in words if word in text and word not in edge], path
+        assert not re.search(r"\bosc2tx\.(?!(methods|worlds)\b)", text), path

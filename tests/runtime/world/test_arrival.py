@@ -283,14 +283,15 @@ def test_a_path_ends_before_its_phase(run: Run) -> None:
 
 
 def test_a_phase_with_another_end_is_none(run: Run) -> None:
-    """The other one takes 3 s, so nobody knows before that the phase could last longer."""
+    """The other one takes 3 s: nobody knows before that the phase is to last longer."""
 
     def body(s: TwoCars) -> Behaviour:
         act = s.a.drive(speed(11.0, at="end"))
         return Parallel("phase", act, s.b.change_lane(side="left"), duration=8.0)
 
     done = run(scenario(body))
-    assert (done.result.status, done.result.time) == ("success", 8.0)
+    assert (done.result.status, done.result.time) == ("failure", 3.0)
+    assert "over after 3 s" in done.result.reason
     assert done.actions("a drive", "end")[0]["t"] < 1.0
 
 

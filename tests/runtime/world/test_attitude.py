@@ -160,15 +160,15 @@ def test_an_orientation_is_assigned(run: Run) -> None:
 
 
 def test_a_car_is_turned_by_force_and_goes_back(run: Run) -> None:
-    """It has the orientation at the next step, and drives back into its lane from there."""
+    """It has the orientation at once, and drives back into its lane from there."""
 
     def body(s: Hill) -> Behaviour:
         wild = Orientation(roll=0.3, yaw=heading + 0.4)
         return Serial("skid", s.car.assign_orientation(orientation=wild), s.car.drive(duration=6.0))
 
-    heading = run(hill(lambda s: s.car.drive(duration=0.1))).states("car")[1]["h"]
+    heading = run(hill(lambda s: s.car.drive(duration=0.1))).states("car")[0]["h"]
     done = run(hill(body))
-    first, last = done.states("car")[1], done.states("car")[-1]
+    first, last = done.states("car")[0], done.states("car")[-1]
     assert (first["h"], first["roll"]) == pytest.approx((heading + 0.4, 0.3), abs=1e-6)
     assert last["offset"] == pytest.approx(0.0, abs=1e-6)
     assert abs(last["roll"]) < 0.06  # on its wheels again

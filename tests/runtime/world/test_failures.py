@@ -10,7 +10,7 @@ import pytest
 from osc2tx_runtime import Behaviour, OdrPoint, Parallel, Person, Point, Pose, Serial, Wait, elapsed
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePathSt, Trajectory
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
-from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, MapSegment
 from osc2tx_runtime.modifiers import (
     along,
     change_lane,
@@ -47,7 +47,7 @@ class WithWalker(TwoCars):
 def lane_of(road: str, number: int) -> Lane:
     """A lane of the map, as the solver finds it."""
     lane_ = Lane()
-    lane_.choose(Stretch("lane", road, 0, number))
+    lane_.choose(MapSegment("lane", road, 0, number))
     return lane_
 
 

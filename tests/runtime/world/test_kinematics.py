@@ -168,7 +168,6 @@ def test_a_turn_on_the_spot(make_spec: MakeSpec) -> None:
 def test_a_jump_is_no_motion(drive: Callable[..., EmbeddedWorld]) -> None:
     world = drive(one_road('arc curvature="0.02"', 250.0), 5)
     world.assign("a", at=LanePosition("1", -1, 150.0))
-    world.step()
     motion = world.motion("a")
     assert along(motion) == near(SPEED, 0.0, 0.0)
     assert about(motion) == pushed(motion) == twisted(motion) == near(0.0, 0.0, 0.0)

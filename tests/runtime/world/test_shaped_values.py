@@ -19,7 +19,7 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Stretch
+from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, MapSegment
 from osc2tx_runtime.domain.shapes import (
     CommonAccelerationShape,
     CommonLateralShape,
@@ -158,7 +158,7 @@ def test_a_lane_change_may_jump(run: Run) -> None:
 @pytest.mark.parametrize("number", [-4, -3, -1])
 def test_a_lane_of_the_map(run: Run, number: int) -> None:
     target = Lane()
-    target.choose(Stretch("lane", "1", 0, number))
+    target.choose(MapSegment("lane", "1", 0, number))
     done = run(scenario(lambda s: s.a.change_lane(target=target)))
     assert done.states("a")[-1]["lane"] == number
     done = run(scenario(lambda s: s.a.follow_lane(target=target, offset=0.1, duration=8.0)))

@@ -56,6 +56,9 @@ def call(name: str, arguments: dict[str, Any], at: str) -> ir.ModifierCall:
         expression: ir.Expression = ir.Literal(
             span=SPAN, type=ir.ValueType(ir.Kind.FLOAT, "float"), value=1.0
         )
+        if value is WAY:
+            type_ = ir.ValueType(ir.Kind.STRUCT, "path")
+            expression = ir.FieldRef(span=SPAN, type=type_, name=parameter)
         if isinstance(value, str):
             type_ = ir.ValueType(ir.Kind.ENUM, "enum")
             expression = ir.EnumValue(span=SPAN, type=type_, member=value, value=0)

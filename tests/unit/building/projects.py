@@ -6,7 +6,6 @@ from pathlib import Path
 
 from osc2tx.building import build as module
 from osc2tx.building.build import BuildOptions, BuildResult
-from osc2tx.building.manifest import MANIFEST_NAME
 from osc2tx.config import GivenOptions
 
 DRIVE = """import osc.standard
@@ -33,9 +32,9 @@ def drive(path: Path, name: str = "top", head: str = "", speed: int = 30) -> Pat
 
 
 def listing(folder: Path) -> list[str]:
-    """Return the files of a folder, without the manifest."""
+    """Return the files of a folder without what osc2tx notes about them."""
     files = (path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-    return sorted(name for name in files if name != MANIFEST_NAME)
+    return sorted(name for name in files if not name.startswith(".osc2tx"))
 
 
 def contents(folder: Path) -> dict[str, bytes]:

@@ -1,9 +1,14 @@
 """Whose a file of the output folder is: edited, foreign, orphaned; the manifest that says it."""
 
+import subprocess
+from pathlib import Path
+
 import pytest
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.manifest import MANIFEST_NAME, ManifestError, read_manifest
+from osc2tx.building.version_control import committed_objects
+from osc2tx.building.written_digests import DIGESTS_NAME, render_digests
 from tests.unit.building.projects import Project, contents, listing, write
 
 # --- edited, foreign, orphaned ---
@@ -78,12 +83,20 @@ def test_an_edited_orphan_is_only_removed_by_force(project: Project) -> None:
     assert listing(project.out) == ["a.map.json", "a.py"]
 
 
-def test_a_source_that_became_a_library_leaves_an_orphan(project: Project) -> None:
+@pytest.mark.parametrize("is_edited", [False, True])
+def test_a_source_that_became_a_library_takes_its_outputs_with_it(
+    project: Project, is_edited: bool
+) -> None:
     project.drive("a.osc")
     project.drive("b.osc")
     project.build()
-    write(project.sources / "b.osc", "enum color: [red]\n")
+    write(project.sources / "b.osc", "global shade: int = 1\n")
+    if is_edited:
+        (project.out / "b.py").write_text("edited")
     assert project.check() == ["b.py is orphaned"]
+    project.build()
+    kept = ["b.map.json", "b.py"] if is_edited else []
+    assert listing(project.out) == ["a.map.json", "a.py", *kept]
 
 
 def test_building_a_single_file_says_nothing_of_the_others(project: Project) -> None:
@@ -116,12 +129,12 @@ def test_without_manifest_what_is_current_is_entered_again(project: Project) -> 
         "",
         "[]",
         "<<<<<<< HEAD\n",
-        '{"format": 1, "outputs": {}}',
-        '{"format": 2}',
-        '{"format": 2, "outputs": []}',
-        '{"format": 2, "outputs": {"a.osc": 3}}',
-        '{"format": 2, "outputs": {"a.osc": {"a.py": 3}}}',
-        '{"format": 2, "outputs": {}, "unfinished": 3}',
+        '{"format": 2, "outputs": {}}',
+        '{"format": 3}',
+        '{"format": 3, "outputs": []}',
+        '{"format": 3, "outputs": {"a.osc": 3}}',
+        '{"format": 3, "outputs": {"a.osc": {"a.py": "0"}}}',
+        '{"format": 3, "outputs": {"a.osc": [3]}}',
     ],
 )
 def test_a_damaged_manifest_stops_the_build(project: Project, text: str) -> None:
@@ -139,8 +152,8 @@ def test_a_manifest_cannot_name_what_lies_elsewhere(project: Project, path: str)
     import json
 
     project.drive("a.osc")
-    outputs = {"gone.osc": {path: "0" * 32}}
-    write(project.out / MANIFEST_NAME, json.dumps({"format": 2, "outputs": outputs}))
+    outputs = {"gone.osc": [path]}
+    write(project.out / MANIFEST_NAME, json.dumps({"format": 3, "outputs": outputs}))
     with pytest.raises(ManifestError):
         project.build(prune=True, force=True)
 
@@ -152,18 +165,97 @@ def test_a_manifest_cannot_reach_through_a_link(project: Project) -> None:
     outside = write(project.folder / "elsewhere/file", "precious")
     project.out.mkdir()
     (project.out / "link").symlink_to(outside.parent)
-    outputs = {"gone.osc": {"link/file": digest(b"precious")}}
-    write(project.out / MANIFEST_NAME, json.dumps({"format": 2, "outputs": outputs}))
+    outputs = {"gone.osc": ["link/file"]}
+    write(project.out / MANIFEST_NAME, json.dumps({"format": 3, "outputs": outputs}))
+    digests = {"link/file": (digest(b"precious"),)}
+    write(project.out / DIGESTS_NAME, render_digests(digests))
     project.build(prune=True, force=True)
     assert outside.read_text() == "precious"
 
 
-def test_the_manifest_names_no_machine(project: Project) -> None:
+def test_the_manifest_says_which_files_there_are_and_not_what_is_in_them(project: Project) -> None:
     project.drive("sub/a.osc")
     project.build()
     text = (project.out / MANIFEST_NAME).read_text()
+    assert '    "sub/a.osc": ["a.py"]\n' in text
     assert str(project.folder) not in text
-    assert '"sub/a.osc": {"a.py": "' in text
+    project.drive("sub/a.osc", speed=31)
+    project.build()
+    assert (project.out / MANIFEST_NAME).read_text() == text
+
+
+# --- what nobody has edited: known from the last build, or from version control ---
+
+
+def git(folder: Path, *arguments: str) -> None:
+    identity = ("-c", "user.name=test", "-c", "user.email=test@localhost")
+    subprocess.run(["git", "-C", str(folder), *identity, *arguments], check=True)
+
+
+def commit(project: Project) -> None:
+    """Commit all that git does not ignore."""
+    git(project.folder, "init", "--quiet")
+    git(project.folder, "add", "--all")
+    git(project.folder, "commit", "--quiet", "--message", "all")
+
+
+def test_git_ignores_the_digests(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    assert (project.out / DIGESTS_NAME).exists()
+    commit(project)
+    assert committed_objects(project.out).keys() == {MANIFEST_NAME, "a.map.json", "a.py"}
+
+
+def test_what_is_as_committed_may_be_replaced(project: Project) -> None:
+    """As after a clone: nothing is known of earlier builds, and sources have moved on."""
+    project.drive("a.osc")
+    project.drive("gone.osc")
+    project.build()
+    commit(project)
+    (project.out / DIGESTS_NAME).unlink()
+    project.drive("a.osc", speed=31)
+    (project.sources / "gone.osc").unlink()
+    assert project.check() == ["a.py is stale", "gone.py is orphaned"]
+    assert project.build(prune=True).remaining() == ()
+    assert project.check() == []
+
+
+def test_what_differs_from_the_commit_was_edited_by_hand(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    commit(project)
+    (project.out / DIGESTS_NAME).unlink()
+    (project.out / "a.py").write_text("edited")
+    assert project.check() == ["a.py was edited by hand"]
+    project.build()
+    assert (project.out / "a.py").read_text() == "edited"
+
+
+def test_an_edit_that_was_committed_is_stale_like_any_other_text(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    (project.out / "a.py").write_text("edited")
+    commit(project)
+    assert project.check() == ["a.py is stale"]
+
+
+@pytest.mark.parametrize("digests", [None, "", "[]", '{"format": 1}', '{"format": 0}'])
+def test_without_digests_and_commits_what_differs_is_kept(
+    project: Project, digests: str | None
+) -> None:
+    project.drive("a.osc")
+    project.drive("b.osc")
+    project.build()
+    (project.out / DIGESTS_NAME).unlink()
+    if digests is not None:
+        write(project.out / DIGESTS_NAME, digests)
+    project.drive("a.osc", speed=31)
+    assert project.check() == ["a.py was edited by hand"]
+    project.build(force=True)
+    project.drive("a.osc", speed=32)
+    project.drive("b.osc", speed=32)
+    assert project.check() == ["a.py is stale", "b.py is stale"]
 
 
 # --- source maps: nobody commits them, and they go with their modules ---

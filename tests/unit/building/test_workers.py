@@ -1,7 +1,10 @@
 """Several processes: same results, same order, and one that dies harms no other."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -9,6 +12,9 @@ from osc2tx.building import workers
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, compile_job
 from tests.unit.building.projects import Project, contents, write
+
+if TYPE_CHECKING:
+    from osc2tx.compilation.driver import Memory
 
 
 @pytest.fixture
@@ -34,10 +40,10 @@ def test_results_do_not_depend_on_the_number_of_processes(project: Project) -> N
     assert two.changes == one.changes
 
 
-def deadly(job: Job) -> FileResult:
+def deadly(job: Job, memory: Memory | None = None) -> FileResult:
     if job.name == "s06.osc":
         os._exit(1)
-    return compile_job(job)
+    return compile_job(job, memory)
 
 
 def test_a_process_that_dies_costs_one_file(

@@ -153,10 +153,10 @@ def test_sources_and_output_of_the_settings(shell: Shell) -> None:
     ended = shell("build")
     assert (ended.code, ended.out) == (
         0,
-        "1 module in generated: 4 files written; 0 errors, 0 warnings\n",
+        "1 module in generated: 3 files written; 0 errors, 0 warnings\n",
     )
     assert shell("build", "--check").code == 0
-    assert "4 files written" in shell("build", "-o", "other").out
+    assert "3 files written" in shell("build", "-o", "other").out
 
 
 @pytest.mark.parametrize("command", [("check", "in"), ("build", "in", "-o", "out")])
@@ -181,6 +181,7 @@ def test_config(shell: Shell) -> None:
         'xml_version = "1.3" # default',
         'xml_profile = "generic" # default',
         "allow_approx = true # command line",
+        "import_paths = [] # default",
     ]
     assert shell("config").out.splitlines()[1] == 'dialect = "asam"         # default'
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -14,6 +12,7 @@ from click.testing import CliRunner, Result
 from osc2tx.cli import cli
 from osc2tx.cli.init import FILES
 from osc2tx.cli.reporting import Session
+from tests.processes import forked
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -32,10 +31,9 @@ def test_the_project_builds_runs_and_passes_its_test(
     assert command("check", "scenarios", "--strict").return_value == 0
     assert command("build").return_value == 0
     assert command("build", "--check").return_value == 0
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
-    ended = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
-    assert ended.returncode == 0, ended.stdout
+    ended = forked(lambda: sys.exit(pytest.main(["-q", "-p", "no:cacheprovider"])))
+    assert ended.code == 0, ended.out
+    assert "passed" in ended.out
 
 
 def test_files_of_the_user_stay(tmp_path: Path) -> None:

@@ -169,7 +169,7 @@ def test_github_commands_are_escaped(tmp_path: Path) -> None:
     report = report_on(TEXT, "vehicel", tmp_path, message="100%\r\n::set-env name=x::y", help="no")
     assert render_github(report) == (
         "::error file=sub dir/x%2Cy%3Aü.osc,line=2,endLine=2,col=8,endColumn=14,"
-        "title=OSC202 unknown-type::100%25%0D%0A::set-env name=x::y%0Ahelp: no\n"
+        "title=OSC202 unknown-type::100%25\\r\\n::set-env name=x::y%0Ahelp: no\n"
     )
 
 

@@ -1,13 +1,19 @@
 """Names of files and folders never become code, never leave the output folder, never collide."""
 
+import sys
+from collections.abc import Mapping
+from importlib.metadata import requires
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 from osc2tx import cli
+from osc2tx.backends.py_trees.naming import module_name
 from osc2tx.building.build import BuildOptions, BuildResult, build
 from osc2tx.config import GivenOptions
 from osc2tx.support.portable_names import is_portable
+from osc2tx.support.python_modules import is_taken
 from tests.processes import forked
 from tests.unit.building.projects import DRIVE, contents, drive, listing, write
 from tests.unit.hostile.texts import MULTILINE, TEXTS, skeleton, strings
@@ -52,34 +58,50 @@ def written(path: Path) -> Path:
         pytest.skip(f"this file system has no such names: {error}")
 
 
-@pytest.mark.parametrize("stem", STEMS, ids=ascii)
-def test_file_names(tmp_path: Path, harmless: str, stem: str) -> None:
-    written(tmp_path / "in" / f"{stem}.osc")
+def written_each(folder: Path, places: Mapping[str, str]) -> list[tuple[Path, str]]:
+    """Write a source for each text, in a folder of its own; return where the outputs of it go."""
+    found = []
+    for number, (text, place) in enumerate(places.items()):
+        try:
+            drive(folder / "in" / f"d{number}" / place)
+        except OSError:
+            continue  # this file system has no such names
+        found.append((folder / "out" / f"d{number}", text))
+    assert found
+    return found
+
+
+def test_file_names(tmp_path: Path, harmless: str) -> None:
+    stems = written_each(tmp_path, {stem: f"{stem}.osc" for stem in STEMS})
     result = made(tmp_path)
     assert (result.collisions, result.failures, result.bugs) == ((), (), ())
-    (module,) = (tmp_path / "out").glob("*.py")
-    assert module.stem.isidentifier()
-    assert is_portable(module.name)
-    text = module.read_text(encoding="utf-8")
-    assert skeleton(text) == skeleton(harmless)
-    known = [s.replace("harmless.osc", f"{stem}.osc") for s in strings(harmless)]
-    assert strings(text) == known
+    for folder, stem in stems:
+        (module,) = folder.glob("*.py")
+        assert module.stem.isidentifier(), stem
+        assert is_portable(module.name), stem
+        text = module.read_text(encoding="utf-8")
+        assert skeleton(text) == skeleton(harmless), stem
+        known = [s.replace("harmless.osc", f"{folder.name}/{stem}.osc") for s in strings(harmless)]
+        assert strings(text) == known
 
 
-@pytest.mark.parametrize("name", FOLDERS, ids=ascii)
-def test_folder_names(tmp_path: Path, harmless: str, name: str) -> None:
-    written(tmp_path / "in" / name / "harmless.osc")
+def test_folder_names(tmp_path: Path, harmless: str) -> None:
+    names = written_each(tmp_path, {name: f"{name}/harmless.osc" for name in FOLDERS})
     result = made(tmp_path)
-    modules = [path for path in (tmp_path / "out").rglob("*.py") if path.is_file()]
-    if is_portable(name):
-        assert (result.collisions, result.failures) == ((), ())
-        (module,) = modules
-        assert module.parent.name == name
-        assert skeleton(module.read_text(encoding="utf-8")) == skeleton(harmless)
-    else:
-        (problem,) = result.collisions
-        assert f"not every system can have a folder {name!r}" in problem
-        assert modules == []
+    assert result.failures == ()
+    problems = list(result.collisions)
+    for folder, name in names:
+        modules = [path for path in folder.rglob("*.py") if path.is_file()]
+        if is_portable(name):
+            (module,) = modules
+            assert module.parent.name == name
+            assert skeleton(module.read_text(encoding="utf-8")) == skeleton(harmless), name
+        else:
+            assert modules == [], name
+            said = f"not every system can have a folder {name!r}"
+            (problem,) = (each for each in problems if said in each and f"/{folder.name}/" in each)
+            problems.remove(problem)
+    assert problems == []
 
 
 @pytest.mark.parametrize(
@@ -116,6 +138,32 @@ def test_collisions(tmp_path: Path, names: tuple[str, ...]) -> None:
         assert str(tmp_path / "in" / name) in problem or ".py" in names[0].lower()
     assert "other.py" in listing(tmp_path / "out")
     assert result.modules == (2 if ".py" in names[0].lower() else 1)
+
+
+# --- names of other modules ---
+
+
+@pytest.mark.parametrize("stem", ["json", "typing", "lxml", "osc2tx_runtime", "conftest"])
+def test_a_module_hides_no_other(tmp_path: Path, stem: str) -> None:
+    drive(tmp_path / f"in/{stem}.osc")
+    result = made(tmp_path)
+    (report,) = [report for each in result.results for report in each.reports]
+    assert (report.code, f"the module is called `{stem}_`" in report.message) == ("OSC517", True)
+    assert listing(tmp_path / "out") == [f"{stem}_.map.json", f"{stem}_.py"]
+
+
+def test_all_modules_of_this_python_are_known() -> None:
+    public = {name for name in sys.stdlib_module_names if not name.startswith("_")}
+    assert {name for name in public if not is_taken(name)} == set()
+    assert all(module_name(f"a/{name}.osc") not in sys.stdlib_module_names for name in public)
+    hidden = {name for name in sys.stdlib_module_names if name.startswith("_")}
+    assert hidden.isdisjoint(map(module_name, hidden))
+
+
+def test_what_the_runtime_requires_is_known() -> None:
+    required = [Requirement(text).name for text in requires("osc2tx-runtime") or ()]
+    assert required
+    assert all(is_taken(name.replace("-", "_")) for name in required)
 
 
 # --- links ---

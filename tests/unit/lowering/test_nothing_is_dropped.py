@@ -119,7 +119,7 @@ CASES = {
             "def y() -> int is expression x * 44", text="def y(self) -> int"
         ),
         ast.CoverageDeclaration: Case("cover(x)", text='self.cover("x"'),
-        ast.ModifierApplication: Case("it_.keep_lane()", code="OSC406"),
+        ast.ModifierApplication: Case("it_.keep_lane()", text="keep_lane()"),
         ast.DoDirective: Case("y: int = 2", text="it_.drive("),
         ast.OnDirective: Case(
             "on elapsed(46s):\n        emit seen", text="elapsed(46 * s)", before="event seen"

@@ -44,7 +44,7 @@ def test_layout(text: str, expected: str) -> None:
         ("[5m..10m]", "[ 5m .. 10m ]"),
         ("3.as", "3 . as"),
         (".5 1.5e3 2e3 2em 2e3m 1e6.5", ".5 1.5e3 2e3 2em 2e3m 1e6 .5"),
-        ("0x1F 0x1Fg 0xg", "0x1F 0x1F g 0xg"),
+        ("0x1F 0x1Fg 0xg", "0x1F 0x1Fg 0xg"),
         ("5|km/h| 5std::m 5::m 5std::|x/y|", "5|km/h| 5std::m 5::m 5std::|x/y|"),
         ("a::b ::c |x/y|::d null::e", "a::b ::c |x/y|::d null::e"),
         ("a::* ::* *", "a::* ::* *"),

@@ -15,6 +15,7 @@ from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
 from osc2tx.backends.xosc.flattening.adjacent_members import is_first, runs_beside
+from osc2tx.backends.xosc.flattening.member_names import event_name
 from osc2tx.backends.xosc.flattening.tree_queries import actors_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
@@ -231,7 +232,7 @@ def environment_action(
         fractionalCloudCover=cover,
         cloudState=state,
     )
-    name = source.name if isinstance(source, ir.Actor) else source.action
+    name = event_name(ctx.scope.scenario, source) if isinstance(source, ir.Invoke) else source.name
     return _environment(ctx, name, told, clock, _road(ctx, source))
 
 

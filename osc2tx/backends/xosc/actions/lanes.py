@@ -10,9 +10,9 @@ from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.entities.declared_roads import stretch_of
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Profile, course_of_shift
-from osc2tx.backends.xosc.facts.map_search import Stretch
+from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
@@ -26,7 +26,7 @@ LANE_WIDTH = 3.5
 def _change_lane(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
     reference = arguments.entity("reference")
-    target = stretch_of(leaf.ctx, arguments.get("target"))
+    target = segment_of(leaf.ctx, arguments.get("target"))
     lanes = _lanes(leaf) if target is None else _lanes_to(leaf, target)
     offset = arguments.number("offset") or 0.0
     profile = arguments.member("rate_profile", "none")
@@ -45,7 +45,7 @@ def _change_lane(leaf: Leaf) -> Performance:
     return Performance((change, *apply_modifiers(leaf)), "goal")
 
 
-def _lanes_to(leaf: Leaf, target: Stretch) -> int:
+def _lanes_to(leaf: Leaf, target: MapSegment) -> int:
     """Return how many lanes to the left a lane of the map is."""
     roads, here = leaf.ctx.roads, leaf.state.lane
     if target.lane is None:
@@ -206,7 +206,7 @@ def _follow_lane(leaf: Leaf) -> Performance:
     offset = arguments.number("offset") or 0.0
     profile = arguments.member("rate_profile", "none")
     peak = arguments.number("rate_peak")
-    target = stretch_of(leaf.ctx, arguments.get("target"))
+    target = segment_of(leaf.ctx, arguments.get("target"))
     if target is not None and _lanes_to(leaf, target) != 0:
         raise Inexpressible("it is in another lane; a change of the lane has to come before")
     changes = apply_modifiers(leaf)

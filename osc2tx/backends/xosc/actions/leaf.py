@@ -151,7 +151,7 @@ class Leaf:
         event: Name of the event that will carry it out.
         is_start: It begins with the run.
         course: Of the speed, where the changes say it.
-        way: Metres after which it is over.
+        distance: Metres after which it is over; `None` if no distance ends it.
         reached: Conditions that hold when it is over.
         others: Who does what from its end on, and a word for it.
     """
@@ -175,7 +175,7 @@ class Leaf:
         self.event = event
         self.is_start = is_start
         self.course: Course | None = None
-        self.way: float | None = None
+        self.distance: float | None = None
         self.reached: tuple[Element, ...] = ()
         self.others: list[tuple[CastMember, Element, str]] = []
 

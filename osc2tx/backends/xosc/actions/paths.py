@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 from osc2tx import ir
@@ -20,9 +21,9 @@ from osc2tx.backends.xosc.actions.registry import action, modifier
 from osc2tx.backends.xosc.actions.routes import assign_route
 from osc2tx.backends.xosc.actions.speed_modifiers import may_jump
 from osc2tx.backends.xosc.actions.xml_positions import at_place
-from osc2tx.backends.xosc.entities.declared_roads import stretch_of
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
-from osc2tx.backends.xosc.facts.map_search import Stretch, crossing_of
+from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
@@ -48,6 +49,10 @@ def _on_line(leaf: Leaf) -> Performance:
     return Performance((*changes, *apply_modifiers(leaf)), "goal")
 
 
+# What says in which lane of a route, or where in it.
+ACROSS = frozenset({"change_lane", "keep_lane", "lane", "lateral"})
+
+
 @modifier("along_trajectory")
 def _along_trajectory(
     leaf: Leaf, call: ir.ModifierCall, arguments: Arguments
@@ -61,19 +66,22 @@ def _along_trajectory(
 def _along(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
     route = arguments.get("route")
-    stretch = stretch_of(leaf.ctx, route)
-    if stretch is not None and crossing_of(stretch) is None:
-        return _along_stretch(leaf, stretch, offsets)
+    segment = segment_of(leaf.ctx, route)
+    if segment is not None and crossing_of(segment) is None:
+        beside = [m for m in leaf.node.modifiers if m.name in ACROSS and m.at != "start"]
+        if beside:
+            raise Inexpressible(f"`{beside[0].name}` on a route of the map", beside[0].span)
+        return _along_segment(leaf, segment, offsets)
     return along_line(leaf, line_of_route(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
 
 
-def _along_stretch(
-    leaf: Leaf, stretch: Stretch, offsets: tuple[float, float]
+def _along_segment(
+    leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
 ) -> tuple[Change, ...]:
     """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
     if offsets[1]:
         raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
-    action, goal = assign_route(leaf, stretch)
+    action, goal = assign_route(leaf, segment)
     if leaf.duration is None:
         leaf.reached = (leaf.on_me(at_place(leaf.ctx, goal)),)
     after = replace(leaf.state, lane=None).finished(LATERAL)
@@ -177,19 +185,9 @@ def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, Element]:
     return point.time, _FRAMES[line.frame](leaf, line.reference, point)
 
 
-def _object_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
+def _relative(tag: str, leaf: Leaf, reference: str, point: Waypoint) -> Element:
     return element(
-        "RelativeObjectPosition",
-        entityRef=reference,
-        dx=round(point.x, 6),
-        dy=round(point.y, 6),
-        dz=round(point.z, 6) or None,
-    )
-
-
-def _world_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
-    return element(
-        "RelativeWorldPosition",
+        tag,
         entityRef=reference,
         dx=round(point.x, 6),
         dy=round(point.y, 6),
@@ -217,8 +215,8 @@ def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
 
 
 _FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], Element]] = {
-    "object_relative": _object_relative,
-    "world_relative": _world_relative,
+    "object_relative": partial(_relative, "RelativeObjectPosition"),
+    "world_relative": partial(_relative, "RelativeWorldPosition"),
     "road_relative": _road_relative,
     "lane_relative": _lane_relative,
 }
@@ -227,10 +225,17 @@ _FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], Element]] = {
 def follow(
     leaf: Leaf, vertices: Sequence[tuple[float, Element]], is_timed: bool, is_exact: bool
 ) -> Element:
-    """Return the action along a polyline."""
-    older = leaf.ctx.version == "1.0"
+    """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
     if is_timed:
         leaf.ctx.require_support("Vertex/time", leaf.node.span)
+    return polyline(leaf, vertices, is_timed, is_exact)
+
+
+def polyline(
+    leaf: Leaf, vertices: Sequence[tuple[float, Element]], is_timed: bool, is_exact: bool
+) -> Element:
+    """Return the action along a polyline, whatever the tool does about times."""
+    older = leaf.ctx.version == "1.0"
     trajectory = element(
         "Trajectory",
         element(

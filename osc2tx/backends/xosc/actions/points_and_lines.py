@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from osc2tx.backends.xosc.actions.xml_positions import (
     UNKNOWN,
-    Spot,
+    XmlPosition,
     at_world,
     number_of,
     on_earth,
@@ -17,10 +17,10 @@ from osc2tx.backends.xosc.actions.xml_positions import (
     world_position,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.declared_roads import required_roads, stretch_of
+from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import (
-    Stretch,
+    MapSegment,
     begin_of,
     crossing_of,
     points_of_route,
@@ -52,7 +52,7 @@ class Line:
     reference: str | None = None
 
 
-def spot_of(ctx: Context, point: Constant | None) -> Spot:
+def xml_position(ctx: Context, point: Constant | None) -> XmlPosition:
     """Return the place of a point.
 
     Raises:
@@ -72,14 +72,14 @@ def spot_of(ctx: Context, point: Constant | None) -> Spot:
     raise Inexpressible(UNKNOWN)
 
 
-def _on_route(ctx: Context, parts: dict[str, Constant]) -> Spot:
+def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     """Return a place along a route and beside it."""
     place = point_along(ctx, parts.get("route"), number_of(parts.get("s")))
     left = number_of(parts.get("t"))
     if not isinstance(place, LanePosition):
         x, y = place.x - left * math.sin(place.h), place.y + left * math.cos(place.h)
         pose = Pose(x, y, place.z, place.h)
-        return Spot(world_position(pose), None, pose)
+        return XmlPosition(world_position(pose), None, pose)
     assert ctx.roads is not None  # the route was found on it
     offset = left * ctx.roads.map.travel_direction(place.road, place.lane)
     where: dict[str, Constant] = {"road_id": place.road, "lane_id": str(place.lane)}
@@ -93,9 +93,9 @@ def point_along(ctx: Context, route: Constant | None, offset: float) -> LanePosi
         Inexpressible: It is not known before the run, or ends before.
     """
     roads = required_roads(ctx)
-    stretch = stretch_of(ctx, route)
-    if stretch is not None and crossing_of(stretch) is None:
-        place = roads.ahead(begin_of(roads, stretch), offset)
+    segment = segment_of(ctx, route)
+    if segment is not None and crossing_of(segment) is None:
+        place = roads.ahead(begin_of(roads, segment), offset)
         if place is None:
             raise Inexpressible(f"the route ends before {offset:g} m")
         return place
@@ -110,8 +110,8 @@ def point_along(ctx: Context, route: Constant | None, offset: float) -> LanePosi
 
 def line_of_route(ctx: Context, route: Constant | None) -> Line:
     """Return a path, or the way that a route which is put together leads along."""
-    stretch = stretch_of(ctx, route)
-    ends = None if stretch is None else crossing_of(stretch)
+    segment = segment_of(ctx, route)
+    ends = None if segment is None else crossing_of(segment)
     if ends is not None:
         return Line(ends, False, False)
     if not isinstance(route, MethodResult) or route.method != "create_route":
@@ -125,15 +125,17 @@ def line_of_route(ctx: Context, route: Constant | None) -> Line:
     return Line(tuple(_thinned(points)), False, False)
 
 
-def _element(ctx: Context, value: Constant) -> LanePosition | Pose | Stretch | Sequence[Waypoint]:
+def _element(
+    ctx: Context, value: Constant
+) -> LanePosition | Pose | MapSegment | Sequence[Waypoint]:
     """Return what a route is put together from."""
-    stretch = stretch_of(ctx, value)
-    if stretch is not None:
-        return stretch
+    segment = segment_of(ctx, value)
+    if segment is not None:
+        return segment
     if isinstance(value, Named) and ctx.values.type_of(value.name) == "path":
         return line_of(ctx, value).points
-    spot = spot_of(ctx, value)
-    place = spot.pose if spot.lane is None else spot.lane
+    position = xml_position(ctx, value)
+    place = position.pose if position.lane is None else position.lane
     if place is None:
         raise Inexpressible("a point of the route needs the map, which is not at hand")
     return place
@@ -195,14 +197,14 @@ def _made_line(ctx: Context, made: MethodResult) -> Line:
         return Line(_posed(ctx, points, times), smooth, times is not None)
     if not isinstance(points, tuple):
         raise Inexpressible("the way is only known during the run")
-    spots = [spot_of(ctx, point) for point in points]
+    positions = [xml_position(ctx, point) for point in points]
     if made.get("on_road_network") is True:
-        places = [spot.lane for spot in spots if spot.lane is not None]
-        if ctx.roads is None or len(places) != len(spots) or times is not None:
+        places = [position.lane for position in positions if position.lane is not None]
+        if ctx.roads is None or len(places) != len(positions) or times is not None:
             raise Inexpressible("a way along lanes needs the map, and points on lanes")
         return Line(ctx.roads.along(places), True, False)
-    poses = [spot.pose for spot in spots if spot.pose is not None]
-    if len(poses) != len(spots):
+    poses = [position.pose for position in positions if position.pose is not None]
+    if len(poses) != len(positions):
         raise Inexpressible("a point of the way needs the map, which is not at hand")
     stamps = _stamps(times, len(poses))
     found = (

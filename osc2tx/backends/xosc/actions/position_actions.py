@@ -8,12 +8,12 @@ from dataclasses import replace
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.paths import follow
-from osc2tx.backends.xosc.actions.points_and_lines import spot_of
+from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.actions.xml_positions import (
     REACHED,
-    Spot,
+    XmlPosition,
     at_place,
     world_position,
 )
@@ -31,26 +31,26 @@ def _assign_position(leaf: Leaf) -> Performance:
     names = ("position", "route_point", "odr_point")
     name = next((each for each in names if each in leaf.arguments), None)
     if name is not None:
-        spot = spot_of(leaf.ctx, leaf.arguments.get(name))
-        return Performance(_put(leaf, spot), "goal")
+        target = xml_position(leaf.ctx, leaf.arguments.get(name))
+        return Performance(_put(leaf, target), "goal")
     return Performance(_put(leaf, _beside(leaf)), "goal")
 
 
-def _put(leaf: Leaf, spot: Spot) -> tuple[Change, ...]:
-    place = spot.element
+def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
+    place = target.element
     state = leaf.state
-    if leaf.member.walks and spot.pose is not None:
-        heading = spot.pose.h if state.pose is None else state.pose.h
-        pose = spot.pose._replace(h=heading)
+    if leaf.member.walks and target.pose is not None:
+        heading = target.pose.h if state.pose is None else state.pose.h
+        pose = target.pose._replace(h=heading)
         place, after = world_position(pose), replace(state, pose=pose, lane=None, offset=None)
     else:
-        offset = None if spot.lane is None else known(round(spot.lane.offset, 6))
-        after = replace(state, lane=spot.lane, offset=offset, pose=None)
+        offset = None if target.lane is None else known(round(target.lane.offset, 6))
+        after = replace(state, lane=target.lane, offset=offset, pose=None)
     teleport = element("TeleportAction", element("Position", place))
     return (Change(LATERAL, (element("PrivateAction", teleport),), 0.0, after, after),)
 
 
-def _beside(leaf: Leaf) -> Spot:
+def _beside(leaf: Leaf) -> XmlPosition:
     """Return the place that modifiers give relative to another actor."""
     lanes, along, left = 0, 0.0, 0.0
     references: list[CastMember] = []
@@ -76,7 +76,7 @@ def _beside(leaf: Leaf) -> Spot:
         on = roads.beside(lane, lanes)
         if on is None:
             raise Inexpressible(f"there is no such lane beside that of {reference.name}")
-    return Spot(place, on, None)
+    return XmlPosition(place, on, None)
 
 
 def _lanes(arguments: Arguments) -> tuple[int, CastMember]:
@@ -158,37 +158,37 @@ def _change_position(leaf: Leaf) -> Performance:
     name = next((each for each in names if each in arguments), None)
     if name is None:
         raise Inexpressible("it says no place", leaf.node.span)
-    spot = spot_of(leaf.ctx, arguments.get(name))
+    target = xml_position(leaf.ctx, arguments.get(name))
     joined, on_network = arguments.get("interpolation"), arguments.get("on_road_network")
     is_smooth = isinstance(joined, Member) and joined.name == "smooth"
     if leaf.duration is not None:
         raise Inexpressible("a duration beside that of the way", leaf.node.span)
     if on_network if on_network is not None else not leaf.member.walks:
-        return _acquire(leaf, spot)
+        return _acquire(leaf, target)
     if is_smooth:
         raise Inexpressible("a curve from wherever it is then", leaf.node.span)
-    return _straight_to(leaf, spot)
+    return _straight_to(leaf, target)
 
 
-def _acquire(leaf: Leaf, spot: Spot) -> Performance:
+def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     """Return the way along lanes; it is over where the place is reached, not where the route is."""
     state = leaf.state
     if state.speed is None or state.speed.low <= 0.0:
         raise Inexpressible("it may stand, and a place says no speed", leaf.node.span)
-    position = element("Position", spot.element)
+    position = element("Position", target.element)
     acquire = element("RoutingAction", element("AcquirePositionAction", position))
-    after = replace(state, lane=spot.lane, offset=known(0.0)).finished(LATERAL)
+    after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)
     change = Change(
         LATERAL, (element("PrivateAction", acquire),), None, replace(state, lane=None), after
     )
     leaf.ctx.report.exact(leaf.construct, leaf.node.span, f"it is there within {REACHED:g} m")
-    reached = at_place(leaf.ctx, spot.element)
+    reached = at_place(leaf.ctx, target.element)
     return Performance((change, *apply_modifiers(leaf)), "goal", reached=(leaf.on_me(reached),))
 
 
-def _straight_to(leaf: Leaf, spot: Spot) -> Performance:
+def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
     """Return a straight way off the lanes."""
-    here, there = leaf.state.pose, spot.pose
+    here, there = leaf.state.pose, target.pose
     if there is None:
         raise Inexpressible("where the point is needs the map, which is not at hand")
     if here is None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.gaps import Gap, hold
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
-from osc2tx.backends.xosc.actions.points_and_lines import spot_of
+from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
 from osc2tx.backends.xosc.actions.xml_positions import REACHED, at_place
@@ -59,12 +59,12 @@ def _held(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
 
 def _at_point(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     """End an invocation at a point that the way leads to."""
-    spot = spot_of(leaf.ctx, arguments.get("at_point"))
+    point = xml_position(leaf.ctx, arguments.get("at_point"))
     arguments.get("project_on_route")
     if call.at != "end" or leaf.duration is not None:
         raise Inexpressible("a point that is not the end of the way", call.span)
     leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
-    leaf.reached = (leaf.on_me(at_place(leaf.ctx, spot.element)),)
+    leaf.reached = (leaf.on_me(at_place(leaf.ctx, point.element)),)
     return ()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx.backends.xosc.actions.leaf import Leaf
 from osc2tx.backends.xosc.entities.declared_roads import required_roads
 from osc2tx.backends.xosc.facts.map_search import (
-    Stretch,
+    MapSegment,
     begin_of,
     end_of,
 )
@@ -13,10 +13,10 @@ from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 
-def assign_route(leaf: Leaf, stretch: Stretch) -> tuple[Element, Element]:
+def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, Element]:
     """Return the action that gives an actor a route, and the position of its end."""
     roads = required_roads(leaf.ctx)
-    begin, end = begin_of(roads, stretch), end_of(roads, stretch)
+    begin, end = begin_of(roads, segment), end_of(roads, segment)
     lane = leaf.state.lane
     if lane is not None and lane.road == end.road:  # it keeps its own lane
         begin, end = (

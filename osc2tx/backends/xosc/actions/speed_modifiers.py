@@ -187,21 +187,21 @@ def _change_speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tu
     return (change_speed(leaf, goal, profile, peak, leaf.duration if in_time else None),)
 
 
-# --- ways ---------------------------------------------------------------------------------------
+# --- distances ----------------------------------------------------------------------------------
 
 
 @modifier("distance", takes=())
 def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    way = arguments.number("distance")
-    if way is None:
+    distance = arguments.number("distance")
+    if distance is None:
         raise Inexpressible("it says no distance", call.span)
     if leaf.duration is None:
-        leaf.way = way
+        leaf.distance = distance
         return ()
     start, time = leaf.state.speed, leaf.duration
     if start is None or not start.is_known:
         raise Inexpressible("the speed at the start is only known during the run", call.span)
-    end = 2.0 * way / time - start.low
+    end = 2.0 * distance / time - start.low
     if end < 0.0:
         raise Inexpressible("it would stop before its time is over", call.span)
     after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
@@ -211,12 +211,12 @@ def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
 
 
 def time_to_cover(leaf: Leaf) -> float | None:
-    """Return after how many seconds an invocation has covered its way; `None` without one.
+    """Return after how many seconds an invocation has covered its distance; `None` without one.
 
     Raises:
         Inexpressible: Its speed is not known before the run.
     """
-    if leaf.way is None:
+    if leaf.distance is None:
         return None
     speed = leaf.state.speed
     if leaf.course is None:
@@ -226,8 +226,8 @@ def time_to_cover(leaf: Leaf) -> float | None:
                 leaf.node.span,
                 Remedy(),
             )
-        return _positive(leaf, leaf.way / speed.low if speed.low > 0.0 else inf)
-    return _positive(leaf, _time_along(leaf.course, leaf.way))
+        return _positive(leaf, leaf.distance / speed.low if speed.low > 0.0 else inf)
+    return _positive(leaf, _time_along(leaf.course, leaf.distance))
 
 
 def _positive(leaf: Leaf, time: float) -> float:

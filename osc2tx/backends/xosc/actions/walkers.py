@@ -10,6 +10,7 @@ import math
 from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.paths import polyline
 from osc2tx.backends.xosc.actions.speed_changes import jump_to
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
@@ -74,41 +75,20 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Elem
     times.append(times[-1] + length)
     places = ((time, _ahead(start, _covered(course, time))) for time in times)
     points = [Waypoint(time, place.x, place.y, place.z, place.h) for time, place in places]
-    vertices = []
-    for point in thinned(points, is_timed=True):
-        position = element(
-            "WorldPosition",
-            x=round(point.x, 6),
-            y=round(point.y, 6),
-            z=point.z,
-            h=round(start.h, 9),
-        )
-        vertices.append(element("Vertex", element("Position", position), time=round(point.time, 6)))
-    trajectory = element(
-        "Trajectory",
-        element("Shape", element("Polyline", *vertices)),
-        name=leaf.ctx.names.new(f"way_{leaf.event}"),
-        closed=False,
-    )
-    return element(
-        "PrivateAction",
-        element(
-            "RoutingAction",
+    vertices = [
+        (
+            point.time,
             element(
-                "FollowTrajectoryAction",
-                _reference(leaf, trajectory),
-                element(
-                    "TimeReference",
-                    element("Timing", domainAbsoluteRelative="relative", scale=1.0, offset=0.0),
-                ),
-                element("TrajectoryFollowingMode", followingMode="position"),
+                "WorldPosition",
+                x=round(point.x, 6),
+                y=round(point.y, 6),
+                z=point.z,
+                h=round(start.h, 9),
             ),
-        ),
-    )
-
-
-def _reference(leaf: Leaf, trajectory: Element) -> Element:
-    return trajectory if leaf.ctx.version == "1.0" else element("TrajectoryRef", trajectory)
+        )
+        for point in thinned(points, is_timed=True)
+    ]
+    return polyline(leaf, vertices, is_timed=True, is_exact=True)
 
 
 def _ahead(pose: Pose, way: float) -> Pose:

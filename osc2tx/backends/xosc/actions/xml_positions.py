@@ -20,8 +20,8 @@ UNKNOWN = "the point is only known during the run"
 
 
 @dataclass(frozen=True, slots=True)
-class Spot:
-    """A place.
+class XmlPosition:
+    """A position of the XML, and what is known of the place.
 
     Attributes:
         element: Below `Position`.
@@ -34,12 +34,12 @@ class Spot:
     pose: Pose | None
 
 
-def at_world(ctx: Context, x: float, y: float, z: float) -> Spot:
+def at_world(ctx: Context, x: float, y: float, z: float) -> XmlPosition:
     """Return a place in the world; whoever is there looks along the road."""
     lane = None if ctx.roads is None else ctx.roads.locate(x, y, z)
     heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
     pose = Pose(x, y, z, heading)
-    return Spot(world_position(pose), lane, pose)
+    return XmlPosition(world_position(pose), lane, pose)
 
 
 def at_place(ctx: Context, place: Element) -> Element:
@@ -67,26 +67,25 @@ def world_position(pose: Pose) -> Element:
     )
 
 
-def on_road(ctx: Context, parts: dict[str, Constant]) -> Spot:
+def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     """Return a place on a road or in a lane, from its coordinates."""
     road, lane = parts.get("road_id"), parts.get("lane_id")
     s, t = number_of(parts.get("s")), number_of(parts.get("t"))
     if not isinstance(road, str):
         raise Inexpressible("the point names no road")
     if not isinstance(lane, str) or lane == "":
-        return Spot(element("RoadPosition", roadId=road, s=s, t=t), None, None)
+        return XmlPosition(element("RoadPosition", roadId=road, s=s, t=t), None, None)
     if not lane.removeprefix("-").isdecimal():
         raise Inexpressible(f"`{lane}` is no number of a lane")
     number = int(lane)
     place = element("LanePosition", roadId=road, laneId=number, s=s, offset=t or None)
     if ctx.roads is None:
-        return Spot(place, None, None)
-    left = t * ctx.roads.map.travel_direction(road, number)
-    on = LanePosition(road, number, s, left)
-    return Spot(place, on, ctx.roads.pose(on))
+        return XmlPosition(place, None, None)
+    on = ctx.roads.place(road, number, s, t)
+    return XmlPosition(place, on, ctx.roads.pose(on))
 
 
-def on_earth(ctx: Context, parts: dict[str, Constant]) -> Spot:
+def on_earth(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     """Return a place on the globe; where the map says where it lies, its place in the world too."""
     latitude, longitude = number_of(parts.get("latitude")), number_of(parts.get("longitude"))
     altitude = number_of(parts.get("altitude"))
@@ -106,7 +105,7 @@ def on_earth(ctx: Context, parts: dict[str, Constant]) -> Spot:
     )
     if ctx.version == "1.1":
         place = element(GLOBE, latitude=latitude, longitude=longitude, height=altitude or None)
-    return Spot(place, lane, pose)
+    return XmlPosition(place, lane, pose)
 
 
 def parts_of(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Constant]]:

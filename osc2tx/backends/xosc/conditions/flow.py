@@ -16,6 +16,12 @@ from osc2tx.support.light_dataclass import dataclass
 ElementKind: TypeAlias = Literal["act", "action", "event", "maneuver", "maneuverGroup", "story"]
 Edge: TypeAlias = Literal["none", "rising", "falling"]
 
+RUN = ""
+"""What stands for the start of the run among the names of events."""
+
+ROUNDING = 1e-9
+"""Seconds by which sums of lengths may be off."""
+
 
 @dataclass(frozen=True, slots=True)
 class Test:
@@ -28,6 +34,8 @@ class Test:
         latched: It stays true.
         reached: The time at which it comes true (s), if it is a point in time.
         is_constant: It is the same during the whole run.
+        event: The event whose end it is, if it is one.
+        follows: Events that end before that one, each with the seconds that surely lie between.
     """
 
     condition: Element
@@ -36,6 +44,22 @@ class Test:
     latched: bool = False
     reached: float | None = None
     is_constant: bool = False
+    event: str | None = None
+    follows: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def since(self) -> tuple[str | None, float]:
+        """After the end of which event it comes true, and how many seconds."""
+        return (self.event, self.delay) if self.reached is None else (RUN, self.reached)
+
+    def implies(self, other: Test) -> bool:
+        """Return whether the other one is surely true when this one is."""
+        event, seconds = other.since
+        own, delay = self.since
+        if event is None or own is None:
+            return False
+        between = 0.0 if event == own else dict(self.follows).get(event)
+        return between is not None and between + delay >= seconds - ROUNDING
 
     def later(self, seconds: float) -> Test:
         """Return the test that comes true so much later."""
@@ -71,6 +95,18 @@ class Flow:
             return self
         return Flow(tuple(tuple(test.later(seconds) for test in group) for group in self.groups))
 
+    def followed_after(self, seconds: float) -> tuple[tuple[str, float], ...]:
+        """Return the events that end before what ends so long after it, as in `Test.follows`."""
+        if len(self.groups) != 1:
+            return ()
+        found: dict[str, float] = {}
+        for test in self.groups[0]:
+            event, delay = test.since
+            ends = test.follows if event is None else ((event, 0.0), *test.follows)
+            for name, between in ends:
+                found[name] = max(found.get(name, 0.0), between + delay + seconds)
+        return tuple(found.items())
+
     def __and__(self, other: Flow) -> Flow:
         pairs = product(self.groups, other.groups)
         return Flow(tuple(_joined(left, right) for left, right in pairs))
@@ -83,10 +119,13 @@ NEVER = Flow(())
 
 
 def _joined(left: Group, right: Group) -> Group:
-    """Return the tests of both; of several points in time the last one counts."""
+    """Return the tests of both without those that follow from others."""
     tests = tuple(dict.fromkeys((*left, *right)))
-    last = max((test.reached for test in tests if test.reached is not None), default=None)
-    return tuple(test for test in tests if test.reached in (None, last))
+    return tuple(
+        test
+        for test in tests
+        if not any(other.implies(test) for other in tests if other is not test)
+    )
 
 
 def single(test: Test) -> Flow:
@@ -125,4 +164,7 @@ def state_of(kind: ElementKind, name: str, state: str = "completeState") -> Test
         storyboardElementRef=name,
         state=state,
     )
-    return Test(element("ByValueCondition", condition), latched=True)
+    is_end = kind == "event" and state == "completeState"
+    return Test(
+        element("ByValueCondition", condition), latched=True, event=name if is_end else None
+    )

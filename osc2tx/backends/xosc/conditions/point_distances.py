@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.points_and_lines import spot_of
+from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
@@ -25,7 +25,7 @@ def distance_to_road_point(ctx: Context, c: Comparison) -> Groups:
 
 def _distance_to(ctx: Context, c: Comparison, direction: str, system: str) -> Groups:
     """Return the condition on the distance to a point, which the XML measures without sign."""
-    spot = spot_of(ctx, c.arguments.get("point"))
+    point = xml_position(ctx, c.arguments.get("point"))
     newer, is_free = ctx.version >= "1.1", direction == "euclidean"
     rule, value = c.rule, c.value
     if not is_free:
@@ -42,7 +42,7 @@ def _distance_to(ctx: Context, c: Comparison, direction: str, system: str) -> Gr
             )
     condition = element(
         "DistanceCondition",
-        element("Position", spot.element),
+        element("Position", point.element),
         value=value,
         rule=rule,
         freespace=c.member("mode", "reference_points") == "bounding_boxes",

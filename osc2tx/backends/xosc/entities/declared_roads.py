@@ -9,9 +9,9 @@ from osc2tx.backends.xosc.facts.map_search import (
     PARTS,
     Between,
     MapQuery,
+    MapSegment,
     PartReference,
     QueryValue,
-    Stretch,
     search_map,
 )
 from osc2tx.backends.xosc.facts.maps import Roads
@@ -25,7 +25,7 @@ without_form(
 )
 
 
-def stretch_of(ctx: Context, value: Constant | None) -> Stretch | None:
+def segment_of(ctx: Context, value: Constant | None) -> MapSegment | None:
     """Return where on the map a declared road or lane is; `None` for everything else.
 
     Raises:
@@ -33,7 +33,7 @@ def stretch_of(ctx: Context, value: Constant | None) -> Stretch | None:
     """
     if not isinstance(value, Named) or ctx.values.type_of(value.name) not in PARTS:
         return None
-    return _stretches(ctx).get(value.name)
+    return _segments(ctx).get(value.name)
 
 
 def check_map(ctx: Context, placement: ir.Placement) -> None:
@@ -47,7 +47,7 @@ def check_map(ctx: Context, placement: ir.Placement) -> None:
             if call.name in WITHOUT_FORM["modifier"]:
                 raise Inexpressible(WITHOUT_FORM["modifier"][call.name])
             if call.name != "set_map_file":
-                _stretches(ctx)
+                _segments(ctx)
 
 
 def is_map(ctx: Context, name: str) -> bool:
@@ -74,8 +74,8 @@ def required_roads(ctx: Context) -> Roads:
     return ctx.roads
 
 
-def _stretches(ctx: Context) -> dict[str, Stretch]:
-    if ctx.stretches is None:
+def _segments(ctx: Context) -> dict[str, MapSegment]:
+    if ctx.segments is None:
         parts = {
             each.name: MapQuery(each.type, _said(ctx, each))
             for each in ctx.scenario.declarations
@@ -90,8 +90,8 @@ def _stretches(ctx: Context) -> dict[str, Stretch]:
             for call in placement.modifiers
             if call.name != "set_map_file" and call.name not in WITHOUT_FORM["modifier"]
         ]
-        ctx.stretches = search_map(required_roads(ctx), parts, relations)
-    return ctx.stretches
+        ctx.segments = search_map(required_roads(ctx), parts, relations)
+    return ctx.segments
 
 
 def _said(ctx: Context, part: ir.Struct) -> dict[str, QueryValue]:

@@ -15,7 +15,7 @@ from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
 from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import (
     CompoundLane,
@@ -35,9 +35,9 @@ __all__ = [
     "PARTS",
     "Between",
     "MapQuery",
+    "MapSegment",
     "PartReference",
     "QueryValue",
-    "Stretch",
     "begin_of",
     "crossing_of",
     "end_of",
@@ -85,8 +85,8 @@ class MapQuery(NamedTuple):
 
 def search_map(
     roads: Roads, parts: Mapping[str, MapQuery], relations: Sequence[MapQuery]
-) -> dict[str, Stretch]:
-    """Return the stretch of the map for each part.
+) -> dict[str, MapSegment]:
+    """Return the segment of the map for each part.
 
     Args:
         roads: The map.
@@ -139,28 +139,28 @@ def _resolved(value: QueryValue, made: Mapping[str, RoadPart]) -> object:
 # --- places on what was found -------------------------------------------------------------------
 
 
-def crossing_of(stretch: Stretch) -> tuple[Waypoint, Waypoint] | None:
-    """Return where a crossing begins and ends; `None` if a stretch is none."""
-    line = stretch.line
+def crossing_of(segment: MapSegment) -> tuple[Waypoint, Waypoint] | None:
+    """Return where a crossing begins and ends; `None` if a segment is none."""
+    line = segment.line
     if line is None:
         return None
     begin, end = (Waypoint(0.0, *line.at(s), line.heading) for s in (0.0, line.length))
     return begin, end
 
 
-def begin_of(roads: Roads, stretch: Stretch) -> LanePosition:
-    """Return where a stretch begins, in direction of travel."""
-    return graph_of(roads.map).begin(stretch)
+def begin_of(roads: Roads, segment: MapSegment) -> LanePosition:
+    """Return where a segment begins, in direction of travel."""
+    return graph_of(roads.map).begin(segment)
 
 
-def end_of(roads: Roads, stretch: Stretch) -> LanePosition:
-    """Return where a stretch ends."""
-    return graph_of(roads.map).end(stretch)
+def end_of(roads: Roads, segment: MapSegment) -> LanePosition:
+    """Return where a segment ends."""
+    return graph_of(roads.map).end(segment)
 
 
 def points_of_route(
     roads: Roads,
-    elements: Sequence[LanePosition | Pose | Stretch | Sequence[Waypoint]],
+    elements: Sequence[LanePosition | Pose | MapSegment | Sequence[Waypoint]],
     connect_by: str,
 ) -> tuple[Waypoint, ...]:
     """Return the way that a route leads along.
@@ -190,9 +190,9 @@ CONNECT: tuple[ConnectRoutePoints, ...] = get_args(ConnectRoutePoints)
 
 
 def _element(
-    given: LanePosition | Pose | Stretch | Sequence[Waypoint],
-) -> LanePosition | Pose | Stretch | Way:
-    if isinstance(given, LanePosition | Pose | Stretch):
+    given: LanePosition | Pose | MapSegment | Sequence[Waypoint],
+) -> LanePosition | Pose | MapSegment | Way:
+    if isinstance(given, LanePosition | Pose | MapSegment):
         return given
     poses = tuple(WayPose(each.x, each.y, each.z, yaw=each.h) for each in given)
     return Way(poses, "straight_line")

@@ -88,6 +88,19 @@ class Roads:
         """Return the place so far (m) from where the lane of a place begins on its road."""
         return self.ahead(road_entry(self.map, place), distance)
 
+    def place(self, road: str, lane: int, s: float, t: float) -> LanePosition:
+        """Return a place from its coordinates on a road that somebody named.
+
+        Raises:
+            Inexpressible: The map has no such place.
+        """
+        try:
+            place = LanePosition(road, lane, s, t * self.map.travel_direction(road, lane))
+            self.map.pose(place)
+        except MapError as error:
+            raise Inexpressible(f"map {self.map.name}: {error.message}") from None
+        return place
+
     def pose(self, place: LanePosition) -> Pose:
         """Return where a place is."""
         return self.map.pose(place)

@@ -26,7 +26,12 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import (
     StoryboardBuilder,
     construct_of,
 )
-from osc2tx.backends.xosc.flattening.tree_queries import is_instant, is_single, is_timed
+from osc2tx.backends.xosc.flattening.tree_queries import (
+    follows_route,
+    is_instant,
+    is_single,
+    is_timed,
+)
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
@@ -128,6 +133,9 @@ class Flattener:
     def _joined(self, ends: Sequence[tuple[ir.Behavior, Flow]]) -> Flow:
         """Return when all bounded members have ended; members without duration bound nothing."""
         timed = [(member, end) for member, end in ends if not is_instant(member)]
+        for member, _ in timed if len(timed) > 1 else ():
+            if follows_route(member):
+                raise Inexpressible("a route of the map that others may end", member.span)
         bounding = [(m, end) for m, end in timed if not end.is_never] if timed else list(ends)
         if not bounding:
             return NEVER

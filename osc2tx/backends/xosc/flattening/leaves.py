@@ -55,7 +55,9 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     if actions:
-        goal = builder.add(name, actions, start, actor=member.name)
+        is_cut = bool(node.until or overriding or builder.is_race)
+        length = 0.0 if is_cut else _event_length(performance)
+        goal = builder.add(name, actions, start, actor=member.name, lasting=length)
         for other, action, word in leaf.others:
             follows = ctx.names.new(f"{other.name}_{word}")
             builder.add(follows, (action,), goal, actor=other.name)
@@ -85,6 +87,14 @@ def _ends(
     if performance.ends == "open":
         return builder.limit(node, start)
     return goal | builder.until(node, start)
+
+
+def _event_length(performance: Performance) -> float:
+    """Return how long (s) an event takes whose actions nothing cuts short."""
+    if performance.ends != "goal":
+        return 0.0
+    times = (change.time for change in performance.changes if change.actions)
+    return max((time for time in times if time is not None and time < inf), default=0.0)
 
 
 def _least_length(

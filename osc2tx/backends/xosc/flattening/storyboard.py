@@ -18,6 +18,10 @@ from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
 
+ACTION = "action"
+"""Name of an action in its event. Readers may look for what is referred to among all elements: no
+event is called so."""
+
 
 @dataclass(slots=True)
 class Event:
@@ -150,14 +154,13 @@ class StoryboardWriter:
         )
 
     def _event(self, event: Event) -> Element:
-        # Readers may look for what is referred to among all elements, so an action is no namesake.
-        names, name = Names(), f"action_{event.name}"
+        names = Names()
         priority = event.priority
         if priority == "override" and self._version < "1.2":
             priority = "overwrite"
         return element(
             "Event",
-            *(element("Action", action, name=names.new(name)) for action in event.actions),
+            *(element("Action", action, name=names.new(ACTION)) for action in event.actions),
             self.trigger("StartTrigger", event.start, "start"),
             name=event.name,
             priority=priority,

@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, s
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.events import EventTable
 from osc2tx.backends.xosc.flattening.member_names import member_name
-from osc2tx.backends.xosc.flattening.storyboard import Act, Event
+from osc2tx.backends.xosc.flattening.storyboard import ACTION, Act, Event
 from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
@@ -37,6 +37,7 @@ class StoryboardBuilder:
     def __init__(self, ctx: Context) -> None:
         """Begin with one act for all."""
         self.ctx = ctx
+        ctx.names.new(ACTION)
         self.act = Act(ctx.names.new("act"), RUN_START)
         self.mark_actor: str | None = None
         self.finished = NEVER
@@ -73,10 +74,26 @@ class StoryboardBuilder:
         *,
         actor: str | None = None,
         repeats: int | None = None,
+        lasting: float = 0.0,
     ) -> Flow:
-        """Add an event to the maneuver of an actor; return when it is complete."""
+        """Add an event to the maneuver of an actor.
+
+        Args:
+            name: Its name.
+            actions: What it does.
+            start: When.
+            actor: The actor; `None` for what concerns no entity.
+            repeats: How often it may start.
+            lasting: Seconds that it surely takes.
+
+        Returns:
+            When it is complete.
+        """
         self.act.add(actor, Event(name, actions, start, self.place, repeats=repeats))
-        return single(state_of("event", name))
+        # Which of two ends is the later one must not depend on open parameters.
+        is_open = bool(self.ctx.choosing.parameters)
+        follows = () if is_open else start.followed_after(lasting)
+        return single(replace(state_of("event", name), follows=follows))
 
     def add_signals(self) -> None:
         """Add the events from outside whose time is given."""

@@ -112,3 +112,14 @@ def actors_of(node: ir.Behavior) -> tuple[str, ...]:
         if isinstance(each, ir.Invoke) and isinstance(each.actor, ir.FieldRef)
     )
     return tuple(dict.fromkeys(found))
+
+
+def follows_route(node: ir.Behavior) -> bool:
+    """Whether an action is over at the end of a route of the map, if nothing ends it before."""
+    if not isinstance(node, ir.Invoke) or node.action != "drive":
+        return False
+    if node.duration is not None or node.until:
+        return False
+    ways = [modifier for modifier in node.modifiers if modifier.name == "along"]
+    routes = (a.value for way in ways for a in way.arguments if a.parameter == "route")
+    return any(route.type.name not in ("crossing", "path") for route in routes)

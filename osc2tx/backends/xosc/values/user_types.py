@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from osc2tx import ir
 
@@ -30,10 +30,7 @@ class UserTypes:
         return self.default(field.type.name, path[1:])
 
     def _field(self, type_name: str, name: str) -> ir.UserField | None:
-        fields = (field for own in self._lineage(type_name) for field in own.fields)
+        lineage = ir.lineage(type_name, self._types)
+        types = (self._types[each] for each in lineage if each in self._types)
+        fields = (field for own in types for field in own.fields)
         return next((field for field in fields if field.name == name), None)
-
-    def _lineage(self, type_name: str | None) -> Iterator[ir.UserType]:
-        while type_name in self._types:
-            yield self._types[type_name]
-            type_name = self._types[type_name].base

@@ -1,10 +1,11 @@
 """How a document is broken into lines: one for each thing that it says, so that diffs are short.
 
-An action, a condition, a parameter is a line of its own, however deep its elements are nested. What
-would be too long has a line for each part. An event begins with its action and ends with its
-trigger:
+Each member of a list begins a line. What is too long for a line goes on below it, as many parts on
+each line as there is room for; end tags follow together or stand on a line of their own:
 
-    <Event …><Action …>…</Action>
+    <Event …><Action …><PrivateAction><LateralAction><LaneChangeAction>
+        <LaneChangeActionDynamics …/><LaneChangeTarget>…</LaneChangeTarget>
+      </LaneChangeAction></LateralAction></PrivateAction></Action>
       <StartTrigger>…</StartTrigger></Event>
 """
 
@@ -27,44 +28,65 @@ LISTS = frozenset(
         "Act",
         "ManeuverGroup",
         "Maneuver",
-        "Event",
+        "Polyline",
     }
 )
-"""Elements that list others: each of those begins a line."""
+"""Elements that list others: each of those begins a line, and the end tag does."""
 
-TAGLESS = frozenset({"Event"})
-"""Lists whose tags stand on the lines of their first and last member."""
+EVENT = "Event"
+"""An element whose first child stands on its line, and whose second one begins the next."""
 
-CURVES = frozenset({"Polyline"})
-"""Elements that are one line whatever their length: a curve is one value."""
-
-WIDTH = 400
-"""Characters of an element, without its indentation, that share a line."""
+WIDTH = 200
+"""Characters of a line without its indentation: more have only single tags and names that long."""
 
 
-def lay_out(node: etree._Element, outer: str = "\n") -> None:
-    """Put white space between the elements below a node.
+def lay_out(node: etree._Element, line: str = "\n", used: int = 0, ends: int = 0) -> int:
+    """Put white space between the elements below a node; there is none yet.
 
     Args:
-        node: The node; there is none yet.
-        outer: What begins a line on which its end tag stands.
+        node: The node.
+        line: What begins the line that it stands on.
+        used: Characters before it on that line, without the indentation.
+        ends: Characters of the end tags that follow it there.
+
+    Returns:
+        Characters up to its end on the line on which it ends.
     """
-    if not len(node) or node.tag in CURVES:
-        return
-    if node.tag not in LISTS and _length(node) <= WIDTH:
-        return
-    if len(node) == 1 and node.tag not in LISTS:  # the two share their lines
-        lay_out(node[0], outer)
-        return
-    inner = f"{outer}  "
+    is_list, is_event, length = node.tag in LISTS, node.tag == EVENT, _length(node)
+    if not len(node) or (not is_list and not is_event and used + length <= WIDTH):
+        return used + length
+    end = len(f"</{node.tag}>")
+    used += length - sum(map(_length, node)) - end
+    ends = 0 if is_list else ends + end
+    is_chain = len(node) == 1 and not is_list
+    inner = line if is_chain else f"{line}  "
     for child in node:
-        lay_out(child, inner)
-        child.tail = inner
-    if node.tag in TAGLESS:
-        node[-1].tail = None
-    else:
-        node.text, node[-1].tail = inner, outer
+        is_first, is_last = child is node[0], child is node[-1]
+        is_far = used + (_start(child) if is_chain else _length(child)) > WIDTH
+        if is_list or (not is_first if is_event else is_far):
+            inner = f"{line}  "
+            _break_before(child, inner)
+            used = 0
+        used = lay_out(child, inner, used, ends if is_last else 0)
+    if is_list or used + ends > WIDTH:
+        node[-1].tail, used = line, 0
+    return used + end
+
+
+def _break_before(child: etree._Element, line: str) -> None:
+    previous, parent = child.getprevious(), child.getparent()
+    if previous is not None:
+        previous.tail = line
+    elif parent is not None:
+        parent.text = line
+
+
+def _start(node: etree._Element) -> int:
+    """Return how long the start tag of an element is, and the element if there is nothing in it."""
+    if not len(node):
+        return _length(node)
+    return _length(node) - sum(map(_length, node)) - len(f"</{node.tag}>")
 
 
 def _length(node: etree._Element) -> int:
-    return len(etree.tostring(node, encoding="unicode"))
+    return len(etree.tostring(node, encoding="unicode", with_tail=False))

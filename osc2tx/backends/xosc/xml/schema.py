@@ -63,6 +63,7 @@ def _tables() -> _Tables:
     return _Tables(types, data["enums"])
 
 
+@cache
 def element_type(name: str) -> ElementType:
     """Return a type of the schema; one without parts for simple types."""
     return _tables().types.get(name, ElementType({}, {}))

@@ -27,6 +27,7 @@ from osc2tx.backends.xosc.xml.schema import (
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion
 from osc2tx.support.light_dataclass import dataclass
+from osc2tx_text import in_xml
 
 Value: TypeAlias = str | int | float | bool
 
@@ -98,7 +99,7 @@ def serialize(root: Element, version: XmlVersion) -> str:
     tree = _build(root, ROOT_TYPE, version)
     lay_out(tree)
     body = etree.tostring(tree, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}\n'
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{in_xml(body)}\n'
 
 
 def _build(node: Element, parent_type: str, version: XmlVersion) -> etree._Element:

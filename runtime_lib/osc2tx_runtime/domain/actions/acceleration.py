@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import SIDE_FREE
-from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
+from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LONGITUDINAL, action
 from osc2tx_runtime.world.acceleration import acceleration_profile
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 __all__ = ["AssignAcceleration", "ChangeAcceleration", "KeepAcceleration"]
 
 
-@action("movable_object", "assign_acceleration", ends="step", slots=(LONGITUDINAL,))
-class AssignAcceleration(OneStepAction):
-    """Have an acceleration (m/s^2) over the next step, whatever the limits."""
+@action("movable_object", "assign_acceleration", ends="at_once", slots=(LONGITUDINAL,))
+class AssignAcceleration(Assignment):
+    """Have an acceleration (m/s^2) at once, whatever the limits."""
 
     def __init__(
         self,
@@ -41,8 +41,9 @@ class AssignAcceleration(OneStepAction):
         self.acceleration = acceleration
 
     def on_start(self) -> None:
-        """Commands it."""
-        self.command(LONGITUDINAL, Accelerate(value_of(self.acceleration)))
+        """Assigns it."""
+        value, actor_id = value_of(self.acceleration), self.actor.id
+        self.effect("acceleration", value, lambda: self.world.assign(actor_id, acceleration=value))
 
 
 @action("movable_object", "keep_acceleration", slots=(LONGITUDINAL,), ends="open")

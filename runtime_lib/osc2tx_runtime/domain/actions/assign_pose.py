@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 from osc2tx_rules import at_least_one, at_most_one
 from osc2tx_runtime.domain.modifiers import Lane, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.domain.modifiers.base import now
-from osc2tx_runtime.domain.placing.initial_state import Spot
+from osc2tx_runtime.domain.placing.initial_state import InitialState
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.planning.motion_action import OneStepAction
+from osc2tx_runtime.domain.planning.motion_action import Assignment
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.language.action import ActionOptions
@@ -29,13 +29,13 @@ Target = Point | RoutePoint | OdrPoint
 @action(
     "movable_object",
     "assign_position",
-    ends="step",
+    ends="at_once",
     slots=(LONGITUDINAL, LATERAL),
     places=True,
     paces=False,
 )
-class AssignPosition(OneStepAction):
-    """Be somewhere else at the next step; the speed stays.
+class AssignPosition(Assignment):
+    """Be somewhere else at once; the speed stays.
 
     Args:
         actor: Who.
@@ -68,27 +68,20 @@ class AssignPosition(OneStepAction):
         point: Target | None = now(self.point)
         match point:
             case OdrPoint():
-                spot = Spot(place_of_odr(self.world.map, point), None, None)
+                initial = InitialState(place_of_odr(self.world.map, point), None, None)
             case RoutePoint():
-                spot = Spot(place_of_route(self.world.map, point), None, None)
+                initial = InitialState(place_of_route(self.world.map, point), None, None)
             case _:
                 modifiers = self.modifiers
                 if point is not None:
                     modifiers = (Position(at_point=point, project_on_route=False),)
-                spot = placer.spot(self.movable, modifiers, self.here)
-        actor_id = self.actor.id
-        self.effect(
-            "position",
-            tuple(spot),
-            lambda: self.world.assign(
-                actor_id, at=spot.at, speed=spot.speed, heading=spot.heading, tilt=spot.tilt
-            ),
-        )
+                initial = placer.initial_state(self.movable, modifiers, self.here)
+        self.be_at(initial)
 
 
-@action("movable_object", "assign_orientation", ends="step", slots=(LATERAL,))
-class AssignOrientation(OneStepAction):
-    """Have a heading, pitch and roll at the next step.
+@action("movable_object", "assign_orientation", ends="at_once", slots=(LATERAL,))
+class AssignOrientation(Assignment):
+    """Have a heading, pitch and roll at once.
 
     A vehicle goes back to its lane from there, and on its wheels as soon as they roll; others keep
     what they were told. A pitch or roll of zero leaves it to the road.
@@ -107,10 +100,5 @@ class AssignOrientation(OneStepAction):
 
     def on_start(self) -> None:
         """Assigns it."""
-        wanted, actor_id = now(self.orientation), self.actor.id
-        tilt = Tilt(wanted.pitch or None, wanted.roll or None)
-        self.effect(
-            "attitude",
-            (wanted.yaw, tilt),
-            lambda: self.world.assign(actor_id, heading=wanted.yaw, tilt=tilt),
-        )
+        wanted = now(self.orientation)
+        self.turn(wanted.yaw, Tilt(wanted.pitch or None, wanted.roll or None))

@@ -19,7 +19,11 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import LaneChange
-from osc2tx_runtime.world.lane_neighbours import lanes_to_left, neighbouring, offset_from
+from osc2tx_runtime.world.lane_neighbours import (
+    lanes_to_left,
+    neighbouring,
+    offset_from,
+)
 from osc2tx_runtime.world.lateral import shift_profile
 
 from .modifiable import ShapedAction

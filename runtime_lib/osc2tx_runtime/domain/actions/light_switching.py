@@ -59,7 +59,7 @@ class SignalAction(Action):
 
     def _switch(self, signal: str, lamp: int, state: BulbState) -> None:
         if self.signals.show(signal, lamp, state, self):
-            self.note(signal, self.signals.latest(signal))
+            self.note(signal, self.signals.states(signal))
 
     def note(self, signal: str, states: Sequence[BulbState], ignored: str | None = None) -> None:
         """Write to the trace what a light says and shows, and what it cannot say."""
@@ -156,7 +156,7 @@ class Switch(SignalAction):
                 continue
             self.switch("traffic light", signal, states)
             if self.sync:
-                now = self.signals.latest(signal)
+                now = self.signals.states(signal)
                 self._in_step(signal, [states.get(lamp, old) for lamp, old in enumerate(now)])
 
     def on_update(self) -> Status:
@@ -164,7 +164,7 @@ class Switch(SignalAction):
         return Status.SUCCESS
 
     def _ignore(self, signal: str) -> None:
-        self.note(signal, self.signals.latest(signal), str(self.shown.state))
+        self.note(signal, self.signals.states(signal), str(self.shown.state))
 
     def _cycles(self) -> tuple[TrafficLightCycle, ...]:
         cycles = known_cycles(self.context)

@@ -33,6 +33,7 @@ from osc2tx_runtime.domain.planning.longitudinal_planning import speed_command
 from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
 from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
 from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
+from osc2tx_runtime.domain.routes.roads_and_lanes import Route
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.method import Method
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
@@ -42,6 +43,8 @@ from osc2tx_runtime.world.commands import Careful, Command
 from .modifier_checks import check_modifiers, check_options
 
 __all__ = ["ShapedAction"]
+
+CARE = AvoidCollisions()
 
 
 class ShapedAction(ModifiedMotion):
@@ -74,7 +77,8 @@ class ShapedAction(ModifiedMotion):
         """Take the method; a goal bounds the action."""
         super().become(method)
         if self.has_goal and self.duration is None:
-            self.open_ended = False
+            goals = [m for m in self.modifiers if self._bounds(m)]
+            self.open_ended = self.registered.ends == "open" and all(map(self._is_route, goals))
 
     @cached_property
     def own(self) -> tuple[str, ...]:
@@ -84,7 +88,24 @@ class ShapedAction(ModifiedMotion):
     @cached_property
     def has_goal(self) -> bool:
         """True if a modifier says what is to be reached."""
-        return any(m.facts.bounds or getattr(m, "at", "all") == "end" for m in self.modifiers)
+        return any(map(self._bounds, self.modifiers))
+
+    def _bounds(self, modifier: Modifier) -> bool:
+        """Whether a modifier says what is to be reached.
+
+        The end of a route is only where the action is over that nothing else ends.
+        """
+        if getattr(modifier, "at", "all") == "end":
+            return True
+        return modifier.facts.bounds and not (
+            self.duration is not None and self._is_route(modifier)
+        )
+
+    def _is_route(self, modifier: Modifier) -> bool:
+        """Whether a modifier is about lanes of the map to follow, and not about a line."""
+        if not isinstance(modifier, Along) or not isinstance(modifier.route, Route):
+            return False
+        return "vehicle" in self.actor.kinds and modifier.route.kind != "crossing"
 
     @cached_property
     def follows_path(self) -> bool:
@@ -159,7 +180,7 @@ class ShapedAction(ModifiedMotion):
             self._toward = follow_reference(self)
         if speed is not None:
             self.command(LONGITUDINAL, speed)
-        elif self._careful() and not (LONGITUDINAL in self.own and self.commands_speed):
+        elif self._cares_for_others:
             super().command(LONGITUDINAL, Careful(None))
         if side is not None:
             self.command(LATERAL, side)
@@ -169,13 +190,22 @@ class ShapedAction(ModifiedMotion):
         careful = slot == LONGITUDINAL and self._careful()
         super().command(slot, Careful(command) if careful else command)
 
+    @property
+    def _cares_for_others(self) -> bool:
+        """Whether it holds its speed with care, having no command of its own."""
+        commands = LONGITUDINAL in self.own and self.commands_speed
+        return LONGITUDINAL in self.slots and self._careful() and not commands
+
     def _careful(self) -> bool:
         avoid = one_of_kind(self.modifiers, AvoidCollisions)
-        return avoid is not None and avoid.avoid
+        if avoid is not None:
+            return avoid.avoid
+        standard = self.context.settings.conduct == "standard"
+        return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
     def on_update(self) -> Status:
         """Ends with its goal; keeps up with references."""
-        if self._jumped and self.elapsed_steps:
+        if self._jumped and not self.context.effects.is_pending(self):
             self._jumped = False
             self._command_rest()
             return Status.RUNNING
@@ -227,7 +257,8 @@ class ShapedAction(ModifiedMotion):
     def _ends_with(self, slot: str) -> bool:
         """Whether what is pursued in a slot belongs to the goal."""
         for modifier in self.modifiers:
-            lasting = getattr(modifier, "at", "all") == "end" or isinstance(modifier, PATH_SHAPERS)
+            is_way = isinstance(modifier, PATH_SHAPERS) and self._bounds(modifier)
+            lasting = getattr(modifier, "at", "all") == "end" or is_way
             looked_at = self._watched is not None or self._to_cover is not None
             if looked_at and isinstance(modifier, Position):
                 continue  # by itself

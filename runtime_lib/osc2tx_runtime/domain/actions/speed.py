@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
-from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
+from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.language.tree.base import Status
@@ -37,6 +37,7 @@ class ChangeSpeed(RatedChange):
     """
 
     unit = "m/s^2"
+    _is_there = False
 
     def on_start(self) -> None:
         """Commands the change, or nothing if the speed is there already."""
@@ -45,13 +46,17 @@ class ChangeSpeed(RatedChange):
         reason = None if self.may_jump else reason or self._contradiction(change)
         if reason is not None:
             raise Refused(reason)
-        if change.target != self.here.v:
+        self._is_there = change.target == self.here.v
+        if not self._is_there:
             self.command(LONGITUDINAL, change)
+
+    def fills_its_time(self) -> bool:
+        """Whether there is nothing to change: the speed just stays for the duration."""
+        return self._is_there
 
     def on_update(self) -> Status:
         """Ends at the target speed."""
-        there = self.elapsed_steps == 0 and value_of(self.target) == self.here.v
-        if there and not self.has_goal:
+        if self.elapsed_steps == 0 and self._is_there and not self.has_goal:
             return Status.SUCCESS
         return super().on_update()
 
@@ -62,7 +67,7 @@ class ChangeSpeed(RatedChange):
         if self.duration is None or self.rate_profile == "asap" or change.rate_peak is not None:
             return change
         if not isinstance(self.duration, tuple):
-            return dataclasses.replace(change, duration=float(self.duration))
+            return dataclasses.replace(change, duration=self.fixed_duration())
         low, high = self.duration
         own = speed_profile(change, self.here.v, self.limits).duration
         return dataclasses.replace(change, duration=min(max(own, low), high))
@@ -82,9 +87,9 @@ class KeepSpeed(ShapedAction):
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
 
 
-@action("movable_object", "assign_speed", ends="step", slots=(LONGITUDINAL,))
-class AssignSpeed(OneStepAction):
-    """Have a speed (m/s) at the next step, whatever the limits."""
+@action("movable_object", "assign_speed", ends="at_once", slots=(LONGITUDINAL,))
+class AssignSpeed(Assignment):
+    """Have a speed (m/s) at once, whatever the limits."""
 
     def __init__(
         self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
-from osc2tx_runtime.domain.planning.motion_action import OneStepAction, Refused
+from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import action
 from osc2tx_runtime.world.towing import COUPLING_REACH, coupling_gap
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 __all__ = ["ConnectTrailer", "DisconnectTrailer"]
 
 
-@action("vehicle", "connect_trailer", needs=("towing",))
-class ConnectTrailer(OneStepAction):
+@action("vehicle", "connect_trailer", ends="at_once", needs=("towing",))
+class ConnectTrailer(Assignment):
     """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end."""
 
     def __init__(
@@ -50,8 +50,8 @@ class ConnectTrailer(OneStepAction):
         self.effect("trailer", trailer, lambda: world.attach(tow, trailer))
 
 
-@action("vehicle", "disconnect_trailer", needs=("towing",))
-class DisconnectTrailer(OneStepAction):
+@action("vehicle", "disconnect_trailer", ends="at_once", needs=("towing",))
+class DisconnectTrailer(Assignment):
     """Uncouple the trailer, which brakes and stands."""
 
     def on_start(self) -> None:

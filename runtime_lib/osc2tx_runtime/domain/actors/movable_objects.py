@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Unpack
 
 from osc2tx_runtime.domain.methods import AnimalMethods, MovableObjectMethods, PersonMethods
-from osc2tx_runtime.domain.objects.part_defaults import known_infrastructure, known_role
+from osc2tx_runtime.domain.objects.part_defaults import default_infrastructure, default_role
 from osc2tx_runtime.domain.objects.physical_objects import ObjectFields, PhysicalObject
 from osc2tx_runtime.enums import IntendedInfrastructure, TrafficParticipantRole
 from osc2tx_runtime.errors import ScenarioError
@@ -58,7 +58,7 @@ class TrafficParticipant(MovableObject):
         said = self._infrastructure or {}
         if not isinstance(said, Mapping):
             return list(said)
-        found = list(known_infrastructure(self.category or self.library_kind))
+        found = list(default_infrastructure(self.category or self.library_kind))
         for number, kind in sorted(said.items()):
             if number > len(found):
                 raise ScenarioError(
@@ -70,7 +70,7 @@ class TrafficParticipant(MovableObject):
     @property
     def role(self) -> TrafficParticipantRole:
         """The role that others can see."""
-        return self._said("role", self._role or known_role(self.model))
+        return self._said("role", self._role or default_role(self.model))
 
 
 class Person(TrafficParticipant, PersonMethods):

@@ -29,7 +29,7 @@ from osc2tx_runtime.domain.routes.lane_coordinates import (
     place_of_route,
     route_point_at,
 )
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.network_paths import path_in_world
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
@@ -144,12 +144,12 @@ class RoadNetwork:
             group.bind(self.context)
         return groups
 
-    def _seen(self, kind: type[PartT], stretches: Sequence[Stretch]) -> tuple[PartT, ...]:
+    def _seen(self, kind: type[PartT], segments: Sequence[MapSegment]) -> tuple[PartT, ...]:
         parts = []
-        for stretch in stretches:
+        for segment in segments:
             part = kind()
             part.bind(self.context)
-            part.choose(stretch)
+            part.choose(segment)
             parts.append(part)
         return tuple(parts)
 

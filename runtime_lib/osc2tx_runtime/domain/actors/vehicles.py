@@ -8,10 +8,10 @@ from typing import Unpack
 
 from osc2tx_runtime.domain.methods import VehicleMethods
 from osc2tx_runtime.domain.objects.part_defaults import (
-    known_axles,
-    known_coupler,
-    known_receiver,
-    known_trailer_category,
+    default_axles,
+    default_coupler,
+    default_receiver,
+    default_trailer_category,
     misfit,
 )
 from osc2tx_runtime.domain.objects.parts import Axle, HitchCoupler, HitchReceiver, completed
@@ -93,7 +93,7 @@ class Vehicle(TrafficParticipant, VehicleMethods):
     def trailer_receiver(self) -> HitchReceiver:
         """The half of the hitch on this vehicle."""
         receiver = completed(
-            self.said_receiver, known_receiver(self.shape, self.said_receiver.hitch_type)
+            self.said_receiver, default_receiver(self.shape, self.said_receiver.hitch_type)
         )
         return replace(receiver, connected=self._is_towing)
 
@@ -113,7 +113,7 @@ class Vehicle(TrafficParticipant, VehicleMethods):
         return replace(shape, wheelbase=max(places) or shape.wheelbase, steering=steering)
 
     def _axles_on(self, shape: Shape) -> tuple[Axle, ...]:
-        known = known_axles(self._known_category, shape)
+        known = default_axles(self._known_category, shape)
         if self._axles is None:
             return known
         if isinstance(self._axles, Mapping):
@@ -176,13 +176,13 @@ class Trailer(Vehicle):
     @property
     def trailer_category(self) -> TrailerCategory:
         """What sort of trailer it is, as the scenario says or by its category as a vehicle."""
-        known = known_trailer_category(self._known_category)
+        known = default_trailer_category(self._known_category)
         return self._said("trailer_category", self._trailer_category or known)
 
     @property
     def coupler(self) -> HitchCoupler:
         """The half of the hitch on this trailer."""
-        known = known_coupler(self._known_category, self.shape, self._coupler.hitch_type)
+        known = default_coupler(self._known_category, self.shape, self._coupler.hitch_type)
         return replace(completed(self._coupler, known), connected=self._is_towed)
 
     @property

@@ -52,7 +52,7 @@ class MovableObjectMethods:
     def assign_acceleration(
         self, label: str | None = None, /, *, acceleration: Value, duration: Duration | None = None
     ) -> Behaviour:
-        """Have an acceleration (m/s^2) over the next step, whatever the limits (§8.8.2.7)."""
+        """Have an acceleration (m/s^2) at once, whatever the limits (§8.8.2.7)."""
 
     def assign_orientation(
         self,
@@ -62,7 +62,7 @@ class MovableObjectMethods:
         orientation: Orientation | Callable[[], Orientation],
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Have a heading, pitch and roll at the next step (§8.8.2.5).
+        """Have a heading, pitch and roll at once (§8.8.2.5).
 
         A vehicle goes back to its lane from there, and on its wheels as soon as they roll; others
         keep what they were told. A pitch or roll of zero leaves it to the road.
@@ -78,7 +78,7 @@ class MovableObjectMethods:
         odr_point: OdrPoint | Callable[[], OdrPoint] | None = None,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Be somewhere else at the next step; the speed stays (§8.8.2.4).
+        """Be somewhere else at once; the speed stays (§8.8.2.4).
 
         Args:
             *modifiers: position, lane, speed, yaw, orientation: instead of a point.
@@ -90,7 +90,7 @@ class MovableObjectMethods:
     def assign_speed(
         self, label: str | None = None, /, *, speed: Value, duration: Duration | None = None
     ) -> Behaviour:
-        """Have a speed (m/s) at the next step, whatever the limits (§8.8.2.6)."""
+        """Have a speed (m/s) at once, whatever the limits (§8.8.2.6)."""
 
     def change_acceleration(
         self,

@@ -41,8 +41,9 @@ class PhysicalMovement(Modifier):
 @modifier(
     "along",
     slots=(LATERAL,),
-    topics=(LANE, SIDE),
+    excludes=("along_trajectory", "orientation", "yaw"),
     sorts=(
+        Sort("course along a path", given=("route",), value="path", excludes=(LANE, SIDE)),
         Sort(
             "course along a route",
             given=("shape",),
@@ -57,6 +58,8 @@ class PhysicalMovement(Modifier):
 @dataclass(frozen=True, slots=True)
 class Along(MovementModifier):
     """A path to move along, or a route of the map; then in its lanes, from wherever one is.
+
+    Which of the lanes, `lane` and `lateral` may say beside a route; a path leaves no room for them.
 
     Attributes:
         route: The path or route.

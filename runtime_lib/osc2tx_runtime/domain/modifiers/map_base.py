@@ -1,6 +1,6 @@
 """Base of the map modifiers: what declared roads and lanes are like (DSL 8.12.2.2).
 
-Each is a relation between stretches of the map; `rows` lists those for which it holds, in a fixed
+Each is a relation between segments of the map; `rows` lists those for which it holds, in a fixed
 order. `MapSolver` chooses among them before the start.
 """
 
@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import ClassVar
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
@@ -18,8 +18,8 @@ from .base import Modifier
 
 __all__ = ["Known", "MapModifier", "Row", "fits"]
 
-Known = Mapping[str, Stretch]
-Row = dict[str, Stretch]
+Known = Mapping[str, MapSegment]
+Row = dict[str, MapSegment]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +38,16 @@ class MapModifier(Modifier):
         return {name: value for name, value in values if isinstance(value, RoadPart)}
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """Stretches by parameter for which it holds, given some of them."""
+        """Segments by parameter for which it holds, given some of them."""
         raise NotImplementedError
 
-    def candidates(self, graph: RoadGraph, known: Known, name: str) -> tuple[Stretch, ...]:
-        """Stretches that a parameter can stand for: the known one, or all of its kind."""
+    def candidates(self, graph: RoadGraph, known: Known, name: str) -> tuple[MapSegment, ...]:
+        """Segments that a parameter can stand for: the known one, or all of its kind."""
         if name in known:
             return (known[name],)
         return self.parts()[name].candidates(graph)
 
 
 def fits(row: Row, known: Known) -> bool:
-    """Whether a row agrees with the stretches that are known."""
-    return all(row[name] == stretch for name, stretch in known.items())
+    """Whether a row agrees with the segments that are known."""
+    return all(row[name] == segment for name, segment in known.items())

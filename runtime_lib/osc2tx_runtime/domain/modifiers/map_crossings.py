@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from osc2tx_runtime.domain.routes.crossing_lines import laid
 from osc2tx_runtime.domain.routes.crossings import Crossing
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import ScenarioError
@@ -59,7 +59,7 @@ class CrossingConnects(MapModifier):
             if fits(row, known):
                 yield {name: row[name] for name in self.parts()}
 
-    def _crossings(self, graph: RoadGraph, known: Known) -> Iterator[Stretch]:
+    def _crossings(self, graph: RoadGraph, known: Known) -> Iterator[MapSegment]:
         if self.start_s_coord is None:
             yield from graph.crossings
             return
@@ -70,7 +70,7 @@ class CrossingConnects(MapModifier):
                     if found is not None:
                         yield found
 
-    def _lanes(self, graph: RoadGraph, known: Known, name: str) -> tuple[Stretch, ...]:
+    def _lanes(self, graph: RoadGraph, known: Known, name: str) -> tuple[MapSegment, ...]:
         if name in known:
             return (known[name],)
         if "crossing" in known:

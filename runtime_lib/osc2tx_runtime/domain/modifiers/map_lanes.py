@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from osc2tx_runtime.domain.routes.lane_types import kind_of_lane
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.enums import Directionality, LaneType, LaneUse, SideLeftRight
@@ -44,16 +44,16 @@ class NumberOfLanes(MapModifier):
             if numbers == {self.num_of_lanes}:
                 yield {"route": route}
 
-    def _count(self, graph: RoadGraph, stretch: Stretch) -> int:
-        road = graph.map.roads[stretch.road]
-        section = road.sections[stretch.section or 0]
-        both = stretch.kind == "road"
-        direction = 1 if stretch.forwards else -1
+    def _count(self, graph: RoadGraph, segment: MapSegment) -> int:
+        road = graph.map.roads[segment.road]
+        section = road.sections[segment.section or 0]
+        both = segment.kind == "road"
+        direction = 1 if segment.forwards else -1
         return sum(
             self._counts(lane.type)
             for lane in section.lanes.values()
             if (both or lane.direction == direction)
-            and (stretch.lane is None or lane.id == stretch.lane)
+            and (segment.lane is None or lane.id == segment.lane)
         )
 
     def _counts(self, type_: str) -> bool:
@@ -98,8 +98,8 @@ class LaneSide(MapModifier):
 
 
 def _beside(
-    lanes: tuple[Stretch, ...], side: SideLeftRight, count: int
-) -> Iterator[tuple[Stretch, Stretch]]:
+    lanes: tuple[MapSegment, ...], side: SideLeftRight, count: int
+) -> Iterator[tuple[MapSegment, MapSegment]]:
     """Pairs of lanes, given from the right, of which one is so many beside the other."""
     step = count if side == "left" else -count
     for index, second in enumerate(lanes):
@@ -137,12 +137,12 @@ class CompoundLaneSide(MapModifier):
                     continue
                 row = {"lane1": first, "lane2": second}
                 if self.route is not None:
-                    row["route"] = Stretch("road", first.road)
+                    row["route"] = MapSegment("road", first.road)
                 if fits(row, known):
                     yield row
 
-    def _is_beside(self, graph: RoadGraph, one: Stretch, other: Stretch) -> bool:
-        section = Stretch("lane_section", one.road, one.section, forwards=one.forwards)
+    def _is_beside(self, graph: RoadGraph, one: MapSegment, other: MapSegment) -> bool:
+        section = MapSegment("lane_section", one.road, one.section, forwards=one.forwards)
         return (one, other) in _beside(graph.lanes_of(section), self.side, self.count)
 
 

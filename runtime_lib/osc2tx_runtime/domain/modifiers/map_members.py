@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 
@@ -13,13 +13,13 @@ from .map_base import Known, MapModifier, Row, fits
 
 __all__ = ["ConsistsOf", "listed_members"]
 
-Find = Callable[[RoadGraph, Stretch], Sequence[Stretch]]
+Find = Callable[[RoadGraph, MapSegment], Sequence[MapSegment]]
 
 _MEMBERS: Mapping[tuple[str, str], Find] = {
     ("compound_lane", "lanes"): lambda graph, part: part.parts,
     ("compound_route", "route_elements"): lambda graph, part: part.parts,
     ("junction", "roads"): lambda graph, part: [
-        Stretch("road", road) for road in graph.roads_at(part)
+        MapSegment("road", road) for road in graph.roads_at(part)
     ],
     ("lane_section", "lanes"): lambda graph, part: graph.lanes_of(part),
     ("lane_section", "s_axis"): lambda graph, part: graph.lanes_of(part)[:1],

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPath
 
@@ -33,7 +33,7 @@ class PathEndsElsewhere(MapModifier):
                 if math.dist(here, self.place(graph, other)) > _ELSEWHERE:
                     yield {"path": path, "other": other}
 
-    def place(self, graph: RoadGraph, path: Stretch) -> tuple[float, float]:
+    def place(self, graph: RoadGraph, path: MapSegment) -> tuple[float, float]:
         """The place that counts (m)."""
         at = graph.map.pose(graph.end(path))
         return at.x, at.y
@@ -45,7 +45,7 @@ class PathStartsElsewhere(PathEndsElsewhere):
 
     name = "path_different_origin"
 
-    def place(self, graph: RoadGraph, path: Stretch) -> tuple[float, float]:
+    def place(self, graph: RoadGraph, path: MapSegment) -> tuple[float, float]:
         """The place that counts (m)."""
         at = graph.map.pose(graph.begin(path))
         return at.x, at.y

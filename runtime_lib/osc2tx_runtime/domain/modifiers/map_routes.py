@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.enums import JunctionDirection, LateralOverlapKind, RouteOverlapKind
@@ -53,39 +53,39 @@ class RoutesAreInSequence(MapModifier):
                 if self.road is None:
                     yield row
                 elif first.road == second.road:
-                    yield {**row, "road": Stretch("road", first.road)}
+                    yield {**row, "road": MapSegment("road", first.road)}
 
 
-def _exits(graph: RoadGraph, stretch: Stretch) -> tuple[Stretch, ...]:
-    """Lanes at the end of a stretch, in its direction."""
-    if stretch.parts:
-        return _exits(graph, stretch.parts[-1])
-    if stretch.kind != "road":
-        return graph.lanes_of(stretch)
-    last = len(graph.map.roads[stretch.road].sections) - 1 if stretch.forwards else 0
-    return graph.lanes_of(Stretch("lane_section", stretch.road, last, forwards=stretch.forwards))
+def _exits(graph: RoadGraph, segment: MapSegment) -> tuple[MapSegment, ...]:
+    """Lanes at the end of a segment, in its direction."""
+    if segment.parts:
+        return _exits(graph, segment.parts[-1])
+    if segment.kind != "road":
+        return graph.lanes_of(segment)
+    last = len(graph.map.roads[segment.road].sections) - 1 if segment.forwards else 0
+    return graph.lanes_of(MapSegment("lane_section", segment.road, last, forwards=segment.forwards))
 
 
-def _entries(graph: RoadGraph, stretch: Stretch) -> tuple[Stretch, ...]:
-    """Lanes at the begin of a stretch; of a road at both ends, for it may be entered there."""
-    if stretch.parts:
-        return _entries(graph, stretch.parts[0])
-    if stretch.kind != "road":
-        return graph.lanes_of(stretch)
-    last = len(graph.map.roads[stretch.road].sections) - 1
+def _entries(graph: RoadGraph, segment: MapSegment) -> tuple[MapSegment, ...]:
+    """Lanes at the begin of a segment; of a road at both ends, for it may be entered there."""
+    if segment.parts:
+        return _entries(graph, segment.parts[0])
+    if segment.kind != "road":
+        return graph.lanes_of(segment)
+    last = len(graph.map.roads[segment.road].sections) - 1
     ends = ((0, True), (last, False))
     return tuple(
         lane
         for section, forwards in ends
         for lane in graph.lanes_of(
-            Stretch("lane_section", stretch.road, section, forwards=forwards)
+            MapSegment("lane_section", segment.road, section, forwards=forwards)
         )
     )
 
 
-def _onward(graph: RoadGraph, stretch: Stretch) -> Iterator[Stretch]:
-    """Lanes that follow the end of a stretch, also through a junction."""
-    for lane in _exits(graph, stretch):
+def _onward(graph: RoadGraph, segment: MapSegment) -> Iterator[MapSegment]:
+    """Lanes that follow the end of a segment, also through a junction."""
+    for lane in _exits(graph, segment):
         for after in graph.after(lane):
             yield after
             if graph.map.roads[after.road].junction is not None:
@@ -137,8 +137,8 @@ class RoadsFollowInJunction(MapModifier):
                 continue
             row = {
                 "junction": passage.junction,
-                "in_road": Stretch("road", passage.in_lane.road),
-                "out_road": Stretch("road", passage.out_lane.road),
+                "in_road": MapSegment("road", passage.in_lane.road),
+                "out_road": MapSegment("road", passage.out_lane.road),
                 "in_lane": passage.in_lane,
                 "out_lane": passage.out_lane,
                 "junction_route": passage.via,
@@ -213,21 +213,21 @@ class RoutesOverlap(MapModifier):
         return at_begin and at_end and (begin, end) != (other_begin, other_end)
 
 
-def _extent(graph: RoadGraph, stretch: Stretch) -> dict[str, tuple[float, float]]:
+def _extent(graph: RoadGraph, segment: MapSegment) -> dict[str, tuple[float, float]]:
     """Range of s by road."""
-    if stretch.kind == "compound_route":
-        return {part.road: (0.0, graph.map.roads[part.road].length) for part in stretch.parts}
-    if stretch.kind == "junction":
+    if segment.kind == "compound_route":
+        return {part.road: (0.0, graph.map.roads[part.road].length) for part in segment.parts}
+    if segment.kind == "junction":
         return {}
-    road = graph.map.roads[stretch.road]
-    if stretch.parts:
-        numbers = [part.section or 0 for part in stretch.parts]
+    road = graph.map.roads[segment.road]
+    if segment.parts:
+        numbers = [part.section or 0 for part in segment.parts]
         begin, end = road.sections[min(numbers)].begin, road.sections[max(numbers)].end
-        return {stretch.road: (begin, end)}
-    if stretch.section is None:
-        return {stretch.road: (0.0, road.length)}
-    section = road.sections[stretch.section]
-    return {stretch.road: (section.begin, section.end)}
+        return {segment.road: (begin, end)}
+    if segment.section is None:
+        return {segment.road: (0.0, road.length)}
+    section = road.sections[segment.section]
+    return {segment.road: (section.begin, section.end)}
 
 
 @modifier("routes_are_opposite", needs=("map",))
@@ -267,6 +267,6 @@ class RoutesAreOpposite(MapModifier):
                     continue
                 row = {"route1": first, "route2": second}
                 if self.containing_road is not None:
-                    row["containing_road"] = Stretch("road", first.road)
+                    row["containing_road"] = MapSegment("road", first.road)
                 if fits(row, known):
                     yield row

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from osc2tx_rules import ModifierRules, Rule, Sort
-from osc2tx_runtime.language.method import Need
 from osc2tx_runtime.language.modifier_facts import ModifierFacts
+from osc2tx_runtime.world.features import Feature
 
 from .base import Modifier, MovementModifier
 
@@ -35,7 +35,7 @@ def modifier(
     placement: bool = False,
     orders: Sequence[str] = (),
     amounts: Sequence[str] = (),
-    needs: Sequence[Need] = (),
+    needs: Sequence[Feature] = (),
     undeclared: str = "",
 ) -> Callable[[ModifierT], ModifierT]:
     """Register the decorated class as the modifier `name`.

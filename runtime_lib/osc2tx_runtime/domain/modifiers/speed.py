@@ -33,7 +33,9 @@ __all__ = ["Acceleration", "ChangeSpeed", "KeepSpeed", "Speed"]
     "speed",
     slots=(LONGITUDINAL,),
     excludes=(COURSE,),
-    sorts=(Sort(LATERAL_SPEED, given=("direction",), value="lateral", excludes=(LANE, SIDE)),),
+    sorts=(
+        Sort(LATERAL_SPEED, given=("direction",), value="lateral", excludes=(LANE, SIDE, "along")),
+    ),
     placement=True,
     paces=True,
     orders=("faster_than", "slower_than"),

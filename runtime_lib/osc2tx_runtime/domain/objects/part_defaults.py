@@ -20,12 +20,12 @@ from osc2tx_runtime.world.actor_dimensions import MAX_STEERING, Shape
 from osc2tx_runtime.world.towing import DRAWBAR
 
 __all__ = [
-    "known_axles",
-    "known_coupler",
-    "known_infrastructure",
-    "known_receiver",
-    "known_role",
-    "known_trailer_category",
+    "default_axles",
+    "default_coupler",
+    "default_infrastructure",
+    "default_receiver",
+    "default_role",
+    "default_trailer_category",
     "misfit",
 ]
 
@@ -85,7 +85,7 @@ _ROLES: Mapping[str, TrafficParticipantRole] = {
 }
 
 
-def known_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
+def default_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
     """Return the axles of a vehicle from front to rear; a trailer has the rear one alone."""
     wheels = _WHEELS.get(category, _WHEELS["car"])
     track = 0.0 if wheels.rear == 1 else round(_TRACK * shape.width, 3)
@@ -97,12 +97,12 @@ def known_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
     return front, rear
 
 
-def known_receiver(shape: Shape, said: HitchType) -> HitchReceiver:
+def default_receiver(shape: Shape, said: HitchType) -> HitchReceiver:
     """Return the hitch of a vehicle: at its rear end, of the type that the scenario says."""
     return HitchReceiver(said, -shape.rear, _HITCH_HEIGHT.get(said, _HITCH_HEIGHT["ball"]))
 
 
-def known_coupler(category: str, shape: Shape, said: HitchType | None) -> HitchCoupler:
+def default_coupler(category: str, shape: Shape, said: HitchType | None) -> HitchCoupler:
     """Return the coupler of a trailer: before the box, of the type that the scenario says."""
     kind: HitchType = said or ("fifth_wheel" if category == "semi_trailer" else "ball")
     height = _HITCH_HEIGHT.get(kind, _HITCH_HEIGHT["ball"])
@@ -122,16 +122,16 @@ def misfit(receiver: HitchReceiver, coupler: HitchCoupler) -> str | None:
     return f"a {types[1]} coupler does not fit a {types[0]} receiver"
 
 
-def known_infrastructure(category: str) -> tuple[IntendedInfrastructure, ...]:
+def default_infrastructure(category: str) -> tuple[IntendedInfrastructure, ...]:
     """Return what a category of vehicles or a kind of actors moves on."""
     return _INFRASTRUCTURE.get(category, ("driving",))
 
 
-def known_role(model: str | None) -> TrafficParticipantRole | None:
+def default_role(model: str | None) -> TrafficParticipantRole | None:
     """Return the role of a model that is only made for one."""
     return None if model is None else _ROLES.get(model)
 
 
-def known_trailer_category(category: str) -> TrailerCategory | None:
+def default_trailer_category(category: str) -> TrailerCategory | None:
     """Return what the category of a vehicle says of it as a trailer."""
     return "semi_trailer" if category == "semi_trailer" else None

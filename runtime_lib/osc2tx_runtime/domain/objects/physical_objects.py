@@ -126,7 +126,8 @@ class PhysicalObject(Actor, Measures):
                 " only vehicles with propulsion can",
                 self.source,
             )
-        command = Careful(None) if careful else None
+        standard = self.context.settings.conduct == "standard" and self.lane_bound
+        command = Careful(None) if careful or standard else None
         self.context.leave(self.id, LONGITUDINAL, engine, command)
 
     # --- what the scenario or the catalogue says ----------------------------------------------
@@ -232,6 +233,7 @@ class PhysicalObject(Actor, Measures):
             lane_bound=self.lane_bound,
             movable=self.movable,
             color=self._color,
+            role=self.name,
         )
 
 

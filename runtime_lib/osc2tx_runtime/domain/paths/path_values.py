@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import ClassVar, Literal, Protocol
 
 from osc2tx_runtime.domain.paths.path_curves import path_curve, trajectory_curve
 from osc2tx_runtime.domain.points_and_poses import (
@@ -45,6 +45,7 @@ class Path(RouteAxis):
         interpolation: How they are joined.
     """
 
+    kind: ClassVar[str] = "path"
     points: Sequence[Pose]
     interpolation: PathInterpolation = "straight_line"
     _curve: list[Curve] = field(default_factory=list, init=False, repr=False, compare=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import Lane, Position
@@ -64,20 +65,57 @@ class StartPlaces:
         lane: Lane | None,
         distance: float | None,
         is_free: Callable[[LanePosition], bool],
+        belongs: Callable[[LanePosition], bool] = lambda _place: True,
     ) -> LanePosition:
-        """The first free default place on the lane, so far (m) along its road."""
-        for candidate in self._candidates(distance):
+        """The first free default place on the lane; with a distance the one so far along its road.
+
+        A distance says where it is: if somebody else is there, no other road will do.
+
+        Args:
+            actor: Who is to be placed.
+            lane: The lane; None leaves it open.
+            distance: Metres from the start of the road; None leaves it open.
+            is_free: Whether nobody is there.
+            belongs: Whether a place is one of those that are asked for.
+
+        Raises:
+            PlacementError: There is no such place.
+        """
+        for candidate in self._candidates(lane, distance):
             place: LanePosition | None = candidate
             if lane is not None:
                 place = lane_with_number(self._map, candidate, lane.number, lane.from_)
                 if distance is None and place is not None and place.lane != candidate.lane:
                     continue
-            if place is not None and is_free(place):
+            if place is None or not belongs(place):
+                continue
+            if is_free(place):
                 return place
+            if distance is not None:
+                return self._beside(actor, lane, distance, place, is_free)
         wish = "" if lane is None else f" with a lane {lane.number} from the {lane.from_}"
         far = "" if distance is None else f", {distance:g} m from its start"
         raise PlacementError(
             f"{actor.id}: map {self._map.name} has no free place on a road{wish}{far}"
+        )
+
+    def _beside(
+        self,
+        actor: PhysicalObject,
+        lane: Lane | None,
+        distance: float,
+        place: LanePosition,
+        is_free: Callable[[LanePosition], bool],
+    ) -> LanePosition:
+        """Another lane of the same carriageway, where the scenario leaves that open."""
+        lanes = self._map.lanes(place.road, place.s, like=place.lane) if lane is None else ()
+        for other in lanes:
+            found = LanePosition(place.road, other, place.s)
+            if is_free(found):
+                return found
+        raise PlacementError(
+            f"{actor.id}: somebody else is {distance:g} m from the start of road {place.road}, in"
+            f" lane {place.lane}; give one of them another place"
         )
 
     def on_path(
@@ -93,38 +131,44 @@ class StartPlaces:
         Without a distance it is from a third of it on, so that there is room for those who start
         behind; if all of that is taken, before.
         """
-        stretch = path.found
-        section = self._map.roads[stretch.road].sections[stretch.section or 0]
+        segment = path.found
+        section = self._map.roads[segment.road].sections[segment.section or 0]
         third = (section.end - section.begin) / 3.0
 
-        def is_on(place: LanePosition, least: float) -> bool:
+        def is_on(least: float, place: LanePosition) -> bool:
             forwards = self._map.travel_direction(place.road, place.lane) > 0
-            if (place.road, forwards) != (stretch.road, stretch.forwards):
+            if (place.road, forwards) != (segment.road, segment.forwards):
                 return False
             covered = place.s - section.begin if forwards else section.end - place.s
-            return least <= covered <= section.end - section.begin and is_free(place)
+            return least <= covered <= section.end - section.begin
 
         if distance is None:
             try:
-                return self.default(actor, lane, None, lambda place: is_on(place, third))
+                return self.default(actor, lane, None, is_free, partial(is_on, third))
             except PlacementError:
                 pass  # the rest of it is tried below
         try:
-            return self.default(actor, lane, distance, lambda place: is_on(place, 0.0))
+            return self.default(actor, lane, distance, is_free, partial(is_on, 0.0))
         except PlacementError as error:
-            raise PlacementError(f"{error.message} that is part of its path, {stretch}") from None
+            raise PlacementError(f"{error.message} that is part of its path, {segment}") from None
 
-    def _candidates(self, distance: float | None) -> Iterator[LanePosition]:
-        """Default start places; with a distance, places so far from the start of each road."""
+    def _candidates(self, lane: Lane | None, distance: float | None) -> Iterator[LanePosition]:
+        """Default start places; with a distance, places so far from the start of each road.
+
+        Of a road that is too short the other carriageway is left out, too.
+        """
         if distance is None:
             yield from self._map.spawn_points()
             return
-        starts: dict[tuple[str, int], None] = {}
+        starts: set[tuple[str, int]] = set()
+        short: set[str] = set()
         for point in self._map.spawn_points():
             direction = self._map.travel_direction(point.road, point.lane)
-            if (point.road, direction) in starts:
+            if (point.road, direction) in starts or point.road in short:
                 continue
-            starts[point.road, direction] = None
+            starts.add((point.road, direction))
             step = self._map.advance(road_entry(self._map, point), distance)
             if abs(step.travelled - distance) < 1e-6:
                 yield step.position
+            elif lane is None or lane_with_number(self._map, point, lane.number, lane.from_):
+                short.add(point.road)

@@ -15,13 +15,13 @@ from osc2tx_runtime.world.attitude import LEVEL, Tilt
 if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
 
-__all__ = ["Choice", "Spot", "aside_speed_at", "speed_at", "tilt_at"]
+__all__ = ["Choice", "InitialState", "aside_speed_at", "speed_at", "tilt_at"]
 
 Choice = Callable[[tuple[float, float]], float]
 """Chooses a value between bounds."""
 
 
-class Spot(NamedTuple):
+class InitialState(NamedTuple):
     """A place to be, with the state to be in.
 
     Attributes:

@@ -10,10 +10,9 @@ from osc2tx_runtime.domain.modifiers import (
     MapModifier,
     SetTrafficLightsControlFile,
 )
-from osc2tx_runtime.domain.placing.initial_state import Spot
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of
+from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of, is_behind
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
@@ -47,6 +46,8 @@ class ScenarioInitializer:
         self._world = context.world
         self._placer = Placer(context.world)
         self._boxes: dict[str, Box] = {}
+        # Places that left no room for those that start relative to it.
+        self._tried: dict[str, list[LanePosition | None]] = {}
 
     def run(self, placements: Sequence[Placement]) -> None:
         """Places every physical actor and sets the routes of those with a destination.
@@ -63,18 +64,24 @@ class ScenarioInitializer:
         for start in waiting:
             if start.rank == 2 and start.actor.id in spawned:
                 start.rank = 1
+        placed: list[Start] = []
         while waiting:
             ready = [s for s in waiting if all(r.id in self._boxes for r in s.references)]
             if not ready:
                 raise cycle_of(waiting)
             start = min(ready, key=lambda s: s.rank)  # the first of equals: order of the cast
             waiting.remove(start)
-            self._place(start)
+            placed.append(start)
+            try:
+                self._place(start)
+            except PlacementError:
+                if not self._makes_room(placed):
+                    raise
         self._set_routes()
         self._note_sizes()
 
     def _fill_in_roads(self, placements: Sequence[Placement]) -> None:
-        """Chooses stretches of the map for the roads and lanes that are declared.
+        """Chooses segments of the map for the roads and lanes that are declared.
 
         Raises:
             PlacementError: The map is not as the scenario wants it.
@@ -155,17 +162,17 @@ class ScenarioInitializer:
             self._boxes[actor.id] = box_of(self._world.state(actor.id))
             return
         try:
-            spot = self._placer.spot(
+            initial = self._placer.initial_state(
                 actor,
                 start.modifiers,
                 spawn=self._spawn(actor.id),
-                is_free=lambda place: self._taken_by(actor, Spot(place, None, None)) is None,
+                is_free=lambda place: self._is_free(actor, place),
                 draws=self._context.random_for(f"{actor.id} start"),
             )
-            other = self._taken_by(actor, spot)
+            other = self._taken_by(actor, initial.at, initial.heading)
             if other is not None:
                 raise PlacementError(f"{actor.id} overlaps {other} at its start")
-            self._world.place(actor.id, *spot)
+            self._world.place(actor.id, *initial)
         except ScenarioError as error:
             error.source = error.source or start.source
             raise
@@ -173,15 +180,58 @@ class ScenarioInitializer:
             raise PlacementError(f"{actor.id}: {error.message}", start.source) from error
         self._boxes[actor.id] = box_of(self._world.state(actor.id))
 
+    def _makes_room(self, placed: Sequence[Start]) -> bool:
+        """Put the last actor, by moving one whose place is open and that it starts relative to.
+
+        Those that start relative to that one move with it.
+
+        Args:
+            placed: Those that are placed, in that order; the last one does not fit.
+
+        Returns:
+            Whether there is such a place.
+        """
+        *_, start = placed
+        spawned = self._context.settings.spawn
+        movable = (each for each in placed if each.is_open and each.actor.id not in spawned)
+        anchor = next((each for each in movable if is_behind(start, each, placed)), None)
+        if anchor is None:
+            return False
+        moved = [each for each in placed if each is anchor or is_behind(each, anchor, placed)]
+        tried = self._tried.setdefault(anchor.actor.id, [])
+        for _ in self._world.map.spawn_points():
+            tried.append(self._world.state(anchor.actor.id).lane_position)
+            for each in moved:
+                self._boxes.pop(each.actor.id, None)
+            try:
+                self._place(anchor)
+            except PlacementError:
+                return False
+            try:
+                for each in moved[1:]:
+                    self._place(each)
+            except PlacementError:
+                continue
+            return True
+        return False
+
+    def _is_free(self, actor: PhysicalObject, place: LanePosition) -> bool:
+        """Whether nobody is at a place, and it was not tried in vain."""
+        if place in self._tried.get(actor.id, ()):
+            return False
+        return self._taken_by(actor, place) is None
+
     def _spawn(self, actor_id: str) -> LanePosition | None:
         given = self._context.settings.spawn.get(actor_id)
         return None if given is None else LanePosition(*given)
 
-    def _taken_by(self, actor: PhysicalObject, spot: Spot) -> str | None:
+    def _taken_by(
+        self, actor: PhysicalObject, at: LanePosition | Pose, heading: float | None = None
+    ) -> str | None:
         """Who stands there already."""
-        pose = self._world.map.pose(spot.at) if isinstance(spot.at, LanePosition) else spot.at
-        if spot.heading is not None:
-            pose = Pose(pose.x, pose.y, pose.z, spot.heading)
+        pose = self._world.map.pose(at) if isinstance(at, LanePosition) else at
+        if heading is not None:
+            pose = Pose(pose.x, pose.y, pose.z, heading)
         box = box_of(ActorState(pose.x, pose.y, pose.z, pose.h, 0, 0, None, 0, actor.shape))
         for other, taken in self._boxes.items():
             if overlapping(box, taken):

@@ -15,7 +15,7 @@ from osc2tx_runtime.domain.modifiers.map_crossings import implied
 from osc2tx_runtime.domain.modifiers.map_members import listed_members
 from osc2tx_runtime.domain.modifiers.map_paths import differences
 from osc2tx_runtime.domain.routes.crossings import Crossing
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart, RoadPath
 from osc2tx_runtime.errors import PlacementError
@@ -53,12 +53,12 @@ class MapSolver:
         used.update(id(part.within) for part in parts if part.within is not None)
         self._parts = [part for part in parts if part.kind != "compound_route" or id(part) in used]
         self._relations = relations
-        self._chosen: dict[int, Stretch] = {}
+        self._chosen: dict[int, MapSegment] = {}
         self._choices = 0
         self._furthest = 0
 
     def solve(self) -> None:
-        """Gives every part its stretch of the map.
+        """Gives every part its segment of the map.
 
         Raises:
             PlacementError: The map has none for which everything holds.
@@ -91,21 +91,21 @@ class MapSolver:
             return all(self._holds(relation) for relation in self._relations)
         self._furthest = max(self._furthest, index)
         part = self._parts[index]
-        for stretch in self._options(part):
+        for segment in self._options(part):
             self._choices += 1
             if self._choices > _MOST_CHOICES:
                 raise PlacementError(
-                    f"map {self._map_name}: no stretches for the declared roads were found in"
+                    f"map {self._map_name}: no segments for the declared roads were found in"
                     f" {_MOST_CHOICES} attempts; say more about each of them"
                 )
-            self._chosen[id(part)] = stretch
+            self._chosen[id(part)] = segment
             if self._consistent(part) and self._search(index + 1):
                 return True
             del self._chosen[id(part)]
         return False
 
-    def _options(self, part: RoadPart) -> Iterator[Stretch]:
-        """Stretches for a part, as the first modifier that knows others of its parts limits them.
+    def _options(self, part: RoadPart) -> Iterator[MapSegment]:
+        """Segments for a part, as the first modifier that knows others of its parts limits them.
 
         Without one all that it can be.
         """
@@ -115,7 +115,7 @@ class MapSolver:
             known = self._known(relation) if names else {}
             if known or (names and relation.modifier.leads):
                 found = relation.modifier.rows(self._graph, known)
-                tried: set[Stretch] = set()
+                tried: set[MapSegment] = set()
                 for row in found:  # only as far as it is looked at
                     if row[names[0]] not in tried:
                         tried.add(row[names[0]])
@@ -123,7 +123,7 @@ class MapSolver:
                 return
         yield from part.candidates(self._graph)
 
-    def _known(self, relation: Relation) -> dict[str, Stretch]:
+    def _known(self, relation: Relation) -> dict[str, MapSegment]:
         parts = relation.modifier.parts()
         return {
             name: self._chosen[id(part)] for name, part in parts.items() if id(part) in self._chosen
@@ -135,8 +135,8 @@ class MapSolver:
 
     def _consistent(self, part: RoadPart) -> bool:
         """Whether what is said about a part itself holds, and no modifier has become impossible."""
-        stretch = self._chosen[id(part)]
-        if not part.suits(self._graph, stretch):
+        segment = self._chosen[id(part)]
+        if not part.suits(self._graph, segment):
             return False
         inner = [other for other in self._parts if other.within is not None]
         for other in inner:
@@ -160,7 +160,7 @@ def _implied(parts: Sequence[RoadPart]) -> Iterator[Relation]:
         yield from (Relation(each, part.source) for each in said if each is not None)
 
 
-def _inside(inner: Stretch, outer: Stretch) -> bool:
+def _inside(inner: MapSegment, outer: MapSegment) -> bool:
     if inner.road != outer.road:
         return False
     if outer.kind == "road":

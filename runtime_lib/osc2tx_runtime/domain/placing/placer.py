@@ -20,7 +20,12 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces
-from osc2tx_runtime.domain.placing.initial_state import Spot, aside_speed_at, speed_at, tilt_at
+from osc2tx_runtime.domain.placing.initial_state import (
+    InitialState,
+    aside_speed_at,
+    speed_at,
+    tilt_at,
+)
 from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
@@ -50,7 +55,7 @@ class Placer:
         self._points = PointPlaces(world.map)
         self._draws: random.Random | None = None
 
-    def spot(
+    def initial_state(
         self,
         actor: PhysicalObject,
         modifiers: Sequence[Modifier],
@@ -59,7 +64,7 @@ class Placer:
         spawn: LanePosition | None = None,
         is_free: Callable[[LanePosition], bool] = lambda _place: True,
         draws: random.Random | None = None,
-    ) -> Spot:
+    ) -> InitialState:
         """Resolves modifiers to a place.
 
         Args:
@@ -92,7 +97,7 @@ class Placer:
         turned = pose if heading is None else pose._replace(h=heading)
         tilt = tilt_at(self._world, modifiers, turned)
         aside = aside_speed_at(self._world, modifiers, self._of)
-        return Spot(at, speed, heading, tilt, aside)
+        return InitialState(at, speed, heading, tilt, aside)
 
     # --- kinds of places ----------------------------------------------------------------------
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
+    Along,
     Location,
     Modifier,
     Position,
@@ -14,7 +15,7 @@ from osc2tx_runtime.domain.modifiers import (
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.errors import PlacementError
 
-__all__ = ["Start", "couple", "cycle_of"]
+__all__ = ["Start", "couple", "cycle_of", "is_behind"]
 
 
 class Start:
@@ -50,6 +51,26 @@ class Start:
         absolute = position is not None and position.absolute
         absolute = absolute or one_of_kind(modifiers, Location) is not None
         self.rank = 0 if absolute else 1 if self.references else 2
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the scenario leaves open how far along the road it starts."""
+        says = any(isinstance(each, Position | Along) for each in self.modifiers)
+        return self.rank == 2 and not says
+
+
+def is_behind(start: Start, anchor: Start, placed: Sequence[Start]) -> bool:
+    """Whether a start depends on another one, directly or through others."""
+    by_id = {each.actor.id: each for each in placed}
+    waiting, seen = [start], {start.actor.id}
+    while waiting:
+        for reference in waiting.pop().references:
+            if reference is anchor.actor:
+                return True
+            if reference.id in by_id and reference.id not in seen:
+                seen.add(reference.id)
+                waiting.append(by_id[reference.id])
+    return False
 
 
 def couple(starts: Sequence[Start]) -> None:

@@ -61,7 +61,12 @@ def side_command(action: ModifiedMotion) -> Command | None:
     turned = one_of_kind(modifiers, Yaw) or one_of_kind(modifiers, Orient)
     if turned is not None:
         return turn_command(action, turned)
-    lateral = one_of_kind(modifiers, Lateral)
+    return _across(action)
+
+
+def _across(action: ModifiedMotion) -> Command | None:
+    """To a lane, to a place in it, or beside another actor; None if no modifier says so."""
+    lateral = one_of_kind(action.lasting, Lateral)
     if lateral is not None and lateral.side_of is not None:
         return beside_command(action, lateral)
     return lane_command(action, lateral)
@@ -89,4 +94,6 @@ def _along_route(action: ModifiedMotion, along: Along, route: Route) -> FollowRo
     """In the lanes to the end of a route of the map."""
     graph = graph_of(action.world.map)
     end = graph.end(graph.seen_from(route.found, action.here.lane_position))
-    return FollowRoute(graph.map.advance(end, -value_of(along.end_offset)).position)
+    goal = graph.map.advance(end, -value_of(along.end_offset)).position
+    aims = any(isinstance(m, Lane | Lateral) and m.at == "end" for m in action.lasting)
+    return FollowRoute(goal, _across(action), ends=not aims)

@@ -25,8 +25,8 @@ class ModifiedMotion(MotionAction):
     def __init__(
         self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
     ) -> None:
+        self.movable = actor  # what the action becomes may depend on it
         super().__init__(actor, *modifiers, **options)
-        self.movable = actor
         self._phase: Limits | None = None
 
     @cached_property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import MovementModifier, PhysicalMovement
@@ -14,16 +15,19 @@ from osc2tx_runtime.language.registry import LONGITUDINAL
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.actor_dimensions import TOP_SPEED
+from osc2tx_runtime.world.attitude import LEVEL
 from osc2tx_runtime.world.commands import Careful, Command, SpeedChange
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.domain.placing.initial_state import InitialState
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.opendrive import LanePosition
     from osc2tx_runtime.world.actor_dimensions import Limits
+    from osc2tx_runtime.world.attitude import Tilt
     from osc2tx_runtime.world.protocol import LightState, World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["MotionAction", "OneStepAction", "Refused", "note_lights"]
+__all__ = ["Assignment", "MotionAction", "Refused", "note_lights"]
 
 
 class Refused(ScenarioError):
@@ -49,8 +53,8 @@ class MotionAction(Action):
 
     @property
     def here(self) -> ActorState:
-        """State of the actor at the present step."""
-        return self.context.world.state(self.actor.id)
+        """State of the actor from which its commands start at the present step."""
+        return self.context.world.reference(self.actor.id)
 
     def command(self, slot: str, command: Command) -> None:
         """Command the actor in a claimed slot.
@@ -135,6 +139,20 @@ class MotionAction(Action):
         """What is possible on the road at all."""
         return self.world.limits(self.actor.id, of_vehicle=False)
 
+    def be_at(self, initial: InitialState) -> None:
+        """Be at a place at once, in the state that belongs to it."""
+        assign = partial(self.world.assign, self.actor.id)
+        self.effect("position", initial.at, lambda: assign(at=initial.at))
+        if initial.speed is not None:
+            self.effect("speed", initial.speed, lambda: assign(speed=initial.speed))
+        if (initial.heading, initial.tilt) != (None, LEVEL):
+            self.turn(initial.heading, initial.tilt)
+
+    def turn(self, heading: float | None, tilt: Tilt) -> None:
+        """Turn at once to a heading (rad), pitch and roll, as far as given."""
+        apply = partial(self.world.assign, self.actor.id, heading=heading, tilt=tilt)
+        self.effect("orientation", (heading, tilt), apply)
+
     def drawn_side(self, lanes: int) -> SideLeftRight:
         """A side on which there are so many lanes, drawn from the seed."""
         own = self.place_of(self.actor.id)
@@ -144,9 +162,11 @@ class MotionAction(Action):
         return self.generator(self.action_name).choice(free or ["left"])
 
     def fixed_duration(self) -> float | None:
-        """The duration (s) if it is one number."""
+        """The duration (s) if it is one number, from this step on until its exact end."""
         duration = self.duration
-        return None if duration is None or isinstance(duration, tuple) else float(duration)
+        if duration is None or isinstance(duration, tuple):
+            return None
+        return max(0.0, float(duration) - self.started_late)
 
     def time_left(self) -> float | None:
         """Seconds until the end of the duration, if it is one number."""
@@ -170,12 +190,12 @@ class MotionAction(Action):
         return self.option() == "must_be_physical" or surprises
 
 
-class OneStepAction(MotionAction):
-    """An action whose change can be seen at the next step, when it ends."""
+class Assignment(MotionAction):
+    """An action that changes a state at once: it takes no time (DSL 8.8.2.4 to 8.8.2.7)."""
 
     def on_update(self) -> Status:
-        """Ends at the next step."""
-        return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+        """Ends as soon as the change is carried out."""
+        return Status.SUCCESS
 
 
 def note_lights(context: ExecutionContext, actor_id: str, lights: LightState) -> None:

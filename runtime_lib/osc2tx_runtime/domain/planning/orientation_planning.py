@@ -123,10 +123,7 @@ def _samples(course: Profile | None, lane: float) -> list[float]:
 
 def _jump(action: ModifiedMotion, heading: float | None, tilt: Tilt) -> None:
     """Turns the actor at once; one on a lane keeps to its heading."""
-    actor_id, world = action.actor.id, action.world
     if action.movable.lane_bound and action.here.lane_position is not None:
         heading = None
-    if heading is not None:
-        action.effect("heading", heading, lambda: world.assign(actor_id, heading=heading))
-    if tilt != LEVEL:
-        action.effect("tilt", tilt, lambda: world.assign(actor_id, tilt=tilt))
+    if (heading, tilt) != (None, LEVEL):
+        action.turn(heading, tilt)

@@ -17,6 +17,7 @@ from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
 from osc2tx_runtime.world.curve import turn_between
 from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
+from osc2tx_runtime.world.tolerances import PLACE_TOLERANCE, SPEED_TOLERANCE
 
 from .goals import way_to
 from .lateral_speed_planning import lateral_speed_bounds
@@ -40,7 +41,7 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
     """Sees to what has to hold at the start.
 
     Returns:
-        True if the actor is put somewhere else, which can be seen at the next step.
+        True if the actor is put somewhere else, which can be seen from the next pass on.
 
     Raises:
         Refused: It does not hold.
@@ -51,6 +52,7 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
     if not action.may_jump:
         for modifier in at_start:
             _check(action, modifier)
+        _check_measured(action, at_start)
         return False
     if places:
         speeds = [m for m in at_start if isinstance(m, Speed) and m.direction == "longitudinal"]
@@ -59,25 +61,13 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
 
 
 def _jump(action: ModifiedMotion, modifiers: Sequence[Modifier]) -> None:
-    actor_id, world = action.actor.id, action.world
+    world = action.world
     if not any(isinstance(modifier, Position | Lane | Lateral) for modifier in modifiers):
         heading = heading_of(world, action.movable, modifiers, action.here)
-        tilt = tilt_of(world, modifiers, action.here)
-        action.effect(
-            "attitude",
-            (heading, tilt),
-            lambda: world.assign(actor_id, heading=heading, tilt=tilt),
-        )
+        action.turn(heading, tilt_of(world, modifiers, action.here))
         return
     draws = action.generator(f"{action.action_name} start")
-    spot = Placer(world).spot(action.movable, modifiers, action.here, draws=draws)
-    action.effect(
-        "position",
-        tuple(spot),
-        lambda: world.assign(
-            actor_id, at=spot.at, speed=spot.speed, heading=spot.heading, tilt=spot.tilt
-        ),
-    )
+    action.be_at(Placer(world).initial_state(action.movable, modifiers, action.here, draws=draws))
 
 
 def _check(action: ModifiedMotion, modifier: Modifier) -> None:
@@ -114,6 +104,17 @@ def _check(action: ModifiedMotion, modifier: Modifier) -> None:
                     f"at its start it heads {math.degrees(turn):.1f} degrees off what"
                     f" {modifier.name} asks for"
                 )
+
+
+def _check_measured(action: ModifiedMotion, at_start: Sequence[Modifier]) -> None:
+    """Refuses what holds by the reference alone, while the actor is not there."""
+    off = action.world.deviation(action.actor.id, ())
+    if off is None:
+        return
+    if abs(off.speed) > SPEED_TOLERANCE and any(isinstance(m, Speed) for m in at_start):
+        raise Refused(f"at its start it is {off.speed:+.2f} m/s off its speed")
+    if abs(off.place) > PLACE_TOLERANCE and any(isinstance(m, PLACES) for m in at_start):
+        raise Refused(f"at its start it is {abs(off.place):.2f} m beside its path")
 
 
 def _check_place(action: ModifiedMotion, position: Position) -> None:

@@ -17,7 +17,7 @@ from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import NetworkPath, Path
 from osc2tx_runtime.domain.points_and_poses import NetworkPoint, Pose
 from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.domain.routes.route_elements import Route
@@ -29,7 +29,7 @@ __all__ = ["Element", "MadeRoute", "poses_of_route"]
 
 
 Place = LanePosition | MapPose
-Element = Place | Stretch | Path
+Element = Place | MapSegment | Path
 """A point, a part of the map, or a path through poses."""
 
 _STEP = 2.0  # m between points of a way
@@ -59,7 +59,7 @@ class _Way:
     """
 
     places: tuple[Place, ...]
-    lanes: tuple[Stretch, ...] = ()
+    lanes: tuple[MapSegment, ...] = ()
 
 
 def poses_of_route(
@@ -110,11 +110,11 @@ def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectRoutePoints
     place = element if isinstance(element, LanePosition) else _on_lane(graph, element)
     if place is None:
         raise PathError(f"no lane is at ({pose.x:.1f}, {pose.y:.1f})")
-    lane = graph.stretch_of(graph.map.lane_key(place))
+    lane = graph.segment_of(graph.map.lane_key(place))
     if connect_by == "lane":
         return lane
     section = lane.section if connect_by == "lane_section" else None
-    return Stretch(connect_by, lane.road, section, forwards=lane.forwards)
+    return MapSegment(connect_by, lane.road, section, forwards=lane.forwards)
 
 
 def _ways(graph: RoadGraph, element: Element) -> Iterator[_Way]:
@@ -126,14 +126,14 @@ def _ways(graph: RoadGraph, element: Element) -> Iterator[_Way]:
             yield _Way((_on_lane(graph, element) or element,))
         case Path(points=points):
             yield _Way(tuple(MapPose(p.x, p.y, p.z, p.yaw or 0.0) for p in points))
-        case Stretch(line=line) if line is not None:
+        case MapSegment(line=line) if line is not None:
             ends = (MapPose(*line.at(s), line.heading) for s in (0.0, line.length))
             yield _Way(tuple(ends))
-        case Stretch(kind="lane"):
+        case MapSegment(kind="lane"):
             yield _along(graph, (element,))
-        case Stretch(kind="compound_lane", parts=lanes):
+        case MapSegment(kind="compound_lane", parts=lanes):
             yield _along(graph, lanes)
-        case Stretch(kind="lane_section" | "path"):
+        case MapSegment(kind="lane_section" | "path"):
             yield from (_along(graph, (lane,)) for lane in graph.lanes_of(element))
         case _:
             yield from (_along(graph, chain) for chain in graph.chains_of(element))
@@ -148,7 +148,7 @@ def _on_lane(graph: RoadGraph, pose: MapPose) -> LanePosition | None:
     return None
 
 
-def _along(graph: RoadGraph, lanes: tuple[Stretch, ...]) -> _Way:
+def _along(graph: RoadGraph, lanes: tuple[MapSegment, ...]) -> _Way:
     """The way along the centre lines of lanes."""
     return _Way((graph.begin(lanes[0]), graph.end(lanes[-1])), lanes)
 

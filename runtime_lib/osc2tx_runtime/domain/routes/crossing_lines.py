@@ -9,7 +9,7 @@ from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple
 
 from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
-from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
+from osc2tx_runtime.domain.routes.map_segments import CrossingLine, MapSegment
 from osc2tx_runtime.opendrive import Crosswalk, LanePosition, Pose
 
 if TYPE_CHECKING:
@@ -33,12 +33,12 @@ class _Meeting(NamedTuple):
         s: Road coordinate (m).
     """
 
-    lane: Stretch
+    lane: MapSegment
     along: float
     s: float
 
 
-def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[Stretch]:
+def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[MapSegment]:
     """Crossings on a crosswalk, those from one end to the other first, in either direction.
 
     The lanes that they join are any two of those that the crosswalk leads over or up to.
@@ -68,8 +68,8 @@ def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[Stretch]:
 
 
 def laid(
-    graph: LaneGraph, start: Stretch, end: Stretch, start_s: float, angle: float
-) -> Stretch | None:
+    graph: LaneGraph, start: MapSegment, end: MapSegment, start_s: float, angle: float
+) -> MapSegment | None:
     """A crossing that begins on a lane; None if it does not get to the other one.
 
     Args:
@@ -92,40 +92,40 @@ def laid(
     ]
     if not found or start == end:
         return None
-    stretch = _crossing(
+    segment = _crossing(
         graph, _Meeting(start, 0.0, s), min(found, key=lambda meeting: meeting.along)
     )
-    return _as_crosswalk(graph, stretch)
+    return _as_crosswalk(graph, segment)
 
 
-def _as_crosswalk(graph: LaneGraph, stretch: Stretch) -> Stretch:
+def _as_crosswalk(graph: LaneGraph, segment: MapSegment) -> MapSegment:
     """Notes the crosswalk of the map on which a crossing lies, if there is one."""
-    line = stretch.line
+    line = segment.line
     assert line is not None
     for crosswalk in graph.map.crosswalks():
         along, across = line.place_of(crosswalk.x, crosswalk.y)
         turn = abs(math.remainder(crosswalk.heading - line.heading, math.pi))
         if abs(across) <= 0.5 * crosswalk.width and 0.0 < along < line.length and turn < _ALIGNED:
             line = replace(line, crosswalk=crosswalk.id, width=crosswalk.width)
-            return replace(stretch, line=line)
-    return stretch
+            return replace(segment, line=line)
+    return segment
 
 
-def _lanes_under(graph: LaneGraph, crosswalk: Crosswalk, reach: float) -> list[Stretch]:
+def _lanes_under(graph: LaneGraph, crosswalk: Crosswalk, reach: float) -> list[MapSegment]:
     """Lanes of all kinds on which a crosswalk lies, or up to which it leads."""
     c, n = math.cos(crosswalk.heading), math.sin(crosswalk.heading)
     steps = math.ceil(2.0 * reach / _SAMPLE)
-    found: dict[Stretch, None] = {}
+    found: dict[MapSegment, None] = {}
     for i in range(steps + 1):
         along = 2.0 * reach * i / steps - reach
         x, y = crosswalk.x + along * c, crosswalk.y + along * n
         on = graph.map.locate(x, y, lane_types=LANE_TYPES, max_distance=1e-3)
         if on is not None:
-            found[graph.stretch_of(graph.map.lane_key(on))] = None
+            found[graph.segment_of(graph.map.lane_key(on))] = None
     return list(found)
 
 
-def _meetings(graph: LaneGraph, lane: Stretch, line: Pose) -> list[_Meeting]:
+def _meetings(graph: LaneGraph, lane: MapSegment, line: Pose) -> list[_Meeting]:
     """Where a straight line meets the centre line of a lane, in order of s."""
     section = graph.lane(lane).section
     steps = max(1, math.ceil((section.end - section.begin) / _COARSE))
@@ -141,7 +141,7 @@ def _meetings(graph: LaneGraph, lane: Stretch, line: Pose) -> list[_Meeting]:
     return found
 
 
-def _bisect(graph: LaneGraph, lane: Stretch, line: Pose, low: float, high: float) -> float:
+def _bisect(graph: LaneGraph, lane: MapSegment, line: Pose, low: float, high: float) -> float:
     """Road coordinate between two at which the centre of a lane is on a straight line."""
     left = _aside(_centre(graph, lane, low), line) > 0.0
     while high - low > _EXACT:
@@ -158,7 +158,7 @@ def _aside(at: Pose, line: Pose) -> float:
     return (at.y - line.y) * math.cos(line.h) - (at.x - line.x) * math.sin(line.h)
 
 
-def _centre(graph: LaneGraph, lane: Stretch, s: float) -> Pose:
+def _centre(graph: LaneGraph, lane: MapSegment, s: float) -> Pose:
     """Centre of a lane of one section; its end still belongs to it."""
     section = graph.lane(lane).section
     assert lane.lane is not None
@@ -166,7 +166,7 @@ def _centre(graph: LaneGraph, lane: Stretch, s: float) -> Pose:
     return graph.map.pose(LanePosition(lane.road, lane.lane, s))
 
 
-def _crossing(graph: LaneGraph, first: _Meeting, last: _Meeting) -> Stretch:
+def _crossing(graph: LaneGraph, first: _Meeting, last: _Meeting) -> MapSegment:
     begin, end = _centre(graph, first.lane, first.s), _centre(graph, last.lane, last.s)
     line = CrossingLine(
         x=begin.x,
@@ -178,6 +178,6 @@ def _crossing(graph: LaneGraph, first: _Meeting, last: _Meeting) -> Stretch:
         start_s=graph.along(first.lane, first.s),
         end_s=graph.along(last.lane, last.s),
     )
-    return Stretch(
+    return MapSegment(
         "crossing", first.lane.road, first.lane.section, parts=(first.lane, last.lane), line=line
     )

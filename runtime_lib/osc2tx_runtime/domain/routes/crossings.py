@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
+from osc2tx_runtime.domain.routes.map_segments import CrossingLine, MapSegment
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, Route
@@ -98,17 +98,17 @@ class Crossing(Route):
         own += [said("width is {} m", self._width), super().wishes]
         return " and ".join(filter(None, own))
 
-    def names_of(self, graph: RoadGraph, stretch: Stretch) -> tuple[str, ...]:
+    def names_of(self, graph: RoadGraph, segment: MapSegment) -> tuple[str, ...]:
         """Id and name of its crosswalk."""
-        found = _crosswalk(graph, stretch)
+        found = _crosswalk(graph, segment)
         return () if found is None else (found.id, *filter(None, [found.name]))
 
-    def suits(self, graph: RoadGraph, stretch: Stretch) -> bool:
+    def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
         """Whether a crosswalk that lies there is as asked for; without one nothing speaks of it."""
-        found = _crosswalk(graph, stretch)
+        found = _crosswalk(graph, segment)
         if found is None:
             is_free = not self._anchors and self._type == CrossingType()
-            return is_free and super().suits(graph, stretch)
+            return is_free and super().suits(graph, segment)
         known, asked = type_of(found), self._type
         pairs = (
             (asked.marking, known.marking),
@@ -119,7 +119,7 @@ class Crossing(Route):
             return False
         if not fulfils(self._width, found.width, _SAME):
             return False
-        return super().suits(graph, stretch)
+        return super().suits(graph, segment)
 
     @property
     def line(self) -> CrossingLine:
@@ -214,8 +214,8 @@ class KnownCrossingType:
         return self._known.elevation
 
 
-def _crosswalk(graph: RoadGraph, stretch: Stretch) -> Crosswalk | None:
+def _crosswalk(graph: RoadGraph, segment: MapSegment) -> Crosswalk | None:
     """The crosswalk of the map on which a crossing lies."""
-    line = stretch.line
+    line = segment.line
     walks = graph.map.crosswalks()
     return next((w for w in walks if line is not None and w.id == line.crosswalk), None)

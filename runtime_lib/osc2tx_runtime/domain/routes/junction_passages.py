@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.lane_graph import LaneGraph
@@ -25,18 +25,18 @@ class Passage(NamedTuple):
         turn: Change of heading (rad), to the left positive, in (-pi, pi].
     """
 
-    junction: Stretch
-    in_lane: Stretch
-    via: Stretch
-    out_lane: Stretch
+    junction: MapSegment
+    in_lane: MapSegment
+    via: MapSegment
+    out_lane: MapSegment
     turn: float
 
     @property
-    def route(self) -> Stretch:
+    def route(self) -> MapSegment:
         """In-road, junction and out-road as one route."""
         roads = (self.in_lane, self.via, self.out_lane)
-        parts = tuple(Stretch("road", r.road, forwards=r.forwards) for r in roads)
-        return Stretch("compound_route", parts[0].road, parts=parts)
+        parts = tuple(MapSegment("road", r.road, forwards=r.forwards) for r in roads)
+        return MapSegment("compound_route", parts[0].road, parts=parts)
 
 
 def passages_of(graph: LaneGraph) -> tuple[Passage, ...]:
@@ -47,7 +47,7 @@ def passages_of(graph: LaneGraph) -> tuple[Passage, ...]:
             junction = graph.map.roads[via.road].junction
             if junction is None:
                 continue
-            inside = Stretch("junction", junction)
+            inside = MapSegment("junction", junction)
             for out in graph.after(via):
                 if graph.map.roads[out.road].junction is None:
                     turn = graph.heading(out, at_end=False) - graph.heading(lane, at_end=True)
@@ -57,7 +57,7 @@ def passages_of(graph: LaneGraph) -> tuple[Passage, ...]:
 
 
 def arms_of(
-    graph: LaneGraph, passages: Sequence[Passage], junction: Stretch
+    graph: LaneGraph, passages: Sequence[Passage], junction: MapSegment
 ) -> Iterator[tuple[float, str]]:
     """Roads that meet in a junction: direction in which they leave it (rad), and their id."""
     seen: dict[str, float] = {}

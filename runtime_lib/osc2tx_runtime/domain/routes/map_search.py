@@ -12,6 +12,7 @@ __all__ = ["DEFAULT_MAP", "SHIPPED", "find_map"]
 SHIPPED = Path(__file__).parents[2] / "maps"
 DEFAULT_MAP = "highway.xodr"
 SUFFIXES = ("", ".xodr")
+LONGEST_SHOWN = 80
 
 
 def find_map(name: str | None, folders: Sequence[Path]) -> Path:
@@ -27,6 +28,16 @@ def find_map(name: str | None, folders: Sequence[Path]) -> Path:
     Raises:
         InputError: If there is no such file; the message says where it was searched.
     """
+    try:
+        return _find(name, folders)
+    except (OSError, ValueError) as error:  # a name that no file can have
+        why = error.strerror if isinstance(error, OSError) else error
+        raise InputError(
+            f"map `{_short(name or DEFAULT_MAP)}` cannot be searched: {why}"
+        ) from error
+
+
+def _find(name: str | None, folders: Sequence[Path]) -> Path:
     for entry in folders:
         if entry.is_file():
             return entry
@@ -41,6 +52,11 @@ def find_map(name: str | None, folders: Sequence[Path]) -> Path:
     searched = ", ".join([*map(str, folders), "the maps of osc2tx_runtime"])
     shipped = ", ".join(sorted(path.name for path in SHIPPED.glob("*.xodr")))
     raise InputError(
-        f"map `{wanted}` not found in {searched}; give its folder with --map-path."
+        f"map `{_short(wanted)}` not found in {searched}; give its folder with --map-path."
         f" Shipped maps: {shipped or 'none'}"
     )
+
+
+def _short(name: str) -> str:
+    """Return a name in the length that one reads."""
+    return name if len(name) <= LONGEST_SHOWN else f"{name[:LONGEST_SHOWN]}…"

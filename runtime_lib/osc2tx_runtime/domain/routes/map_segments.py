@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["CrossingLine", "PartKind", "Stretch"]
+__all__ = ["CrossingLine", "MapSegment", "PartKind"]
 
 PartKind = Literal[
     "road",
@@ -63,8 +63,8 @@ class CrossingLine:
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
-    """A part of a map.
+class MapSegment:
+    """A segment of a map.
 
     Attributes:
         kind: What it is.
@@ -81,7 +81,7 @@ class Stretch:
     section: int | None = None
     lane: int | None = None
     forwards: bool = True
-    parts: tuple[Stretch, ...] = ()
+    parts: tuple[MapSegment, ...] = ()
     line: CrossingLine | None = None
 
     def __str__(self) -> str:

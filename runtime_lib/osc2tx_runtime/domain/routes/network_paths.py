@@ -27,7 +27,7 @@ from osc2tx_runtime.domain.points_and_poses import (
 from osc2tx_runtime.domain.routes.composed_routes import Element, MadeRoute, poses_of_route
 from osc2tx_runtime.domain.routes.geodetic_points import place_of_geodetic
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.domain.routes.roads_and_lanes import Route
@@ -66,7 +66,7 @@ def _is_driven(road_map: RoadMap, element: Element) -> bool:
     match element:
         case Path():
             return False
-        case Stretch():
+        case MapSegment():
             graph = graph_of(road_map)
             lanes = [lane for each in element.parts or (element,) for lane in graph.lanes_of(each)]
             return element.line is None and all(graph.lane(lane).type in DRIVING for lane in lanes)

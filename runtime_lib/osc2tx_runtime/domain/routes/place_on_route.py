@@ -6,7 +6,7 @@ import math
 
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.routes.crossings import Crossing
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.routes.route_axes import axis_lanes, length_of
@@ -71,7 +71,7 @@ def _on_crossing(crossing: Crossing, state: ActorState) -> tuple[float, float]:
     return along, line.length
 
 
-def _on_section(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[float, float]:
+def _on_section(graph: RoadGraph, place: LanePosition, found: MapSegment) -> tuple[float, float]:
     forwards = graph.map.travel_direction(place.road, place.lane) > 0
     if forwards != found.forwards:
         raise ScenarioError(f"the actor is on the other side of {found}")
@@ -82,7 +82,7 @@ def _on_section(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[
     return graph.along(axis, place.s), length_of(graph, found)
 
 
-def _on_lanes(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[float, float]:
+def _on_lanes(graph: RoadGraph, place: LanePosition, found: MapSegment) -> tuple[float, float]:
     key, before = graph.map.lane_key(place), 0.0
     for lane in axis_lanes(graph, found):
         if graph.key(lane) == key:
@@ -91,7 +91,7 @@ def _on_lanes(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[fl
     raise ScenarioError(f"the actor is on lane {place.lane} of road {place.road}, not on {found}")
 
 
-def _on_roads(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[float, float]:
+def _on_roads(graph: RoadGraph, place: LanePosition, found: MapSegment) -> tuple[float, float]:
     along = graph.map.route_distance(graph.begin(found), place)
     if along is None or place.road not in {part.road for part in found.parts}:
         raise ScenarioError(f"the actor is on road {place.road}, not on {found}")
@@ -99,7 +99,7 @@ def _on_roads(graph: RoadGraph, place: LanePosition, found: Stretch) -> tuple[fl
 
 
 def _within(
-    place: LanePosition, found: Stretch, distances: tuple[float, float]
+    place: LanePosition, found: MapSegment, distances: tuple[float, float]
 ) -> tuple[float, float]:
     along, length = distances
     if place.road != found.road or not 0.0 <= along <= length:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.route_elements import SAME, PartT, RoadPart, Route
@@ -97,7 +97,7 @@ class LaneSection(Route):
     @property
     def road(self) -> Road:
         """The road that it belongs to."""
-        return self._as(Road(), Stretch("road", self.found.road))
+        return self._as(Road(), MapSegment("road", self.found.road))
 
     @property
     def lanes(self) -> tuple[Lane, ...]:
@@ -149,26 +149,26 @@ class Lane(Route):
         own += [said("width is {} m", self._width), super().wishes]
         return " and ".join(filter(None, own))
 
-    def candidates(self, graph: RoadGraph) -> tuple[Stretch, ...]:
+    def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
         """Drivable lanes; those beside them only if their kind is asked for."""
         if self._type is None and self._use is None:
             return graph.lanes
         return (*graph.lanes, *graph.other_lanes)
 
-    def suits(self, graph: RoadGraph, stretch: Stretch) -> bool:
+    def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
         """Whether kind and width fit as well."""
-        kind = graph.kind_of(stretch)
+        kind = graph.kind_of(segment)
         if self._type not in (None, kind.type) or self._use not in (None, kind.use):
             return False
-        if not fulfils(self._width, graph.width_of(stretch), SAME):
+        if not fulfils(self._width, graph.width_of(segment), SAME):
             return False
-        return super().suits(graph, stretch)
+        return super().suits(graph, segment)
 
     @property
     def lane_section(self) -> LaneSection:
         """The section that it belongs to."""
         found = self.found
-        section = Stretch("lane_section", found.road, found.section, forwards=found.forwards)
+        section = MapSegment("lane_section", found.road, found.section, forwards=found.forwards)
         return self._as(LaneSection(), section)
 
     @property
@@ -239,7 +239,7 @@ class Junction(RoadPart):
     def roads(self) -> tuple[Road, ...]:
         """The roads that meet in it, by their numbers."""
         found = self.graph.roads_at(self.found)
-        return self.seen(Road, (Stretch("road", road) for road in found))
+        return self.seen(Road, (MapSegment("road", road) for road in found))
 
 
 class RoadPath(RoadPart):
@@ -276,6 +276,6 @@ class RoadPath(RoadPart):
         own = f"there are {self._min_length:g} m" if self._min_length > 0.0 else ""
         return " and ".join(filter(None, [super().wishes, own]))
 
-    def suits(self, graph: RoadGraph, stretch: Stretch) -> bool:
+    def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
         """Whether it is long enough as well."""
-        return graph.length(stretch) >= self._min_length and super().suits(graph, stretch)
+        return graph.length(segment) >= self._min_length and super().suits(graph, segment)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
 from osc2tx_runtime.domain.routes.crossings import Crossing
 from osc2tx_runtime.domain.routes.lane_coordinates import route_point_at
-from osc2tx_runtime.domain.routes.map_segments import CrossingLine, Stretch
+from osc2tx_runtime.domain.routes.map_segments import CrossingLine, MapSegment
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection
 from osc2tx_runtime.domain.routes.route_axes import axis_lanes
@@ -50,8 +50,8 @@ def place_in_route(
 
 def _on_section(context: ExecutionContext, place: LanePosition, state: ActorState) -> RoutePoint:
     graph = graph_of(context.world.map)
-    lane = graph.stretch_of(graph.map.lane_key(place))
-    found = Stretch("lane_section", lane.road, lane.section, forwards=lane.forwards)
+    lane = graph.segment_of(graph.map.lane_key(place))
+    found = MapSegment("lane_section", lane.road, lane.section, forwards=lane.forwards)
     axes = axis_lanes(graph, found)
     if not axes or axes[0].lane is None:
         raise ScenarioError("it is not on a lane section for vehicles")

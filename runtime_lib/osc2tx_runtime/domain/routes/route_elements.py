@@ -1,7 +1,7 @@
 """Bases of declared roads, lanes and routes: constraints, and what the map says.
 
 A scenario says what its roads are like (`number_of_lanes`, `lane_side`, ...); before the start the
-`MapSolver` chooses for each of them a stretch of the map for which all that holds.
+`MapSolver` chooses for each of them a segment of the map for which all that holds.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import ClassVar, TypeVar
 
 from osc2tx_runtime.domain.points_and_poses import RouteAxis, RoutePoint
 from osc2tx_runtime.domain.routes.map_objects import MapObject
-from osc2tx_runtime.domain.routes.map_segments import PartKind, Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment, PartKind
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.route_axes import directionality_of, length_of, widths_of
@@ -59,20 +59,20 @@ class RoadPart(MapObject, RouteAxis):
         self.within = within
         members = (listed or {}).items()
         self.listed = {name: parts for name, parts in members if parts is not None}
-        self._found: Stretch | None = None
+        self._found: MapSegment | None = None
 
     # --- choosing -----------------------------------------------------------------------------
 
     @property
-    def found(self) -> Stretch:
-        """The stretch of the map that was chosen."""
+    def found(self) -> MapSegment:
+        """The segment of the map that was chosen."""
         if self._found is None:
             raise ScenarioError(f"a {self.kind} is used before the map is known")
         return self._found
 
-    def choose(self, stretch: Stretch) -> None:
-        """Takes the stretch of the map that was chosen."""
-        self._found = stretch
+    def choose(self, segment: MapSegment) -> None:
+        """Takes the segment of the map that was chosen."""
+        self._found = segment
 
     @property
     def wishes(self) -> str:
@@ -85,30 +85,30 @@ class RoadPart(MapObject, RouteAxis):
         )
         return " and ".join(filter(None, wishes))
 
-    def candidates(self, graph: RoadGraph) -> tuple[Stretch, ...]:
-        """Stretches of the map that it could be, in the order in which they are tried."""
+    def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
+        """Segments of the map that it could be, in the order in which they are tried."""
         return graph.all(self.kind)
 
-    def suits(self, graph: RoadGraph, stretch: Stretch) -> bool:
-        """Whether a stretch is as this part alone asks for."""
-        if not all(anchor in self.names_of(graph, stretch) for anchor in self._anchors):
+    def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
+        """Whether a segment is as this part alone asks for."""
+        if not all(anchor in self.names_of(graph, segment) for anchor in self._anchors):
             return False
-        if not fulfils(self._long, length_of(graph, stretch) if self._long else 0.0, SAME):
+        if not fulfils(self._long, length_of(graph, segment) if self._long else 0.0, SAME):
             return False
-        if self._ways not in (None, directionality_of(graph, stretch)):
+        if self._ways not in (None, directionality_of(graph, segment)):
             return False
         if self._least is None and self._most is None:
             return True
-        counts = widths_of(graph, stretch)
+        counts = widths_of(graph, segment)
         return fulfils(self._least, min(counts), at_least=True) and fulfils(
             self._most, max(counts), at_most=True
         )
 
-    def names_of(self, graph: RoadGraph, stretch: Stretch) -> tuple[str, ...]:
-        """What the map file calls a stretch."""
-        road = graph.map.roads.get(stretch.road)
-        lane = () if stretch.lane is None else (f"{stretch.road}:{stretch.lane}",)
-        return (*lane, stretch.road, *(() if road is None or not road.name else (road.name,)))
+    def names_of(self, graph: RoadGraph, segment: MapSegment) -> tuple[str, ...]:
+        """What the map file calls a segment."""
+        road = graph.map.roads.get(segment.road)
+        lane = () if segment.lane is None else (f"{segment.road}:{segment.lane}",)
+        return (*lane, segment.road, *(() if road is None or not road.name else (road.name,)))
 
     # --- what the map says --------------------------------------------------------------------
 
@@ -119,12 +119,12 @@ class RoadPart(MapObject, RouteAxis):
             raise ScenarioError(f"a {self.kind} is read before the scenario runs", self.source)
         return graph_of(self._context.world.map)
 
-    def seen(self, kind: type[PartT], stretches: Iterable[Stretch]) -> tuple[PartT, ...]:
+    def seen(self, kind: type[PartT], segments: Iterable[MapSegment]) -> tuple[PartT, ...]:
         """Other parts of the same map."""
-        return tuple(self._as(kind(), stretch) for stretch in stretches)
+        return tuple(self._as(kind(), segment) for segment in segments)
 
-    def _as(self, part: PartT, stretch: Stretch) -> PartT:
-        part.choose(stretch)
+    def _as(self, part: PartT, segment: MapSegment) -> PartT:
+        part.choose(segment)
         part._context = self._context
         return part
 

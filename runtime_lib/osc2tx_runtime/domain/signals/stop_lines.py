@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar
 
-from osc2tx_runtime.domain.routes.map_segments import Stretch
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection, Route
 from osc2tx_runtime.domain.routes.route_axes import axis_lanes
@@ -93,7 +93,7 @@ class TrafficLightStopLine(Route):
 
     def _section(
         self, graph: RoadGraph, lights: Sequence[str]
-    ) -> tuple[Stretch, Sequence[int], float]:
+    ) -> tuple[MapSegment, Sequence[int], float]:
         """Lane section of the line, its lanes counted from the right, and where it is on it."""
         if self._route is not None and self._route.found.kind != "lane_section":
             raise UnsupportedError("a stop line lies on a lane_section here", self.source)
@@ -103,7 +103,7 @@ class TrafficLightStopLine(Route):
                 s = places[0].s
                 index = graph.map.roads[road].section_at(s).index
                 forwards = graph.map.travel_direction(road, lane) > 0
-                found = Stretch("lane_section", road, index, forwards=forwards)
+                found = MapSegment("lane_section", road, index, forwards=forwards)
                 if self._route is None or self._route.found == found:
                     numbers = [
                         number

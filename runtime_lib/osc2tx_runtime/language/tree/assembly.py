@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
+from functools import cache
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
@@ -193,11 +195,12 @@ def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
 def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
     """Return the nodes of a tree, parents first, in an order that its meaning decides.
 
-    Members that run together are ordered by their actors as these are declared, then by name:
-    the order of the members in the module must not show.
+    Members that run together are ordered by their actors as these are declared, then by name, then
+    by what is in them: the order of the members in the module must not show.
     """
     declared = {id(actor): index for index, actor in enumerate(actors)}
 
+    @cache
     def key(member: Behaviour) -> tuple[int, str]:
         acting = [id(node.actor) for node in member.iterate() if isinstance(node, Action)]
         return (
@@ -205,10 +208,25 @@ def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
             member.name,
         )
 
-    found, waiting = [], [tree]
-    while waiting:
-        node = waiting.pop()
-        found.append(node)
-        together = isinstance(node, Parallel | OneOf)
-        waiting += reversed(sorted(node.children, key=key) if together else node.children)
-    return found
+    @cache
+    def content(member: Behaviour) -> list[tuple[int, str]]:
+        return [key(node) for node in ordered(member)]
+
+    def members(node: Behaviour) -> Iterable[Behaviour]:
+        if not isinstance(node, Parallel | OneOf):
+            return node.children
+        keys = Counter(key(child) for child in node.children)
+        return sorted(
+            node.children,
+            key=lambda child: (first := key(child), content(child) if keys[first] > 1 else []),
+        )
+
+    def ordered(start: Behaviour) -> list[Behaviour]:
+        found, waiting = [], [start]
+        while waiting:
+            node = waiting.pop()
+            found.append(node)
+            waiting += reversed([*members(node)])
+        return found
+
+    return ordered(tree)

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, name_of, told
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 
 __all__ = [
@@ -26,6 +26,8 @@ __all__ = [
     "Leaf",
     "Node",
     "Status",
+    "checked",
+    "ended_late",
     "place_key",
     "pulse_of",
     "split_label",
@@ -86,6 +88,8 @@ class Node(Behaviour):
         listeners: (label, `start` | `end` | `fail`) of that scenario to the event waited for.
         activity: When the node was last active; only kept where an `override` asks.
         failed_at: Time in seconds of the last failure.
+        started_late: Seconds by which its exact start lies before the step at which it started.
+        ended_late: The same of its end with success.
         context: The run; there from `setup` on.
     """
 
@@ -101,8 +105,11 @@ class Node(Behaviour):
     listeners: Mapping[tuple[str, str], PostedEvent] | None = None
     activity: Activity | None = None
     failed_at: float | None = None
+    started_late: float = 0.0
+    ended_late: float = 0.0
     context: ExecutionContext
     _started: PostedEvent | None = None
+    _first_step: int = 0
     _ended: PostedEvent | None = None
     _failed: PostedEvent | None = None
 
@@ -125,6 +132,18 @@ class Node(Behaviour):
     def length(self) -> int | None:
         """Return how many steps the node will take; None where only the run can tell."""
         return 0 if self.instant else None
+
+    def lateness(self) -> float:
+        """Return by how many seconds its end lies before this step, at which it ends.
+
+        What no time ends does so at the step; what takes no time when it started.
+        """
+        return self.started_late if self.context.step == self._first_step else 0.0
+
+    def lasted(self, late: float) -> float:
+        """Return how long (s) it has taken, up to so many seconds before this step."""
+        context = self.context
+        return (context.step - self._first_step) * context.dt + self.started_late - late
 
     def situation(self) -> str:
         """Return what there is to say of a node that is still running; nothing, as a rule."""
@@ -164,6 +183,8 @@ class Node(Behaviour):
         if self.status is RUNNING:
             if new_status is FAILURE:
                 self.failed_at = self.context.time
+            elif new_status is SUCCESS:
+                self.ended_late = self.lateness()
             self._stop_children(new_status)
             self.terminate(new_status)
             self._post_life_event(new_status)
@@ -188,6 +209,7 @@ class Node(Behaviour):
                 child.stop(INVALID)
         self.status = RUNNING
         self.feedback_message = ""
+        self.started_late, self._first_step = self.context.late, self.context.step
         if self._started is not None:
             self.context.post(self._started)
         if self.activity is not None:
@@ -221,12 +243,33 @@ class Leaf(Node):
             if self.status is not RUNNING:
                 self._begin()
             status = self.update()
+            if status is not RUNNING:
+                self.stop(checked(self, status))
+            return status
         except ScenarioError as error:
             error.source = error.source or self.source or None
             raise
-        if status is not RUNNING:
-            self.stop(status)
-        return status
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # a subclass of the user's own may raise anything
+            if not is_own(type(self)):
+                raise
+            text = f"{self.name}: {name_of(type(self))} raised {told(error)}"
+            raise ScenarioError(text, self.source or None) from error
+
+
+def checked(node: Behaviour, status: object) -> Status:
+    """Return a status that a node may have at the end of a pass.
+
+    Raises:
+        ScenarioError: It is something else: the class is the user's own.
+    """
+    if status is RUNNING or status is SUCCESS or status is FAILURE:
+        if isinstance(node.feedback_message, str):
+            return status
+        raise ScenarioError(f"{node.name} gives a reason that is no text")
+    shown = status if isinstance(status, Status | None) else f"a {type(status).__name__}"
+    raise ScenarioError(f"{node.name} returns {shown}, no status of a node")
 
 
 def pulse_of(child: Behaviour) -> Callable[[], Status]:
@@ -235,8 +278,9 @@ def pulse_of(child: Behaviour) -> Callable[[], Status]:
         return child.pulse
 
     def tick_foreign() -> Status:
-        child.tick_once()
-        return FAILURE if child.status is INVALID else child.status
+        with OwnCode(f"{child.name}: {name_of(type(child))} raised"):
+            child.tick_once()
+        return FAILURE if child.status is INVALID else checked(child, child.status)
 
     return tick_foreign
 
@@ -245,6 +289,11 @@ class Named(Protocol):
     """Something with a name, such as a node."""
 
     name: str
+
+
+def ended_late(child: Behaviour) -> float:
+    """Return how late the end of a member showed; behaviours that are not ours end at a step."""
+    return child.ended_late if isinstance(child, Node) else 0.0
 
 
 def place_key(node: Named) -> tuple[int, str]:

@@ -18,6 +18,7 @@ from osc2tx_runtime.language.tree.base import (
     Behaviour,
     Node,
     Status,
+    ended_late,
     place_key,
     pulse_of,
 )
@@ -46,15 +47,18 @@ class Composition(Node):
         """Advance the members, within the duration."""
         if self.status is not RUNNING:
             self._begin()
-        limits = self._limits
-        if limits is None:
-            status = self._advance()
-        else:
-            content = SUCCESS if limits.content_ended else self._advance()
-            status = limits.judge(content, self._content_open)
+        status = self._judged()
         if status is not RUNNING:
             self.stop(status)
         return status
+
+    def _judged(self) -> Status:
+        """Advance the members; return the status of the whole."""
+        status = self._advance()
+        if self._limits is None:
+            return status
+        late = self._content_lateness() if status is SUCCESS else 0.0
+        return self._limits.judge(status, self._goes_on(), late)
 
     @property
     def limits(self) -> Limits | None:
@@ -66,6 +70,15 @@ class Composition(Node):
         if self._limits is not None:
             self._limits.begin()
 
+    def lateness(self) -> float:
+        """Return that of its duration, else of its members."""
+        late = None if self._limits is None else self._limits.late
+        return self._content_lateness() if late is None else late
+
+    def _content_lateness(self) -> float:
+        """Return how late the end of the members shows."""
+        return super().lateness()
+
     def _limit(self, duration: Duration | None) -> None:
         self.label = self.name
         self._limits = None if duration is None else Limits(self, duration)
@@ -73,6 +86,10 @@ class Composition(Node):
     def _is_open(self) -> bool:
         """Return whether the members never end by themselves."""
         raise NotImplementedError
+
+    def _goes_on(self) -> bool:
+        """Return whether what runs now has no end of its own."""
+        return self._content_open
 
     def length(self) -> int | None:
         """Return how many steps the composition takes, if its members tell."""
@@ -123,14 +140,21 @@ class Serial(Composition, SequenceComposite):
         return sum(known) if len(known) == len(lengths) else None
 
     def _advance(self) -> Status:
-        members = self._members
+        members, context = self._members, self.context
+        late = context.late
         while self._index < len(members):
             self.current_child, pulse = members[self._index]
             status = pulse()
             if status is not SUCCESS:
+                context.late = late
                 return status
             self._index += 1
+            context.late = ended_late(self.current_child)
+        context.late = late
         return SUCCESS
+
+    def _content_lateness(self) -> float:
+        return ended_late(self.children[-1]) if self.children else super()._content_lateness()
 
 
 class OneOf(Composition, ParallelComposite):
@@ -165,9 +189,36 @@ class OneOf(Composition, ParallelComposite):
     def initialise(self) -> None:
         """Start the race."""
         super().initialise()
-        self._active = list(self._members)
+        self._active, self.current_child = self._fitting(), None
         if self.context.one_of != "race" and self._members:
             self._note(self._members[0][0])
+
+    def _content_lateness(self) -> float:
+        winner = self.current_child
+        return super()._content_lateness() if winner is None else ended_late(winner)
+
+    def _fitting(self) -> list[Member]:
+        """Return the members that may take as long as is asked for."""
+        limits = self._limits
+        if limits is None or self.context.first_come:
+            return list(self._members)
+        lengths = [(m, None if is_open(m[0]) else length_of(m[0])) for m in self._members]
+        return [m for m, length in lengths if length is None or limits.admits(length)]
+
+    def _goes_on(self) -> bool:
+        return any(is_open(child) for child, _ in self._active)
+
+    def _lost(self) -> Status:
+        """Fail: no member is left in the race."""
+        failed = any(child.status is FAILURE for child, _ in self._members)
+        if self._limits is None or failed:
+            return FAILURE
+        return self.fail(f"none of its members takes {self._limits.text}")
+
+    def _counts(self, child: Behaviour) -> bool:
+        """Return whether the end of a member is one of the whole: it fills the duration."""
+        limits = self._limits
+        return limits is None or self.context.first_come or not limits.is_early(ended_late(child))
 
     def _note(self, chosen: Behaviour) -> None:
         policy = self.context.one_of
@@ -188,10 +239,10 @@ class OneOf(Composition, ParallelComposite):
             status = member[1]()
             if status is RUNNING:
                 running.append(member)
-            elif status is SUCCESS:
+            elif status is SUCCESS and self._counts(member[0]):
                 winners.append(member[0])
         if winners:
-            winner = min(winners, key=place_key)
+            winner = min(winners, key=lambda child: (-ended_late(child), place_key(child)))
             for child, _ in running:
                 child.stop(INVALID)
             self._active = []
@@ -200,7 +251,7 @@ class OneOf(Composition, ParallelComposite):
                 self._note(winner)
             return SUCCESS
         self._active = running
-        return RUNNING if running else FAILURE
+        return RUNNING if running else self._lost()
 
 
 def is_open(child: Behaviour) -> bool:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = [
     "EVALUATION_ERRORS",
     "Condition",
+    "Deadline",
     "Edge",
     "Watch",
     "elapsed",
@@ -77,9 +78,7 @@ def elapsed(duration: float | Callable[[], float]) -> Condition:
     """
 
     def watch(context: ExecutionContext) -> Watch:
-        seconds = number(duration) if callable(duration) else duration
-        due = context.step + context.steps(seconds)
-        return lambda: context.step >= due
+        return Deadline(number(duration) if callable(duration) else duration, context)
 
     if callable(duration):
         return Condition(f"elapsed({function_text(duration)})", watch)
@@ -97,13 +96,13 @@ def every(period: float, offset: float = 0.0) -> Condition:
         raise ScenarioError(f"every {period:g} s: the period must be above zero")
 
     def watch(context: ExecutionContext) -> Watch:
-        start = context.step
+        start, first = context.step, offset - context.late
 
         def due() -> bool:
             steps = context.step - start
-            nearest = round((steps * context.dt - offset) / period)
+            nearest = round((steps * context.dt - first) / period)
             return any(
-                context.steps(offset + max(0, number) * period) == steps
+                max(0, context.steps(first + max(0, number) * period)) == steps
                 for number in (nearest - 1, nearest, nearest + 1)
             )
 
@@ -123,6 +122,28 @@ def watch_level(function: Callable[[], bool], context: ExecutionContext) -> Watc
         return value
 
     return happened
+
+
+class Deadline:
+    """Watches for the end of a time that begins now.
+
+    Args:
+        seconds: How long.
+        context: The run.
+
+    Attributes:
+        late: Seconds by which the end lies before the step at which it shows.
+    """
+
+    __slots__ = ("_context", "_step", "late")
+
+    def __init__(self, seconds: float, context: ExecutionContext) -> None:
+        self._context = context
+        self._step, self.late = context.due(seconds, context.late)
+
+    def __call__(self) -> bool:
+        """Return whether the time is over."""
+        return self._context.step >= self._step
 
 
 class Edge:

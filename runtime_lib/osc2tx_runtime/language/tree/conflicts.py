@@ -1,7 +1,7 @@
 """Detection of conflicts: two actions that control the same thing at one instant.
 
-Claims and effects are judged together at the end of an instant, so a hand-over from one action to
-the next is silent in whatever order the tree visits them.
+Claims are judged at the end of an instant, so a hand-over from one action to the next is silent in
+whatever order the tree visits them; effects when they are carried out, of the whole instant.
 """
 
 from __future__ import annotations
@@ -14,24 +14,36 @@ from osc2tx_runtime.language.slots import Owner
 from osc2tx_runtime.language.tree.base import Behaviour, place_key
 from osc2tx_runtime.language.tree.compositions import OneOf, Serial
 
-__all__ = ["check_conflicts"]
+__all__ = ["check_claims", "check_effects"]
 
 
-def check_conflicts(context: ExecutionContext) -> None:
-    """Judge the claims and effects of a settled instant.
+def check_claims(context: ExecutionContext) -> None:
+    """Judge the claims of a settled instant.
 
     Raises:
         SlotConflict: If two actions control the same thing.
     """
     for (actor_id, slot), owners in context.slots.contested():
         raise conflict(f"the {slot} slot of {actor_id}", owners)
-    for key, effects in context.effects.contested():
-        # By place, so that the report is the same whatever the order of the visit.
-        effects.sort(key=lambda effect: place_key(effect.owner))
-        for index, one in enumerate(effects):
-            for other in effects[index + 1 :]:
-                if one.value != other.value and not in_sequence(one.owner, other.owner):
-                    raise conflict(" ".join(key), [one.owner, other.owner])
+    for (actor_id, slot), *both in context.slots.passed():
+        if not in_sequence(*both):
+            raise conflict(f"the {slot} slot of {actor_id}", both)
+
+
+def check_effects(context: ExecutionContext) -> None:
+    """Judge the effects that are to be carried out.
+
+    Raises:
+        SlotConflict: If parallel actions want different values of one thing.
+    """
+    found = [
+        (place_key(one.owner), place_key(other.owner), key, one.owner, other.owner)
+        for key, one, other in context.effects.contested()
+        if not in_sequence(one.owner, other.owner)
+    ]
+    if found:  # by place, so that the report is the same whatever the order of the visit
+        *_, key, one, other = min(found, key=lambda each: (each[2], *sorted(each[:2])))
+        raise conflict(" ".join(key), [one, other])
 
 
 def conflict(what: str, owners: Sequence[Owner]) -> SlotConflict:

@@ -7,7 +7,7 @@ from typing import Any, overload
 
 from py_trees.decorators import Decorator
 
-from osc2tx_runtime.errors import USER_CODE_ERRORS, ScenarioError
+from osc2tx_runtime.errors import OwnCode, ScenarioError
 from osc2tx_runtime.language.tree.base import (
     RUNNING,
     SUCCESS,
@@ -15,10 +15,18 @@ from osc2tx_runtime.language.tree.base import (
     Leaf,
     Node,
     Status,
+    ended_late,
     pulse_of,
     split_label,
 )
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Condition, Edge, Watch
+from osc2tx_runtime.language.tree.conditions import (
+    EVALUATION_ERRORS,
+    Condition,
+    Deadline,
+    Edge,
+    Watch,
+)
+from osc2tx_runtime.language.tree.duration_limits import Limits
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, watch
 from osc2tx_runtime.language.tree.module_text import function_text
 
@@ -56,6 +64,11 @@ class Wait(Leaf):
         if condition is None and isinstance(trigger, Condition) and trigger.seconds is not None:
             return self.context.steps(trigger.seconds)
         return None
+
+    def lateness(self) -> float:
+        """Return how late a time shows that is over."""
+        over = self._happened
+        return over.late if isinstance(over, Deadline) else super().lateness()
 
     def waits_in_vain(self) -> bool:
         """Whether it waits for an edge to what was so already."""
@@ -132,10 +145,8 @@ class Call(Leaf):
         Raises:
             ScenarioError: If it raises something itself: it may be the user's own code.
         """
-        try:
+        with OwnCode(f"{self.name}:"):
             self.function()
-        except USER_CODE_ERRORS as error:
-            raise ScenarioError(f"{self.name}: {type(error).__name__}: {error}") from error
 
     def update(self) -> Status:
         """Succeed at once."""
@@ -143,10 +154,12 @@ class Call(Leaf):
 
 
 class Until(Node, Decorator):
-    """Ends a behavior at the first of several events or conditions, with success.
+    """Ends a behavior at the first of several events or conditions, with success (DSL 7.6.2.5.4).
 
     The conditions are asked before the behavior in every pass, from the start of the behavior on.
-    A behavior that ends earlier ends this node with its own result.
+    It is to end exactly then: a behavior that has ended by itself before fails, and so does one
+    whose duration asks for more. Where whatever comes first counts (`context.first_come`), it ends
+    with its own result.
 
     The label of the behavior is that of the whole: its end is the end of both.
 
@@ -163,7 +176,12 @@ class Until(Node, Decorator):
         self.conditions = conditions
         if isinstance(behavior, Node):
             self.label, behavior.label = behavior.label, None
+        self._limits: Limits | None = getattr(behavior, "_limits", None)
+        if self._limits is not None:
+            self._limits.until = self.name
         self._happened: list[Watch] = []
+        self._late: float | None = None
+        self._has_ended = False
 
     def setup(self, **kwargs: Any) -> None:
         """Take the context; find out how to tick the behavior."""
@@ -182,7 +200,12 @@ class Until(Node, Decorator):
 
     def initialise(self) -> None:
         """Start watching."""
+        self._late, self._has_ended = None, False
         self._happened = [watch(condition, None, self.context) for condition in self.conditions]
+
+    def lateness(self) -> float:
+        """Return that of the first condition that ended it, else of the behavior."""
+        return ended_late(self.decorated) if self._late is None else self._late
 
     def waits_in_vain(self) -> bool:
         """Whether all that ends it are edges to what was so already."""
@@ -193,15 +216,50 @@ class Until(Node, Decorator):
         """Ask the conditions, then run the behavior."""
         if self.status is not RUNNING:
             self._begin()
-        status = SUCCESS if self._is_over() else self._pulse_child()
+        if self._is_over():
+            status = self._judge()
+        elif self._has_ended:
+            status = self._missed()
+        else:
+            status = self._pulse_child()
+            if status is SUCCESS and not self._may_end():
+                self._has_ended, status = True, self._missed()
         if status is not RUNNING:
             self.stop(status)
         return status
 
+    def _judge(self) -> Status:
+        """Succeed, unless the duration of the behavior asks for more time."""
+        limits = self._limits
+        late = self._late or 0.0
+        if limits is None or self.context.first_come or not limits.is_early(late):
+            return SUCCESS
+        after = self.lasted(late)
+        return self.fail(f"{self.name} ends it after {after:g} s, its duration is {limits.text}")
+
+    def _may_end(self) -> bool:
+        """Return whether the behavior may end without what it is to go on until.
+
+        It may at the most of a range of durations: no end before that was its own.
+        """
+        limits = self._limits
+        return self.context.first_come or (limits is not None and limits.is_over)
+
+    def _missed(self) -> Status:
+        """Fail if the condition does not come at this instant, at which the behavior has ended."""
+        if not self.context.settled:
+            self.context.request_settling()
+            return RUNNING
+        after = self.lasted(ended_late(self.decorated))
+        return self.fail(f"over by itself after {after:g} s, before {self.name}")
+
     def _is_over(self) -> bool:
         try:
             # A list, not a generator: every condition is sampled in every step.
-            return any([happened() for happened in self._happened])
+            fired = [happened for happened in self._happened if happened()]
         except ScenarioError as error:
             error.source = error.source or self.source or None
             raise
+        if fired:
+            self._late = max(h.late if isinstance(h, Deadline) else 0.0 for h in fired)
+        return bool(fired)

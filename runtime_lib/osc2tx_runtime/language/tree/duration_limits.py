@@ -23,11 +23,21 @@ ENDLESS = sys.maxsize
 
 
 class Limits:
-    """Applies a duration to the content of a node.
+    """Applies a duration to the content of a node (DSL 7.6.2.1, 7.6.2.4.1).
 
-    Open-ended content ends with success at the least duration. Content that ends before it is
-    held until then. Content that has not ended at the most duration fails, once all that happens
-    at that instant has happened.
+    Open-ended content ends with success when the duration is over: at a time drawn from its range,
+    or at the most if an `until` ends it before. Content that ends before the least duration fails:
+    nothing waits idly for the rest. Content that has not ended at the most duration fails, once
+    all that happens at that instant has happened.
+
+    Where the scenario takes whatever comes first (`context.first_come`), content ends when it
+    does, and at the most duration.
+
+    Attributes:
+        until: What ends the node from outside; empty if nothing does.
+        is_over: Its end has ended open-ended content.
+        late: Seconds by which the exact end of the duration lies before the step at which the node
+            ends; None if something else ends it.
     """
 
     def __init__(self, node: Node, duration: Duration) -> None:
@@ -37,20 +47,33 @@ class Limits:
             raise ScenarioError(f"{node.name}: a duration of {low:g} s is negative")
         self._node = node
         self._seconds = (low, high)
-        self._low = self._high = self._start = 0
-        self.content_ended = False
+        self._low = self._high = self._end = (0, 0.0)
+        self.until = ""
+        self.is_over = False
+        self.late: float | None = None
 
     def begin(self) -> None:
-        """Start counting at the present step."""
-        context = self._node.context
-        self._start = context.step
-        self._low, self._high = self._steps()
-        self.content_ended = False
+        """Start counting at the exact start of the node."""
+        due, late = self._node.context.due, self._node.started_late
+        low, high = self._seconds
+        self._low = due(low, late)
+        self._high = (ENDLESS, 0.0) if math.isinf(high) else due(high, late)
+        self._end = self._high if self.until else due(self._open_length(), late)
+        self.is_over, self.late = False, None
+
+    def _open_length(self) -> float:
+        """Return the seconds that open-ended content takes."""
+        low, high = self._seconds
+        if low == high or math.isinf(high) or self._node.context.first_come:
+            return low
+        return self._node.generator("duration").uniform(low, high)
 
     def length(self, content: int | None, open_ended: bool) -> int | None:
         """Return how many steps the node takes, given those of its content."""
         low, high = self._steps()
-        if open_ended or (content is None and low == high):
+        if open_ended:
+            return None if self.until else self._node.context.steps(self._open_length())
+        if content is None and low == high:
             return low
         return None if content is None or content > high else max(content, low)
 
@@ -66,32 +89,88 @@ class Limits:
         return low if low == high else None
 
     @property
+    def text(self) -> str:
+        """What it asks for, for messages."""
+        low, high = self._seconds
+        if low == high:
+            return f"{low:g} s"
+        return f"at least {low:g} s" if math.isinf(high) else f"{low:g} s to {high:g} s"
+
+    @property
     def left(self) -> int:
         """Steps until the least duration is over."""
-        return self._start + self._low - self._node.context.step
+        return self._low[0] - self._node.context.step
+
+    def is_early(self, late: float) -> bool:
+        """Return whether an end at this step is before the least duration is over.
+
+        Args:
+            late: Seconds by which the exact end lies before the step.
+        """
+        step, low_late = self._low
+        now = self._node.context.step
+        return now < step or (now == step and late > low_late)
+
+    def admits(self, steps: int) -> bool:
+        """Return whether content of so many steps can fill it."""
+        low, high = self._steps()
+        return low <= steps <= high
 
     @property
     def least(self) -> int:
         """The least duration in steps."""
         return self._node.context.steps(self._seconds[0])
 
-    def judge(self, status: Status, open_ended: bool) -> Status:
-        """Return the node's status for that of its content."""
+    def judge(self, status: Status, open_ended: bool, late: float = 0.0) -> Status:
+        """Return the node's status for that of its content.
+
+        Args:
+            status: Of the content.
+            open_ended: The content never ends by itself.
+            late: Seconds by which its exact end lies before this step.
+        """
+        context = self._node.context
+        step = context.step
         if status is FAILURE:
             return status
-        context = self._node.context
-        steps = context.step - self._start
         if status is SUCCESS:
-            self.content_ended = True
-            return SUCCESS if steps >= self._low else RUNNING
+            return self._judge_end(late)
         if open_ended:
-            return SUCCESS if steps >= self._low else RUNNING
-        if steps < self._high:
+            return self._judge_open()
+        if step < self._high[0]:
             return RUNNING
-        if steps == self._high and not context.settled:
+        if step == self._high[0] and not context.settled:
             context.request_settling()  # an event of this instant may still end the content
             return RUNNING
+        if context.first_come:
+            self.late = self._high[1]
+            return SUCCESS
         return self._node.fail(f"not finished within {self._seconds[1]:g} s{self._unfinished()}")
+
+    def _judge_end(self, late: float) -> Status:
+        """Judge content that ends by itself."""
+        if self.is_early(late) and not self._node.context.first_come:
+            over = self._node.lasted(late)
+            return self._node.fail(
+                f"over after {over:g} s, and nothing in it fills its duration of {self.text}"
+            )
+        if self.fixed is not None and self._node.context.step == self._low[0]:
+            self.late = self._low[1]
+        return SUCCESS
+
+    def _judge_open(self) -> Status:
+        """Judge content that has no end of its own."""
+        context = self._node.context
+        end, late = self._end
+        if context.step < end:
+            return RUNNING
+        if self.until and self.fixed is not None and not context.first_come:
+            if not context.settled:
+                context.request_settling()  # it may still come
+                return RUNNING
+            return self._node.fail(f"its duration of {self.text} is over before {self.until}")
+        self.is_over, self.late = True, late
+        return SUCCESS
 
     def _unfinished(self) -> str:
         """Return which leaves inside are still running, in the order of the source."""

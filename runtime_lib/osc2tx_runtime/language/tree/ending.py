@@ -14,6 +14,7 @@ from osc2tx_runtime.language.tree.base import (
     Leaf,
     Node,
     Status,
+    ended_late,
     pulse_of,
 )
 
@@ -68,6 +69,10 @@ class Ending(Node, Decorator):
         """Return nothing: only the run can tell."""
         return None
 
+    def lateness(self) -> float:
+        """Return that of the tree, if it came to its end."""
+        return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0
+
     def pulse(self) -> Status:
         """Run the tree, then see whether it said that it is over; failures count first."""
         if self.status is not RUNNING:
@@ -75,6 +80,9 @@ class Ending(Node, Decorator):
         status = self._pulse_child()
         reached = [end for end in self._ends if end.status is RUNNING]
         failed = [end for end in reached if isinstance(end, Fail)]
+        if status is RUNNING and reached and not self.context.settled:
+            self.context.request_settling()  # what still happens at this instant belongs to it
+            return RUNNING
         if status is not FAILURE and failed:
             status = self.fail(f"{failed[0].name} ({failed[0].source})")
         elif status is not FAILURE and reached:

@@ -30,6 +30,7 @@ class Event:
         condition: The event occurs only if this is true as well, at the same instant.
         parameters: Names of its parameters to their defaults: a value, a function that is called
             when the event is emitted without the parameter, or None where it must be given.
+        name: Name in the scenario, where its attribute cannot have it (`from`).
 
     In a condition, a reaction or a sample that the event sets off, `event["x"]` is the value of
     the parameter `x` of that occurrence.
@@ -46,8 +47,9 @@ class Event:
         *,
         condition: Guard | None = None,
         parameters: Mapping[str, Any] | None = None,
+        name: str = "",
     ) -> None:
-        self.name = ""
+        self.name = name
         self.trigger = trigger
         self.condition = condition
         self.parameters = parameters
@@ -55,6 +57,7 @@ class Event:
         self.alias: Event | None = None
         self.occurred = 0
         self.occurrences: list[Mapping[str, Any]] = []
+        self._instant = (-1, frozenset[str]())  # a step, and what occurred in it
 
     def __repr__(self) -> str:
         return f"Event({self.name!r})"
@@ -89,12 +92,17 @@ class Event:
         """Forget all occurrences."""
         self.occurred = 0
         self.occurrences = []
+        self._instant = (-1, frozenset())
 
-    def occur(self, tick: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
-        """Become visible in pass `tick`; equal occurrences of one instant are one."""
-        self.occurred = tick
+    def occur(self, tick: int, step: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
+        """Become visible in pass `tick`; equal occurrences of one instant are one (DSL 7.6.2.5)."""
+        before = self._instant[1] if self._instant[0] == step else frozenset()
         distinct = {argument_key(arguments): arguments for arguments in occurrences}
-        self.occurrences = [distinct[key] for key in sorted(distinct)]
+        new = sorted(distinct.keys() - before)
+        if new:
+            self._instant = (step, before.union(new))
+            self.occurred = tick
+            self.occurrences = [distinct[key] for key in new]
 
 
 Trigger = Event | Condition | Callable[[], bool]

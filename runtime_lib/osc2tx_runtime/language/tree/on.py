@@ -15,7 +15,6 @@ from osc2tx_runtime.language.tree.events import (
     Guard,
     Occurrences,
     Trigger,
-    argument_key,
     describe,
     watch,
 )
@@ -55,8 +54,7 @@ class On(Node, SequenceComposite):
         self._pulses: list[Callable[[], Status]] = []
         self._next = 0  # reaction that comes next
         self._queue: list[Mapping[str, Any]] = []  # occurrences to react to, the present one first
-        self._step = -1
-        self._heard: set[str] = set()  # what it reacted to in this step
+        self._step = -1  # of the last reaction to a condition
 
     def setup(self, **kwargs: Any) -> None:
         """Take the context; find out how to tick the reactions."""
@@ -84,16 +82,13 @@ class On(Node, SequenceComposite):
         return status
 
     def _hear(self) -> None:
-        """Queue what was not reacted to in this step."""
-        if self._step != self.context.step:
-            self._step, self._heard = self.context.step, set()
+        """Queue what happened; what is true for an instant counts once."""
         watched = self._happened
-        matching = watched.matching if isinstance(watched, Occurrences) else [NOTHING]
-        for arguments in matching:
-            key = argument_key(arguments)
-            if key not in self._heard:
-                self._heard.add(key)
-                self._queue.append(arguments)
+        if isinstance(watched, Occurrences):
+            self._queue += watched.matching
+        elif self._step != self.context.step:
+            self._step = self.context.step
+            self._queue.append(NOTHING)
 
     def _react(self) -> Status:
         """Advance the reactions: RUNNING, or the failure of one."""

@@ -14,6 +14,7 @@ from osc2tx_runtime.language.tree.base import (
     Behaviour,
     Node,
     Status,
+    ended_late,
     pulse_of,
 )
 
@@ -58,6 +59,10 @@ class Overridden(Node, Decorator):
     def initialise(self) -> None:
         """Remember the pass of the start."""
         self._begun = self.context.tick
+
+    def lateness(self) -> float:
+        """Return that of the behavior, if it came to its end."""
+        return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0
 
     def pulse(self) -> Status:
         """Run the behavior unless it is overridden."""

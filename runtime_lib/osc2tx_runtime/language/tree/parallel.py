@@ -14,6 +14,7 @@ from osc2tx_runtime.language.tree.base import (
     SUCCESS,
     Behaviour,
     Status,
+    ended_late,
     place_key,
 )
 from osc2tx_runtime.language.tree.compositions import (
@@ -44,6 +45,9 @@ class Parallel(Composition, ParallelComposite):
 
     Bounded are members that end by themselves and take time. Open-ended members end with the
     last bounded one; without a bounded one they run on. A failing member fails the whole.
+
+    `On` and samples beside the members see all that happens at the last instant: the end waits
+    until it is settled.
 
     Other overlaps than `start` bound the starts and ends of the other members relative to those
     of the first, the primary one (`parallel_schedule`). The order of the others has no influence.
@@ -76,12 +80,17 @@ class Parallel(Composition, ParallelComposite):
         self._active: list[Member] = []
         self._bounding: frozenset[Behaviour] = frozenset()
         self._left = 0
+        self._stretched = False
+        self._late = (0, 0.0)
+        self._services: list[Member] = []
+        self._verdict: Status | None = None
         self._schedule: Schedule | None = None
         self._course: Course | None = None
 
     def setup(self, **kwargs: Any) -> None:
         """Plan the members, and find those that bound the composition."""
         super().setup(**kwargs)
+        self._services = [member for member in self._members if is_service(member[0])]
         self._bounding = frozenset(child for child in self._lasting() if not is_open(child))
         if self.overlap != "start" or self.start_to_start or self.end_to_end is not None:
             self._schedule = self._plan()
@@ -91,11 +100,30 @@ class Parallel(Composition, ParallelComposite):
         super().initialise()
         self._active = list(self._members)
         self._left = len(self._bounding)
+        self._late = (-1, 0.0)
+        self._verdict = None
+        self._stretched = False
         if self._schedule is not None:
             lasting = set(self._lasting())
             self._active = [member for member in self._members if member[0] not in lasting]
             timed = [member for member in self._members if member[0] in lasting]
             self._course = Course(self, timed, self._schedule, f"overlap {self.overlap}")
+
+    def _judged(self) -> Status:
+        """Judge a pass; an end is one once nothing more happens at this instant."""
+        if self._verdict is not None:
+            reacted = [pulse() for node, pulse in self._services if node.status is RUNNING]
+            if FAILURE in reacted:
+                self._verdict = FAILURE
+            if self.context.settled:
+                return self._verdict
+        else:
+            status = super()._judged()
+            if status is RUNNING or not self._services:
+                return status
+            self._verdict = status
+        self.context.request_settling()
+        return RUNNING
 
     def _lasting(self) -> list[Behaviour]:
         """Return the members the rules of time apply to; zero-time ones and `on` are none."""
@@ -163,14 +191,39 @@ class Parallel(Composition, ParallelComposite):
                 failed = True
             elif member[0] in self._bounding:
                 self._left -= 1
+                self._note_end(member[0])
         self._active = running
         if self._course is not None:
             return self._advance_course(failed)
         if failed:
             return FAILURE
         if not running or (self._bounding and not self._left and not self._instants_run()):
-            return SUCCESS
+            return RUNNING if self._stretches() else SUCCESS
         return RUNNING
+
+    def _stretches(self) -> bool:
+        """Return whether members without end of their own fill the rest of the least duration."""
+        limits = self._limits
+        self._stretched = (
+            limits is not None
+            and not self.context.first_come
+            and limits.left > 0
+            and any(is_open(child) and not is_service(child) for child, _ in self._active)
+        )
+        return self._stretched
+
+    def _goes_on(self) -> bool:
+        return self._content_open or self._stretched
+
+    def _note_end(self, member: Behaviour) -> None:
+        """Keep how late the last of the ends shows."""
+        step, late = self._late
+        ended = ended_late(member)
+        self._late = (self.context.step, min(late, ended) if step == self.context.step else ended)
+
+    def _content_lateness(self) -> float:
+        step, late = self._late
+        return late if step == self.context.step else super()._content_lateness()
 
     def _advance_course(self, failed: bool) -> Status:
         """Advance the members that the schedule is about."""

@@ -24,6 +24,7 @@ class Sampled:
         trigger: When it is sampled.
         default: Value before the first sample; MISSING for none.
         condition: With an event: only an occurrence at which this is true counts.
+        name: Name in the scenario, where its attribute cannot have it (`from`).
 
     Attributes:
         name: Name in the scenario; the scenario fills it in.
@@ -36,8 +37,9 @@ class Sampled:
         trigger: Trigger,
         default: Any = MISSING,
         condition: Guard | None = None,
+        name: str = "",
     ) -> None:
-        self.name = ""
+        self.name = name
         self.expression = expression
         self.trigger = trigger
         self.condition = condition

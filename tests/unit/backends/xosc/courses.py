@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 
 from lxml import etree
@@ -53,6 +54,7 @@ def shaped(shape: str, start: float, end: float, time: float) -> Course:
     return course
 
 
+@cache
 def with_jerk(
     start: tuple[float, float], end: float, limit: float, jerk: float
 ) -> tuple[Course, float]:
@@ -61,7 +63,7 @@ def with_jerk(
     Step by step: it speeds up as long as the speed would fall short if the acceleration were
     brought to zero from now on.
     """
-    h = 1e-4
+    h = 1e-3
     v, a = start
     points = [(0.0, v)]
     for step in range(1, 1_000_000):
@@ -71,7 +73,7 @@ def with_jerk(
         v += a * h
         if abs(v - end) < 1e-3 and abs(a) < 10.0 * jerk * h:
             break
-        if step % 100 == 0:
+        if step % 10 == 0:
             points.append((step * h, v))
     points.append((step * h, end))
     return lambda t: between(points, t), step * h

@@ -8,17 +8,19 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import combinations
 from pathlib import Path
 
 import pytest
 from lxml import etree
 
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, run_scenario
-from tests.unit.backends.xosc.documents import compiled
+from tests.unit.backends.xosc.documents import compiled, module_of
 
 Row = tuple[float, float, float, float]  # t, x, y, v
 
@@ -56,11 +58,15 @@ class Difference:
         return max((metres for metres, _ in self.apart.values()), default=0.0)
 
 
+@cache
+def module(path: Path, options: CompileOptions) -> GeneratedModule:
+    """Return the module of a file as a draft: black takes its time."""
+    return draft(module_of(compiled(path, options)))
+
+
 def world(path: Path, name: str, settings: RunSettings, options: CompileOptions) -> Played:
     """Return what the embedded world does."""
-    module = compiled(path, options).module
-    assert module is not None
-    with scenarios_of_module(module) as scenarios:
+    with scenarios_of_module(module(path, options)) as scenarios:
         result = run_scenario(scenarios[name], settings)
     assert result.status == "success", result.reason
     starts: dict[str, float] = {}

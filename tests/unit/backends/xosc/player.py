@@ -145,8 +145,8 @@ class Player:
         history = self.history.setdefault(condition, [])
         history.append((self.time, value))
         delay = number(condition, "delay")
-        past = [held for at, held in history if at <= self.time - delay + 1e-9]
-        return bool(past) and past[-1]
+        then = self.time - delay + 1e-9
+        return next((held for at, held in reversed(history) if at <= then), False)
 
     def _test(self, node: Node) -> bool:
         match node.tag:

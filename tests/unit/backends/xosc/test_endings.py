@@ -5,12 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.backends.py_trees.emitter import draft
 from osc2tx.catalogue import catalogue
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings, run_scenario
 from osc2tx_runtime.errors import UnsupportedError
-from tests.unit.backends.xosc.documents import compiled, documents
+from tests.unit.backends.xosc.documents import compiled, documents, module_of
 from tests.unit.backends.xosc.player import Player
 
 DT = 0.05
@@ -56,9 +57,7 @@ ACTIONS = {
 
 def in_the_world(path: Path, options: CompileOptions) -> float | None:
     """Return when the event occurs; `None` if the world refuses to wait for it."""
-    module = compiled(path, options).module
-    assert module is not None
-    with scenarios_of_module(module) as scenarios:
+    with scenarios_of_module(draft(module_of(compiled(path, options)))) as scenarios:
         try:
             result = run_scenario(scenarios["endings"], RunSettings(dt=DT))
         except UnsupportedError as error:

@@ -36,14 +36,14 @@ class Calls(Scenario):
         # Code of the user: runs only with --allow-external
         self.note = self.external("own_code.note")
         self.doubled = self.external("own_code.twice", float)
-        self.ego = Vehicle()
-        self.road = Map(map_file="highway.xodr")
+        self.ego = self.cast("ego", Vehicle())
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.reached = self.parameter("reached", False)
         self.passed = Event()
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.half(self.limit())))
+        self.place(self.ego, speed(self.half(self.limit())), throughout=True)
 
     # What the base leaves open
     def limit(self) -> Speed:

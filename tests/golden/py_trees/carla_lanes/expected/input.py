@@ -26,12 +26,13 @@ require_api(1)
 class CarlaLanes(Scenario):
     name = "carla_lanes"
     source = "input.osc"
+    first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.hero = Vehicle(name="ego_vehicle")
-        self.cone = StationaryObject()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.hero = self.cast("hero", Vehicle(name="ego_vehicle"))
+        self.cone = self.cast("cone", StationaryObject())
 
         # Events that the scenario uses without declaring them
         self.go = Event()

@@ -27,23 +27,27 @@ require_api(1)
 class Top(Scenario):
     name = "top"
     source = "input.osc"
+    first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
         self.town = self.parameter("town", "highway")
 
         # the map
-        self.path_map = Map(map_file=self.town)
+        self.path_map = self.cast("path.map", Map(map_file=self.town))
 
         # where to drive
-        self.path = RoadPath(
-            # at least three lanes
-            min_lanes=3,
-            min_length=200 * m,
+        self.path = self.argument(
+            "path",
+            RoadPath(
+                # at least three lanes
+                min_lanes=3,
+                min_length=200 * m,
+            ),
         )
-        self.ego_vehicle = Vehicle(model="vehicle.tesla.model3")
-        self.npc = Vehicle(model="vehicle.jeep.wrangler_rubicon")
-        self.guest = Person(model="walker.pedestrian.0002")
+        self.ego_vehicle = self.cast("ego_vehicle", Vehicle(model="vehicle.tesla.model3"))
+        self.npc = self.cast("npc", Vehicle(model="vehicle.jeep.wrangler_rubicon"))
+        self.guest = self.cast("guest", Person(model="walker.pedestrian.0002"))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

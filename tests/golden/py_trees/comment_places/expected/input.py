@@ -50,9 +50,9 @@ class Top(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         # First in its block.
-        self.one = Part()
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.one = self.argument("one", Part())
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
 
         # above a value
         self.v = self.parameter("v", 30 * kph, at_most(50 * kph))
@@ -62,8 +62,8 @@ class Top(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.v))
-        self.place(self.other, speed(self.v))
+        self.place(self.ego, speed(self.v), throughout=True)
+        self.place(self.other, speed(self.v), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Parallel(
@@ -86,7 +86,7 @@ class Top(Scenario):
         return Until(
             Serial(
                 "serial",
-                Wait(elapsed(0.5 * s)),
+                Wait(elapsed(1 * s)),
                 # emit over
             ),
             # Above the `with` of the serial.

@@ -41,14 +41,17 @@ class Comments(Scenario):
         """Cast, events and values."""
         # Above the map
         # beside the map
-        self.road = Map(
-            # above the constraint
-            # beside the constraint
-            map_file="highway.xodr"
+        self.road = self.cast(
+            "road",
+            Map(
+                # above the constraint
+                # beside the constraint
+                map_file="highway.xodr"
+            ),
         )
 
         # beside the actor
-        self.ego = Vehicle()
+        self.ego = self.cast("ego", Vehicle())
 
         # Above a value
         self.v = self.parameter("v", 50 * kph)
@@ -58,7 +61,7 @@ class Comments(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.v))
+        self.place(self.ego, speed(self.v), throughout=True)
 
     # Above do
     def behavior(self) -> Behaviour:
@@ -71,7 +74,7 @@ class Comments(Scenario):
                     # above a modifier
                     # beside a modifier
                     speed(self.v),
-                    duration=2 * s,
+                    duration=(1 * s, 2 * s),
                 ),
                 # above until
                 elapsed(1 * s),

@@ -29,9 +29,9 @@ class Compositions(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
 
     # Everything at once
     def behavior(self) -> Behaviour:

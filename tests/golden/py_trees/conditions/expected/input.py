@@ -35,9 +35,9 @@ class Conditions(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
         self.near = self.parameter("near", 20 * m)
         self.close = Event(
             rise(

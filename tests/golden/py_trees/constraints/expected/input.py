@@ -38,20 +38,25 @@ class Constraints(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego_bounding_box_length = self.parameter(
             "ego.bounding_box.length", within(4 * m, 5 * m)
         )
-        self.ego = Vehicle(
-            vehicle_category="car",
-            # set as `ego.bounding_box.length`
-            length=self.ego_bounding_box_length,
-            color="red",
+        self.ego = self.cast(
+            "ego",
+            Vehicle(
+                vehicle_category="car",
+                # set as `ego.bounding_box.length`
+                length=self.ego_bounding_box_length,
+                color="red",
+            ),
         )
         self.npc_bounding_box_length = self.parameter(
             "npc.bounding_box.length", within(4 * m, 5 * m)
         )
-        self.npc = Vehicle(vehicle_category="car", length=self.npc_bounding_box_length)
+        self.npc = self.cast(
+            "npc", Vehicle(vehicle_category="car", length=self.npc_bounding_box_length)
+        )
 
         # one bound and a default: the bound holds for settings
         self.gap = self.parameter("gap", 10 * m, at_least(3 * m))

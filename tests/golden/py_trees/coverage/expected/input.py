@@ -4,7 +4,17 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Event, Map, Scenario, Unit, Vehicle, main, require_api, rise
+from osc2tx_runtime import (
+    Behaviour,
+    Event,
+    Map,
+    Scenario,
+    Unit,
+    Vehicle,
+    main,
+    require_api,
+    rise,
+)
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import kph, m, s
 
@@ -17,9 +27,9 @@ class Coverage(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.npc = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.npc = self.cast("npc", Vehicle())
         self.fast = Event(rise(lambda: self.ego.speed > 50 * kph))
         self.gear = self.parameter("gear", 2)
         self.target = self.parameter("target", 60 * kph)

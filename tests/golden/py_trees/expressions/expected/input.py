@@ -4,7 +4,16 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import kph, m, mps, s
 
@@ -17,9 +26,9 @@ class Expressions(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
         self.a = self.parameter("a", 2.5)
         self.b = self.parameter("b", 7)
         self.v = self.parameter("v", 36 * kph)

@@ -72,15 +72,17 @@ class Extensions(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.state: Mood = self.parameter("state", "reckless")
         self.economical_spends = self.parameter(
             "economical.spends", within(100 * newton, 550 * newton)
         )
-        self.economical = Habits(pace=8 * mps, spends=self.economical_spends)
+        self.economical = self.argument(
+            "economical", Habits(pace=8 * mps, spends=self.economical_spends)
+        )
         self.fast_pace = self.parameter("fast.pace", within(14 * mps, 15 * mps))
-        self.fast = Habits(pace=self.fast_pace)
+        self.fast = self.argument("fast", Habits(pace=self.fast_pace))
         self.commute_top = self.parameter("commute.top", within(8 * mps, 15 * mps))
 
         self.keep(self.fast.pace > 14 * mps)

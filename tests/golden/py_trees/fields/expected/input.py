@@ -52,52 +52,72 @@ class Fields(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.env = Environment(
-            datetime=Environment.local_to_unix_time(2024, 6, 20, 12, 0, 0, 2.0),
-            geodetic_position=GeodeticPosition(latitude=48.1 * deg, longitude=11.6 * deg),
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.env = self.cast(
+            "env",
+            Environment(
+                datetime=Environment.local_to_unix_time(2024, 6, 20, 12, 0, 0, 2.0),
+                geodetic_position=GeodeticPosition(latitude=48.1 * deg, longitude=11.6 * deg),
+            ),
         )
 
         # Values of structs: of their members, and as a whole
-        self.place_ = Point(x=120 * m, y=-20 * m)
-        self.there = Pose(position=self.place_, yaw=90 * deg)
-        self.limit = Velocity(
-            translational=TranslationalVelocity(x=12 * mps),
-            angular=OrientationRate(yaw=0.2 * radps),
+        self.place_ = self.argument("place", Point(x=120 * m, y=-20 * m))
+        self.there = self.argument("there", Pose(position=self.place_, yaw=90 * deg))
+        self.limit = self.argument(
+            "limit",
+            Velocity(
+                translational=TranslationalVelocity(x=12 * mps),
+                angular=OrientationRate(yaw=0.2 * radps),
+            ),
         )
-        self.push = TranslationalAcceleration(x=3 * mpsps, y=4 * mpsps)
-        self.box = BoundingBox(length=5 * m, width=1.8 * m, height=1.5 * m)
-        self.driver = BehavioralModel(bm_engine=BmEngine(name="careful_driver"))
-        self.drizzle = Precipitation(intensity=0.5 * mmph)
-        self.ego = Vehicle(
-            bounding_box=self.box,
-            center=Point(x=1.4 * m),
-            center_of_gravity=Point(x=1.3 * m),
-            geometry_reference="limousine.glb",
-            initial_bm=self.driver,
-            role="civil",
-            trailer_receiver=HitchReceiver(hitch_type="ball", max_rotation=80 * deg),
+        self.push = self.argument("push", TranslationalAcceleration(x=3 * mpsps, y=4 * mpsps))
+        self.box = self.argument("box", BoundingBox(length=5 * m, width=1.8 * m, height=1.5 * m))
+        self.driver = self.argument(
+            "driver", BehavioralModel(bm_engine=BmEngine(name="careful_driver"))
         )
-        self.rear = Axle(
-            max_steering=0 * deg,
-            wheel_diameter=0.8 * m,
-            track_width=1.8 * m,
-            position_x=0 * m,
-            position_z=0.4 * m,
-            number_of_wheels=4,
+        self.drizzle = self.argument("drizzle", Precipitation(intensity=0.5 * mmph))
+        self.ego = self.cast(
+            "ego",
+            Vehicle(
+                bounding_box=self.box,
+                center=Point(x=1.4 * m),
+                center_of_gravity=Point(x=1.3 * m),
+                geometry_reference="limousine.glb",
+                initial_bm=self.driver,
+                role="civil",
+                trailer_receiver=HitchReceiver(hitch_type="ball", max_rotation=80 * deg),
+            ),
         )
-        self.van = Vehicle(
-            width=2.1 * m,
-            initial_bm=BehavioralModel(bm_engine=BmEngine(name="steady_driver")),
-            intended_infrastructure=["driving", "bus"],
-            axles={0: Axle(max_steering=30 * deg, track_width=1.7 * m), 1: self.rear},
+        self.rear = self.argument(
+            "rear",
+            Axle(
+                max_steering=0 * deg,
+                wheel_diameter=0.8 * m,
+                track_width=1.8 * m,
+                position_x=0 * m,
+                position_z=0.4 * m,
+                number_of_wheels=4,
+            ),
         )
-        self.load = Trailer(
-            trailer_category="central_axle_trailer",
-            coupler=HitchCoupler(hitch_type="ball"),
-            intended_infrastructure={0: "driving"},
+        self.van = self.cast(
+            "van",
+            Vehicle(
+                width=2.1 * m,
+                initial_bm=BehavioralModel(bm_engine=BmEngine(name="steady_driver")),
+                intended_infrastructure=["driving", "bus"],
+                axles={0: Axle(max_steering=30 * deg, track_width=1.7 * m), 1: self.rear},
+            ),
         )
-        self.walker = Person()
+        self.load = self.cast(
+            "load",
+            Trailer(
+                trailer_category="central_axle_trailer",
+                coupler=HitchCoupler(hitch_type="ball"),
+                intended_infrastructure={0: "driving"},
+            ),
+        )
+        self.walker = self.cast("walker", Person())
 
         # What follows from them
         self.overhang = self.ego.rear_overhang

@@ -70,9 +70,9 @@ class Top(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.car1 = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.car1 = self.cast("car1", Vehicle())
         self.told = Event(parameters={"v": None, "note": "x"})
         self.v_seen = self.sample(lambda: self.ego.speed, self.event("p1.near"), 0 * mps)
         self.done = Event()

@@ -6,7 +6,16 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 
 from typing import Literal, TypeAlias
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import kph, m, s
 
@@ -22,11 +31,11 @@ class Lists(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.npc = Vehicle()
-        self.fleet = [self.ego, self.npc]
-        self.speeds = [10 * kph, 20 * kph, 30 * kph]
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.npc = self.cast("npc", Vehicle())
+        self.fleet = self.argument("fleet", [self.ego, self.npc])
+        self.speeds = self.argument("speeds", [10 * kph, 20 * kph, 30 * kph])
         self.where: KindOfRoad = self.parameter("where", "rural")
         self.number = self.parameter("number", {"city": 3, "rural": 4, "highway": 5}[self.where])
         self.back: KindOfRoad = self.parameter("back", "highway")
@@ -34,13 +43,13 @@ class Lists(Scenario):
         self.cruise = self.parameter("cruise", self.speeds[1])
 
         # operators of lists within operators of lists
-        self.slow = [it / 2.0 for it in self.speeds if it < 25 * kph]
+        self.slow = self.argument("slow", [it / 2.0 for it in self.speeds if it < 25 * kph])
 
         self.keep(len(self.speeds) == 3 and any(it == 20 * kph for it in self.speeds))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.cruise))
+        self.place(self.ego, speed(self.cruise), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Serial(

@@ -43,41 +43,62 @@ class MapValues(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.red = TrafficLightPhase(
-            group=TrafficLightGroup(map_id="1"),
-            bulbs_state=["is_on", "is_off", "is_off"],
-            duration=5 * s,
+        self.red = self.argument(
+            "red",
+            TrafficLightPhase(
+                group=TrafficLightGroup(map_id="1"),
+                bulbs_state=["is_on", "is_off", "is_off"],
+                duration=5 * s,
+            ),
         )
-        self.cycle = TrafficLightCycle(phases=[self.red])
-        self.road = Map(map_file="urban_crossing.xodr", traffic_light_control=[self.cycle])
-        self.ego = Vehicle()
-        self.walker = Person()
-        self.lights = TrafficLightController()
+        self.cycle = self.argument("cycle", TrafficLightCycle(phases=[self.red]))
+        self.road = self.cast(
+            "road", Map(map_file="urban_crossing.xodr", traffic_light_control=[self.cycle])
+        )
+        self.ego = self.cast("ego", Vehicle())
+        self.walker = self.cast("walker", Person())
+        self.lights = self.cast("lights", TrafficLightController())
 
         # bounds are for the map to fill in
-        self.section = LaneSection(
-            length=at_least(100 * m),
-            min_lanes=at_least(2),
-            max_lanes=within(2, 4),
-            directionality="uni_direction",
+        self.section = self.argument(
+            "section",
+            LaneSection(
+                length=at_least(100 * m),
+                min_lanes=at_least(2),
+                max_lanes=within(2, 4),
+                directionality="uni_direction",
+            ),
         )
-        self.first = Lane(lane_section=self.section, lane_use="normal", width=within(3 * m, 4 * m))
-        self.near_side = Lane(lane_type="pedestrian")
-        self.far_side = Lane(lane_type="pedestrian")
-        self.over = Crossing(width=3 * m)
-        self.striped = Crossing(crossing_type=CrossingType(marking="zebra", use="pedestrian"))
+        self.first = self.argument(
+            "first", Lane(lane_section=self.section, lane_use="normal", width=within(3 * m, 4 * m))
+        )
+        self.near_side = self.argument("near_side", Lane(lane_type="pedestrian"))
+        self.far_side = self.argument("far_side", Lane(lane_type="pedestrian"))
+        self.over = self.argument("over", Crossing(width=3 * m))
+        self.striped = self.argument(
+            "striped", Crossing(crossing_type=CrossingType(marking="zebra", use="pedestrian"))
+        )
 
         # a route made of all sorts of things
-        self.place_ = GeodeticPoint(latitude=1 * deg, longitude=2 * deg, altitude=3 * m)
-        self.way = self.road.create_route([self.near_side, self.over, self.far_side])
-        self.to_place = self.road.create_route([self.first, self.place_], connect_points_by="lane")
-        self.light = TrafficLight(map_id="101")
-        self.line = TrafficLightStopLine(
-            traffic_light_group=self.light.group,
-            route=self.section,
-            rightmost_lane=1,
-            offset=100 * m,
-            primary_stop_line_marking="solid",
+        self.place_ = self.argument(
+            "place", GeodeticPoint(latitude=1 * deg, longitude=2 * deg, altitude=3 * m)
+        )
+        self.way = self.argument(
+            "way", self.road.create_route([self.near_side, self.over, self.far_side])
+        )
+        self.to_place = self.argument(
+            "to_place", self.road.create_route([self.first, self.place_], connect_points_by="lane")
+        )
+        self.light = self.argument("light", TrafficLight(map_id="101"))
+        self.line = self.argument(
+            "line",
+            TrafficLightStopLine(
+                traffic_light_group=self.light.group,
+                route=self.section,
+                rightmost_lane=1,
+                offset=100 * m,
+                primary_stop_line_marking="solid",
+            ),
         )
         self.stopped = Event(rise(lambda: self.light.bulbs[0].state == "is_on"))
         self.at_end = Event(
@@ -116,7 +137,7 @@ class MapValues(Scenario):
                 start_angle=80 * deg,
             ),
         )
-        self.place(self.walker, along(self.way), speed(1.5 * mps))
+        self.place(self.walker, along(self.way), speed(1.5 * mps), throughout=True)
         self.place(
             self.ego,
             along(self.section, start_offset=lambda: self.section.length - 80 * m),

@@ -4,7 +4,16 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Length, Speed, kph, m, s
 
@@ -19,13 +28,13 @@ class Methods(Scenario):
         """Cast, events and values."""
         # Holds in all scenarios of a run
         self.limit = self.global_parameter("limit", 50 * kph)
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.share(self.limit)))
+        self.place(self.ego, speed(self.share(self.limit)), throughout=True)
 
     # A method of the scenario becomes a method of its class.
     def share(self, v: Speed, part: float = 0.5) -> Speed:

@@ -4,7 +4,16 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Parallel, Scenario, Serial, Vehicle, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Parallel,
+    Scenario,
+    Serial,
+    Vehicle,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import position, speed
 from osc2tx_runtime.units import kph, s
 
@@ -22,15 +31,15 @@ class EventScenario(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.lambda_ = Vehicle()
-        self.place_ = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.lambda_ = self.cast("lambda", Vehicle())
+        self.place_ = self.cast("place", Vehicle())
         self.two_words = self.parameter("two words", 10 * kph)
         self.name_ = self.parameter("name", 2 * furlong)
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.lambda_, speed(self.two_words))
+        self.place(self.lambda_, speed(self.two_words), throughout=True)
         self.place(self.place_, position(self.name_, ahead_of=self.lambda_))
 
     def behavior(self) -> Behaviour:
@@ -59,8 +68,8 @@ class Quoting(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="high\"way{{ 1 }}'''.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="high\"way{{ 1 }}'''.xodr"))
+        self.ego = self.cast("ego", Vehicle())
 
     # a comment with """ and \ and {% raw %}
     def behavior(self) -> Behaviour:

@@ -85,9 +85,9 @@ class OwnEvents(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Probe()
-        self.other = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Probe())
+        self.other = self.cast("other", Vehicle())
         self.begun = Event()
         self.over = Event()
         self.reached = Event()
@@ -95,7 +95,7 @@ class OwnEvents(Scenario):
         self.heard = Event()
 
         # Too fast for its own good
-        self.ego_fast = Event(rise(lambda: self.ego.speed > self.ego.limit))
+        self.ego_fast = Event(rise(lambda: self.ego.speed > self.ego.limit), name="ego.fast")
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -7,7 +7,16 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 from dataclasses import dataclass
 from typing import Any
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Serial, Vehicle, Wait, main, require_api
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Serial,
+    Vehicle,
+    Wait,
+    main,
+    require_api,
+)
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, kph, s
 
@@ -53,10 +62,10 @@ class OwnMethods(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Coach(seats=30)
-        self.other = DoubleDecker(seats=40)
-        self.range_of_speed = Limits(low=10 * kph)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Coach(seats=30))
+        self.other = self.cast("other", DoubleDecker(seats=40))
+        self.range_of_speed = self.argument("range_of_speed", Limits(low=10 * kph))
         self.base = self.parameter("base", 10 * kph)
 
         # A value may need a method whose body needs a later value.
@@ -66,7 +75,7 @@ class OwnMethods(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.range_of_speed.middle()))
+        self.place(self.ego, speed(self.range_of_speed.middle()), throughout=True)
 
     def scaled(self, factor: float) -> Speed:
         return self.base * factor

@@ -29,8 +29,8 @@ class Demo(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
         self.slow_easy_side = self.parameter("slow.easy.side", within(1, 2))
 
     def placement(self) -> None:

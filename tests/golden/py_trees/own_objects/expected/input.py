@@ -94,22 +94,25 @@ class Top(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.limit = self.global_parameter("limit", 14 * mps)
-        self.road = Map(map_file="highway.xodr")
-        self.other = Vehicle()
-        self.rentals = Company(cars=[self.other])
-        self.rider = Person()
-        self.ego = Limousine(
-            trip=Journey(
-                first=Leg(most=2 * (8 * mps), pace=8 * mps, time_of=1 * s),
-                second=Leg(most=2 * (12 * mps), pace=12 * mps, time_of=1.5 * s),
-                stops=["home", "work"],
-                allowed=self.limit,
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.other = self.cast("other", Vehicle())
+        self.rentals = self.cast("rentals", Company(cars=[self.other]))
+        self.rider = self.cast("rider", Person())
+        self.ego = self.cast(
+            "ego",
+            Limousine(
+                trip=Journey(
+                    first=Leg(most=2 * (8 * mps), pace=8 * mps, time_of=1 * s),
+                    second=Leg(most=2 * (12 * mps), pace=12 * mps, time_of=1.5 * s),
+                    stops=["home", "work"],
+                    allowed=self.limit,
+                ),
+                owner=self.rentals,
+                guest=self.rider,
             ),
-            owner=self.rentals,
-            guest=self.rider,
         )
         self.names_1 = self.parameter("names.1", any_of("second", "third"))
-        self.names = ["first", self.names_1]
+        self.names = self.argument("names", ["first", self.names_1])
 
         self.keep(self.names[0] == "first")
         self.keep(self.names[1] in ["second", "third"])

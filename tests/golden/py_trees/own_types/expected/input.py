@@ -17,6 +17,7 @@ from osc2tx_runtime import (
     Vehicle,
     Wait,
     main,
+    not_given,
     require_api,
 )
 from osc2tx_runtime.modifiers import position, speed
@@ -35,6 +36,7 @@ class DrivingStyle:
     v: Speed = 10 * mps
     # To whoever is in front
     gap: Length
+    remarks: list[str] = not_given
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -85,16 +87,18 @@ class OwnTypes(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.style = CalmStyle(gap=12 * m)
-        self.start = Waypoint(x=100 * m, y=-8.75 * m, title="lane 2")
-        self.ego = TestCar(number=7, vehicle_category="truck")
-        self.coach = LongCar(vehicle_category="bus", doors=3, number=self.ego.number + 1)
-        self.kid = Child()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.style = self.argument("style", CalmStyle(gap=12 * m))
+        self.start = self.argument("start", Waypoint(x=100 * m, y=-8.75 * m, title="lane 2"))
+        self.ego = self.cast("ego", TestCar(number=7, vehicle_category="truck"))
+        self.coach = self.cast(
+            "coach", LongCar(vehicle_category="bus", doors=3, number=self.ego.number + 1)
+        )
+        self.kid = self.cast("kid", Child())
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, position(at_point=self.start), speed(self.style.v))
+        self.place(self.ego, position(at_point=self.start), speed(self.style.v), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Serial(

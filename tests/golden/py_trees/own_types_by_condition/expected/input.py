@@ -65,9 +65,9 @@ class Top(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = LoadedLorry(crew=2, load="full")
-        self.other = Lorry(load="empty")
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", LoadedLorry(crew=2, load="full"))
+        self.other = self.cast("other", Lorry(load="empty"))
 
     def behavior(self) -> Behaviour:
         return Serial(

@@ -4,7 +4,15 @@ Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 """
 
-from osc2tx_runtime import Behaviour, Map, Scenario, Vehicle, main, require_api, within
+from osc2tx_runtime import (
+    Behaviour,
+    Map,
+    Scenario,
+    Vehicle,
+    main,
+    require_api,
+    within,
+)
 from osc2tx_runtime.modifiers import lane, speed
 from osc2tx_runtime.units import kph, m, s
 
@@ -17,11 +25,14 @@ class Parameters(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle(
-            # a long one
-            vehicle_category="truck",
-            length=12 * m,
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast(
+            "ego",
+            Vehicle(
+                # a long one
+                vehicle_category="truck",
+                length=12 * m,
+            ),
         )
 
         # constant

@@ -39,33 +39,42 @@ class Paths(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.other = Vehicle()
-        self.cart = Trailer()
-        self.begin = Pose(x=110 * m, y=-8.75 * m)
-        self.aside = Pose(x=150 * m, y=-7 * m)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.other = self.cast("other", Vehicle())
+        self.cart = self.cast("cart", Trailer())
+        self.begin = self.argument("begin", Pose(x=110 * m, y=-8.75 * m))
+        self.aside = self.argument("aside", Pose(x=150 * m, y=-7 * m))
 
         # Three ways to say the same
-        self.spelled_out = Path(points=[self.begin, self.aside], interpolation="straight_line")
-        self.made = self.road.create_path([self.begin, self.aside], "straight_line")
-        self.kept = self.made
+        self.spelled_out = self.argument(
+            "spelled_out", Path(points=[self.begin, self.aside], interpolation="straight_line")
+        )
+        self.made = self.argument(
+            "made", self.road.create_path([self.begin, self.aside], "straight_line")
+        )
+        self.kept = self.argument("kept", self.made)
 
         # On the road network
-        self.first = OdrPoint(road_id="1", lane_id="-3", s=180 * m)
-        self.second = self.road.create_odr_point("1", "-2", 260 * m, 0 * m)
-        self.on_lanes = self.road.create_path_odr_points([self.first, self.second], "smooth", True)
+        self.first = self.argument("first", OdrPoint(road_id="1", lane_id="-3", s=180 * m))
+        self.second = self.argument("second", self.road.create_odr_point("1", "-2", 260 * m, 0 * m))
+        self.on_lanes = self.argument(
+            "on_lanes", self.road.create_path_odr_points([self.first, self.second], "smooth", True)
+        )
 
         # From where somebody is
-        self.step = RoutePoint(s=5 * m, t=0 * m)
-        self.leap = RoutePoint(s=40 * m, t=1 * m)
-        self.onward = RelativePathSt(points=[self.step, self.leap], interpolation="smooth")
-        self.in_time = self.road.create_trajectory(
-            [self.begin, self.aside], [0 * s, 4 * s], "straight_line"
+        self.step = self.argument("step", RoutePoint(s=5 * m, t=0 * m))
+        self.leap = self.argument("leap", RoutePoint(s=40 * m, t=1 * m))
+        self.onward = self.argument(
+            "onward", RelativePathSt(points=[self.step, self.leap], interpolation="smooth")
         )
-        self.ahead = Pose(x=330 * m, y=-8.75 * m)
-        self.beyond = Pose(x=390 * m, y=-8.75 * m)
-        self.corner = XyzPoint(position=Point(x=400 * m, y=-8.75 * m))
+        self.in_time = self.argument(
+            "in_time",
+            self.road.create_trajectory([self.begin, self.aside], [0 * s, 4 * s], "straight_line"),
+        )
+        self.ahead = self.argument("ahead", Pose(x=330 * m, y=-8.75 * m))
+        self.beyond = self.argument("beyond", Pose(x=390 * m, y=-8.75 * m))
+        self.corner = self.argument("corner", XyzPoint(position=Point(x=400 * m, y=-8.75 * m)))
         self.near_the_corner = Event()
 
     def placement(self) -> None:

@@ -101,15 +101,17 @@ class Shapes(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.lead = Vehicle()
-        self.walker = Person()
-        self.up = Ramp(first=10 * mps, last=14 * mps, length=4 * s)
-        self.out = Sway(rate=0.2 * mps)
-        self.round = Turn(rate=10 * degps)
-        self.near = Noted(rate_profile="smooth", note="gently")
-        self.plain = CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpsps, target=4 * mps)
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.lead = self.cast("lead", Vehicle())
+        self.walker = self.cast("walker", Person())
+        self.up = self.argument("up", Ramp(first=10 * mps, last=14 * mps, length=4 * s))
+        self.out = self.argument("out", Sway(rate=0.2 * mps))
+        self.round = self.argument("round", Turn(rate=10 * degps))
+        self.near = self.argument("near", Noted(rate_profile="smooth", note="gently"))
+        self.plain = self.argument(
+            "plain", CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpsps, target=4 * mps)
+        )
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
@@ -120,7 +122,7 @@ class Shapes(Scenario):
             position(40 * m, ahead_of=self.ego),
             speed(self.up.compute(2 * s)),
         )
-        self.place(self.walker, speed(self.plain.compute(500 * ms)))
+        self.place(self.walker, speed(self.plain.compute(500 * ms)), throughout=True)
 
     def behavior(self) -> Behaviour:
         return Parallel(

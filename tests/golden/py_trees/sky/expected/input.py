@@ -31,13 +31,13 @@ class Sky(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.home = GeodeticPosition(latitude=48 * deg, longitude=11 * deg)
-        self.env = Environment(geodetic_position=self.home)
-        self.s = self.env.sun
-        self.drizzle = Precipitation(intensity=1 * mmph)
-        self.dusk = CelestialPosition(elevation=2 * deg, azimuth=270 * deg)
-        self.ego = Vehicle()
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.home = self.argument("home", GeodeticPosition(latitude=48 * deg, longitude=11 * deg))
+        self.env = self.cast("env", Environment(geodetic_position=self.home))
+        self.s = self.argument("s", self.env.sun)
+        self.drizzle = self.argument("drizzle", Precipitation(intensity=1 * mmph))
+        self.dusk = self.argument("dusk", CelestialPosition(elevation=2 * deg, azimuth=270 * deg))
+        self.ego = self.cast("ego", Vehicle())
 
     def behavior(self) -> Behaviour:
         return Serial(

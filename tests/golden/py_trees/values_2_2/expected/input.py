@@ -27,13 +27,13 @@ class Values(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.road = Map(map_file="highway.xodr")
-        self.ego = Vehicle()
-        self.cruise = within(20 * kph, 40 * kph)
-        self.exact = within(30 * kph, 30 * kph)
-        self.steps = [within(1.0, 2.0), within(2.0, 3.0)]
+        self.road = self.cast("road", Map(map_file="highway.xodr"))
+        self.ego = self.cast("ego", Vehicle())
+        self.cruise = self.argument("cruise", within(20 * kph, 40 * kph))
+        self.exact = self.argument("exact", within(30 * kph, 30 * kph))
+        self.steps = self.argument("steps", [within(1.0, 2.0), within(2.0, 3.0)])
         self.text = self.parameter("text", "fast,faster")
-        self.words = self.text.split(",")
+        self.words = self.argument("words", self.text.split(","))
         self.joined = self.parameter("joined", "-".join(self.words))
         self.factor = self.parameter("factor", 1.5)
 
@@ -41,7 +41,7 @@ class Values(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, speed(self.cruise.low))
+        self.place(self.ego, speed(self.cruise.low), throughout=True)
 
     def float_doubled(self, value: float) -> float:
         return value * 2.0

@@ -1,0 +1,104 @@
+"""Names of what a module defines, and keys for them.
+
+What a file declares itself is named first, by its text alone: whatever it imports or is imported
+by, its classes have the same names.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
+from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, PHYSICAL_TYPES, STRUCT_CLASSES
+from osc2tx.backends.py_trees.type_table import class_key, enum_key
+from osc2tx.backends.py_trees.user_actions import action_key, has_function, protocol_key
+from osc2tx.catalogue import object_tables
+
+Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction
+
+# Names a module may import of the runtime; none of its own must hide them.
+RUNTIME_CLASSES = frozenset(
+    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values(), *PHYSICAL_TYPES.values()}
+    | {
+        "Actor",
+        "Behaviour",
+        "Call",
+        "Duration",
+        "Emit",
+        "End",
+        "Event",
+        "Fail",
+        "Late",
+        "Modifier",
+        "On",
+        "OneOf",
+        "OwnShape",
+        "Parallel",
+        "Range",
+        "Rgb",
+    }
+    | {"Any", "Protocol", "Scenario", "Serial", "Unit", "Until", "Wait", "pathlib", "sys"}
+)
+
+
+def key_of(declared: Declared) -> str:
+    """Return what tells a declaration apart from all others of a module."""
+    match declared:
+        case ir.Scenario():
+            return declared.key
+        case ir.UserType():
+            return class_key(declared.name)
+        case ir.UserEnum():
+            return enum_key(declared.name, declared.members)
+        case ir.UserAction():
+            return action_key(declared.owner, declared.name)
+
+
+def is_own(declared: Declared, module: ir.Module) -> bool:
+    """Return whether the file of a module declares something itself."""
+    return declared.span.source.name == module.source
+
+
+def declarations(module: ir.Module) -> tuple[Declared, ...]:
+    """Return all that a module has a name for."""
+    actions = (each for each in module.actions if has_function(each.owner, each.name))
+    return (*module.scenarios, *module.types, *module.enums, *actions)
+
+
+def has_module(module: ir.Module) -> bool:
+    """Return whether a file makes a module: one with scenarios does, and one with types.
+
+    One that declares actions for a package to carry out needs scenarios for it: the package may
+    have the name of the file, and the module would hide it.
+    """
+    own = [each for each in declarations(module) if is_own(each, module)]
+    has_scenario = any(isinstance(each, ir.Scenario) for each in own)
+    return has_scenario or (
+        any(isinstance(each, ir.UserType | ir.UserEnum) for each in own)
+        and not any(isinstance(each, ir.UserAction) for each in own)
+    )
+
+
+def own_names(module: ir.Module) -> NameTable:
+    """Return the names of what the file of a module declares itself."""
+    names = NameTable(RUNTIME_CLASSES | object_tables().enums)
+    for declared in declarations(module):
+        if is_own(declared, module):
+            add_name(names, declared)
+    return names
+
+
+def add_name(names: NameTable, declared: Declared) -> None:
+    """Name what a module defines."""
+    key = key_of(declared)
+    match declared:
+        case ir.Scenario():
+            names.add(key, class_name(declared.name.rpartition(".")[2]), "Scenario")
+        case ir.UserType():
+            names.add(key, class_name(declared.name), "Type")
+        case ir.UserEnum():
+            names.add(key, class_name(declared.name), "Enum")
+        case ir.UserAction():
+            names.add(key, identifier(declared.name), "_action")
+            names.add(protocol_key(key), class_name(declared.name), "Action")

@@ -1,0 +1,172 @@
+"""What a module imports of the modules of imported files, instead of holding a copy.
+
+A class is imported if the module of the file that declares it has the very same one: the IR of the
+declaration is the same in both programs, and so is that of all it refers to. An `extend` in the
+importing file, or constraints of an invocation that reach into the declaration, make another
+class of it, which is a copy of the importing module. So no declaration is two classes in one run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import Level, PyExpr
+from osc2tx.backends.py_trees.naming import NameTable
+from osc2tx.backends.py_trees.own_names import Declared, declarations, is_own, key_of, own_names
+from osc2tx.backends.py_trees.type_methods import TypeMethods
+from osc2tx.backends.py_trees.uses import isort_key
+from osc2tx.backends.py_trees.view import ImportView
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """Where something that a module imports is defined.
+
+    Attributes:
+        source: The file that declares it.
+        module: The module of that file, `lib.b`.
+        name: Its name there.
+    """
+
+    source: str
+    module: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Sharing:
+    """Where a module has its classes from.
+
+    Attributes:
+        homes: Key of what it imports, or what that imports, to where it is defined.
+        copies: Key of what it defines although another file declares it, to the reason why.
+    """
+
+    homes: Mapping[str, Home] = field(default_factory=dict)
+    copies: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Sibling:
+    """The module of an imported file, as that file alone makes it.
+
+    Attributes:
+        name: What to import it as.
+        module: Its IR.
+        sharing: Where it has its own classes from.
+    """
+
+    name: str
+    module: ir.Module
+    sharing: Sharing
+
+
+def share(module: ir.Module, siblings: Mapping[str, Sibling], apart: Mapping[str, str]) -> Sharing:
+    """Return what a module imports.
+
+    Args:
+        module: The module.
+        siblings: The modules that it may import, by the names of their sources.
+        apart: Why it may import none of the other sources.
+    """
+    ours = _Declarations(module)
+    theirs = {source: _Declarations(each.module) for source, each in siblings.items()}
+    foreign = [key for key, part in ours.parts.items() if not is_own(part, module)]
+    shared = {
+        key: source
+        for key in foreign
+        if (source := _source(ours.parts[key])) in siblings
+        and ours.is_same(key, theirs[source])
+        and not ours.references(key) & siblings[source].sharing.copies.keys()
+    }
+    while wrong := [key for key in shared if not ours.references(key) <= shared.keys()]:
+        for key in wrong:
+            del shared[key]
+    names = {source: own_names(siblings[source].module) for source in set(shared.values())}
+    return Sharing(
+        homes={k: Home(s, siblings[s].name, names[s][k].text) for k, s in shared.items()},
+        copies={k: _reason(ours.parts[k], apart) for k in foreign if k not in shared},
+    )
+
+
+def _reason(part: Declared, apart: Mapping[str, str]) -> str:
+    source = _source(part)
+    why = apart.get(source)
+    return f"A copy from {source}: " + (why or "here it is not as in that file alone")
+
+
+def sibling_imports(sharing: Sharing, names: NameTable) -> tuple[ImportView, ...]:
+    """Return the import lines for what a module refers to of others.
+
+    Args:
+        sharing: Where it may have its classes from.
+        names: All its names; those that were looked up are in its text.
+    """
+    found: dict[str, list[tuple[str, str]]] = {}
+    for key, home in sharing.homes.items():
+        if key in names.looked_up:
+            found.setdefault(home.module, []).append((home.name, str(names[key])))
+    return tuple(
+        ImportView(
+            module,
+            tuple(_imported(*pair) for pair in sorted(found[module], key=_order)),
+            is_long=True,
+        )
+        for module in sorted(found)
+    )
+
+
+def _order(pair: tuple[str, str]) -> tuple[int, str]:
+    return isort_key(pair[0])
+
+
+def _imported(name: str, alias: str) -> PyExpr:
+    return PyExpr(name if name == alias else f"{name} as {alias}", Level.ATOM)
+
+
+def _source(part: Declared) -> str:
+    return part.span.source.name
+
+
+class _Declarations:
+    """What a module declares, its own and that of imported files, by key."""
+
+    def __init__(self, module: ir.Module) -> None:
+        self.parts = {key_of(each): each for each in declarations(module)}
+        self._methods = TypeMethods(module.types, module.scenarios)
+
+    def is_same(self, key: str, other: _Declarations) -> bool:
+        """Whether another module has the same class, or the same function."""
+        there = other.parts.get(key)
+        return there is not None and ir.same(self._own(self.parts[key]), other._own(there))
+
+    def references(self, key: str) -> set[str]:
+        """Return the keys of what a class or function refers to, itself left out."""
+        words = set(ir.words(self._own(self.parts[key])))
+        found = {other for other, part in self.parts.items() if _mention(part) <= words}
+        return found - {key}
+
+    def _own(self, part: Declared) -> Declared:
+        """Return a declaration as far as its own class holds it, whoever uses it how."""
+        match part:
+            case ir.Scenario():
+                methods = tuple(each for each in part.methods if each.name not in self._methods)
+                return replace(part, is_imported=False, is_invoked=False, methods=methods)
+            case ir.UserType():
+                methods = tuple(method for _, method in self._methods.of(part.name))
+                return replace(part, fields=part.all_fields, unused=(), methods=methods)
+            case ir.UserEnum() | ir.UserAction():
+                return part
+
+
+def _mention(part: Declared) -> set[str]:
+    """Return the names that are in every reference to a declaration."""
+    match part:
+        case ir.Scenario():
+            return {part.key}
+        case ir.UserType() | ir.UserEnum():
+            return {part.name}
+        case ir.UserAction():
+            return {part.owner, part.name}

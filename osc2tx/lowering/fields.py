@@ -1,0 +1,154 @@
+"""Fields of a scenario, and global parameters, with what constraints say of them."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.combined_types import add_types, lineage
+from osc2tx.lowering.constraints import ConstraintLowering
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.list_constraints import lower_list
+from osc2tx.lowering.map_fields import reads_map
+from osc2tx.lowering.objects import ObjectLowering
+from osc2tx.lowering.parameter_domains import all_values
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+
+
+class FieldLowering:
+    """Lowers fields that are not sampled: objects, lists and plain values.
+
+    Args:
+        ctx: The checked program.
+        constraints: What constraints say.
+    """
+
+    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
+        """See the class."""
+        self._ctx = ctx
+        self._constraints = constraints
+        self._objects = ObjectLowering(ctx, constraints)
+
+    def lower(
+        self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Actor | ir.Struct | ir.Parameter | None:
+        """Return the declaration of a field; `None` if it was refused.
+
+        Args:
+            symbol: The field.
+            span: Its name in the source.
+            comments: Comment lines above it.
+        """
+        # A variable without initial value has one all the same (§7.3.6.1.2): from outside.
+        match symbol.type:
+            case types.ActorType():
+                actor = self._objects.types_of(symbol)
+                add_types(self._ctx, actor, span)
+                names = lineage(*actor)
+                is_given = self._is_given(symbol) and self._objects.is_open(symbol)
+                return ir.Actor(
+                    name=symbol.name,
+                    span=span,
+                    comments=comments,
+                    type=names[0],
+                    lineage=names,
+                    values=() if is_given else self._objects.values(symbol),
+                    is_given=is_given,
+                )
+            case types.StructType() if self._is_for_caller(symbol):
+                return ir.Parameter(
+                    name=symbol.name,
+                    span=span,
+                    comments=comments,
+                    type=lower_type(symbol.type),
+                    value=None,
+                    domain=None,
+                    is_fixed=False,
+                )
+            case types.StructType():
+                struct = self._objects.types_of(symbol)
+                add_types(self._ctx, struct, span)
+                return self._objects.struct(symbol, span, comments, lineage(*struct))
+            case types.ListType() | types.RangeType() if not self._has_value(symbol):
+                return self._described(symbol, span, comments)
+            case (
+                types.PrimitiveType()
+                | types.PhysicalType()
+                | types.EnumType()
+                | types.ListType()
+                | types.RangeType()
+            ):
+                return self._parameter(symbol, span, comments)
+            case _:
+                self._ctx.unsupported(
+                    "OSC501", span, f"a field of type `{symbol.type}` is not supported yet"
+                )
+                return None
+
+    def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether nothing but an invocation says what a struct is."""
+        assert isinstance(symbol.type, types.StructType)
+        if symbol.default is not None or not self._is_given(symbol):
+            return False
+        if symbol.type.symbol.origin == "user":
+            return self._objects.is_open(symbol)
+        return not self._objects.is_said(symbol)
+
+    def _has_value(self, symbol: sym.FieldSymbol) -> bool:
+        if symbol.default is not None or self._is_given(symbol):
+            return True
+        setting = self._constraints.setting((symbol,), symbol.type)
+        return setting.value is not None
+
+    def _described(
+        self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Parameter | None:
+        """Lower a list that constraints describe by its elements."""
+        is_list = isinstance(symbol.type, types.ListType)
+        value = lower_list(self._ctx, symbol, self._constraints) if is_list else None
+        if value is None:
+            self._ctx.unsupported(
+                "OSC501",
+                span,
+                f"`{symbol.name}`, a {symbol.type}, has no value",
+                help="give it one, `= value`, or say what its elements are, `keep(it[0] == value)`",
+            )
+            return None
+        return ir.Parameter(
+            name=symbol.name,
+            span=span,
+            comments=comments,
+            type=lower_type(symbol.type),
+            value=value,
+            domain=None,
+            is_fixed=False,
+        )
+
+    def _is_given(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether some invocation of the scenario gives a parameter a value."""
+        return symbol in self._ctx.handed_in
+
+    def _parameter(
+        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Parameter:
+        setting = self._constraints.setting((field,), field.type)
+        domain = setting.domain
+        if setting.value is not None and reads_map(setting.value):
+            self._ctx.unsupported(
+                "OSC501",
+                setting.value.span,
+                f"`{field.name}` is computed before the run, when the map is not known yet",
+                help="write the expression where it is needed",
+            )
+        if setting.value is None and domain is None:
+            domain = all_values(field.type, span)
+        return ir.Parameter(
+            name=field.name,
+            span=span,
+            comments=(*comments, *setting.comments),
+            type=lower_type(field.type),
+            value=setting.value,
+            domain=domain,
+            is_fixed=setting.is_fixed,
+        )

@@ -1,0 +1,75 @@
+"""Global parameters (§7.3.14) in the scenarios that use them: one value or object for a run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from osc2tx import ir
+from osc2tx.lowering.composed_behaviors import Composed
+from osc2tx.lowering.constraints import ConstraintLowering
+from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.fields import FieldLowering
+from osc2tx.lowering.global_names import global_name
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.syntax import ast
+
+
+class GlobalLowering:
+    """Lowers the global parameters that one scenario uses.
+
+    A global actor is there for the whole run, mentioned or not: a scenario that no other one of
+    the program invokes has all of them.
+
+    Args:
+        ctx: The checked program; what is used is noted there.
+        scenario: The scenario.
+        constraints: What its own constraints say: they may be about members of global objects.
+    """
+
+    def __init__(
+        self, ctx: LoweringContext, scenario: Composed, constraints: ConstraintLowering
+    ) -> None:
+        """See the class."""
+        self._ctx = ctx
+        self._own = constraints
+        self._lowered: dict[str, ir.Actor | ir.Struct | ir.Parameter | None] = {}
+        self.constraints: tuple[ir.Constraint, ...] = ()
+        is_invoked = any(b.callee is scenario for b in ctx.model.bindings.values())
+        for symbol in ctx.model.global_parameters:
+            is_cast = isinstance(symbol.type, types.ActorType) and not is_invoked
+            if is_cast or self._is_constrained(symbol):
+                global_name(ctx, symbol)
+        self.lower()
+
+    def lower(self) -> tuple[ir.Declaration, ...]:
+        """Return the global parameters that were used so far; those of `constraints` included."""
+        while missing := [name for name in self._ctx.globals if name not in self._lowered]:
+            for name in missing:  # one global may be defined by another
+                self._lowered[name] = self._declaration(name, self._ctx.globals[name])
+        found = [d for d in self._lowered.values() if d is not None]
+        return tuple(sorted(found, key=lambda d: (d.span.source.name, d.span.start)))
+
+    def _is_constrained(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether the scenario says something of a member of a global object."""
+        keys = self._own.found.by_key
+        return any(key[0] is symbol and len(key) > 1 for key in keys)
+
+    def _declaration(
+        self, name: str, symbol: sym.FieldSymbol
+    ) -> ir.Actor | ir.Struct | ir.Parameter | None:
+        own = self._own if self._is_constrained(symbol) else None
+        constraints = own or ConstraintLowering.of_global(self._ctx, symbol)
+        before = len(self._ctx.drawn)
+        fields = FieldLowering(self._ctx, constraints)
+        declaration = fields.lower(symbol, symbol.span, self._comments(symbol))
+        drawn = self._ctx.drawn[before:]
+        self._ctx.drawn[before:] = [replace(parameter, is_global=True) for parameter in drawn]
+        if own is None:
+            self.constraints += constraints.left_over()
+        return None if declaration is None else replace(declaration, name=name, is_global=True)
+
+    def _comments(self, symbol: sym.FieldSymbol) -> tuple[str, ...]:
+        statements = (s for file in self._ctx.model.files for s in file.statements)
+        shared = (s for s in statements if isinstance(s, ast.GlobalParameter))
+        return next((statement_comments(s) for s in shared if s.parameter is symbol.node), ())

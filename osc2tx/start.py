@@ -1,0 +1,21 @@
+"""The first lines of the process: Ctrl-C ends it quietly also while the command line is loaded."""
+
+from __future__ import annotations
+
+import os
+import signal
+from typing import NoReturn
+
+_INTERRUPTED = 130
+
+
+def main() -> NoReturn:
+    """Run the command line and end the process."""
+    try:
+        signal.signal(signal.SIGINT, lambda number, frame: os._exit(_INTERRUPTED))
+        from osc2tx.cli import main as run
+
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        run()
+    except KeyboardInterrupt:  # outside of the commands
+        os._exit(_INTERRUPTED)

@@ -1,0 +1,78 @@
+"""A world of somebody else's, whose answers are checked: everything in a run computes with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
+
+from osc2tx_runtime.errors import OwnCode, ScenarioError, name_of
+from osc2tx_runtime.world.embedded import EmbeddedWorld
+from osc2tx_runtime.world.kinematics import Kinematics
+from osc2tx_runtime.world.protocol import LightState, Progress, World
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.value_checks import problem_of
+
+__all__ = ["checked_world"]
+
+# What attributes are, and what methods return; nobody looks at what the others do.
+ANSWERS: Mapping[str, Any] = {
+    "actors": Sequence[str],
+    "capabilities": frozenset,
+    "collisions": Sequence[tuple[str, str]],
+    "control": str,
+    "dt": float,
+    "environment": Mapping[str, float],
+    "lights": LightState,
+    "motion": Kinematics,
+    "name": str,
+    "overloads": Sequence[Any],
+    "progress": Progress,
+    "set_lights": LightState,
+    "state": ActorState,
+    "take_notes": Sequence[tuple[str, Mapping[str, Any]]],
+    "trailer_of": str | None,
+}
+
+
+def checked_world(world: object) -> World:
+    """Return a world that names itself when it answers garbage or fails.
+
+    The world of this package needs no checks: it checks what its plant answers.
+    """
+    if type(world) is EmbeddedWorld:
+        return world
+    return cast(World, _CheckedWorld(world))
+
+
+class _CheckedWorld:
+    """Hands every call on to a world of the user's own."""
+
+    def __init__(self, world: object) -> None:
+        self._world = world
+        self._told = f"the world {name_of(type(world))}"
+
+    def __getattr__(self, name: str) -> Any:
+        """Return an attribute of the world; methods check what they return."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        with OwnCode(f"{self._told} raised"):
+            found = getattr(self._world, name)
+        wanted = ANSWERS.get(name, Any)
+        if callable(found):
+            return self._method(name, found, wanted)
+        return self._sound(name, found, wanted)
+
+    def _method(self, name: str, function: Callable[..., Any], wanted: Any) -> Callable[..., Any]:
+        def call(*arguments: Any, **more: Any) -> Any:
+            with OwnCode(f"{self._told} raised"):
+                found = function(*arguments, **more)
+            return self._sound(name, found, wanted)
+
+        self.__dict__[name] = call  # looked up once
+        return call
+
+    def _sound(self, name: str, found: Any, wanted: Any) -> Any:
+        problem = problem_of(found, wanted)
+        if problem:
+            raise ScenarioError(f"{self._told}: {name}: {problem}")
+        return found

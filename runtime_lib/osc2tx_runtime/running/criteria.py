@@ -1,0 +1,90 @@
+"""What a run must not do: the criteria of `--fail-on`.
+
+The tree of a scenario says whether what it asks for came about. A criterion makes a run fail
+whatever the tree says: a collision, a vehicle that leaves the lanes, one that passes a light
+which says stop.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.language.settings import FAIL_ON
+from osc2tx_runtime.opendrive import DRIVING
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["Criteria"]
+
+_REACH = 1.0  # m beyond the way of one step in which a stop line is looked for
+
+
+class Criteria:
+    """The criteria of one run.
+
+    Args:
+        context: The run.
+
+    Attributes:
+        broken: What was against a criterion: `collision of a and b at 3.20 s`.
+    """
+
+    def __init__(self, context: ExecutionContext) -> None:
+        self._context = context
+        self._wanted = frozenset(context.settings.fail_on) & frozenset(FAIL_ON)
+        self._on_road: dict[str, bool] = {}
+        self._lines: dict[str, tuple[str, float, ActorState]] = {}
+        self._time = 0.0
+        self.broken: list[str] = []
+        self._look()
+
+    def observe(self, step: int) -> None:
+        """Look at what the way to a step has brought about."""
+        if not self._wanted:
+            return
+        self._time = step * self._context.dt
+        if "collision" in self._wanted:
+            for one, other in self._context.world.collisions():
+                self._break(f"collision of {one} and {other}")
+        self._look()
+
+    def _look(self) -> None:
+        if not self._wanted - {"collision"}:
+            return
+        context = self._context
+        for actor_id in context.cast():
+            if "vehicle" not in context.actors[actor_id].kinds:
+                continue
+            state = context.world.state(actor_id)
+            if "off_road" in self._wanted:
+                self._look_at_lane(actor_id, state)
+            if "red_light" in self._wanted:
+                self._look_at_lights(actor_id, state)
+
+    def _look_at_lane(self, actor_id: str, state: ActorState) -> None:
+        """Note a vehicle that was on a driving lane and no longer is."""
+        place, road_map = state.lane_position, self._context.world.map
+        here = place is not None and (
+            road_map.lane_type(place.road, place.lane, place.s) in DRIVING
+        )
+        if self._on_road.get(actor_id) and not here:
+            self._break(f"{actor_id} off the road")
+        self._on_road[actor_id] = here
+
+    def _look_at_lights(self, actor_id: str, state: ActorState) -> None:
+        """Note a vehicle whose front has passed the line of a light that said stop."""
+        ahead = self._lines.pop(actor_id, None)
+        if ahead is not None:
+            signal, gap, before = ahead
+            if math.hypot(state.x - before.x, state.y - before.y) > gap:
+                self._break(f"{actor_id} past the red light {signal}")
+        reach = state.shape.front + abs(state.v) * self._context.dt + _REACH
+        line = self._context.world.stop_line(state, None, reach) if state.v > 0.0 else None
+        if line is not None and line.strict:
+            self._lines[actor_id] = (line.signal, line.distance - state.shape.front, state)
+
+    def _break(self, what: str) -> None:
+        self.broken.append(f"{what} at {self._time:.2f} s")

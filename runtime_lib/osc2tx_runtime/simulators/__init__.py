@@ -1,0 +1,1 @@
+"""Simulators behind the seam of `world.plant`; each is imported when a run asks for it."""

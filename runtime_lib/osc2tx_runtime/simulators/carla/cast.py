@@ -1,0 +1,197 @@
+"""What belongs to an actor in CARLA."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from osc2tx_runtime.opendrive import Pose
+from osc2tx_runtime.world.actor_dimensions import MODELS
+from osc2tx_runtime.world.measurement import Measurement
+from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
+from osc2tx_runtime.world.scene import Setpoint
+from osc2tx_runtime.world.state import ActorState
+
+from .frames import measurement_from, transform_of, vector_of
+from .gains import CAR, GAINS
+from .tracking import SpeedControl, Steering, walking
+
+__all__ = ["ABOVE", "CastMember", "Command", "member_of"]
+
+Command = Sequence[Any]
+"""Name, number of the actor in CARLA, values; see `client.commands`."""
+
+ABOVE = 0.3
+"""Metres above the ground at which those begin that physics moves: they fall on their feet."""
+
+SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
+STILL = 0.05  # m/s
+SLOW_STARTER = 2.0  # m/s^2: trucks, buses and bicycles accelerate less
+
+
+@dataclass
+class CastMember:
+    """An actor of the scenario that is one of CARLA's.
+
+    Attributes:
+        spec: What the scenario knows of it.
+        actor: Its number in CARLA.
+        blueprint: What it is made from.
+        control: Who moves it.
+        ahead: Metres from its origin in CARLA forwards to its reference point.
+        up: Metres from the ground to that origin.
+        size: Length, width and height (m) in CARLA.
+        foreign: Somebody else spawned it.
+        now: The latest measurement; None while it is exactly where it is wished.
+    """
+
+    spec: ActorSpec
+    actor: int
+    blueprint: str
+    control: ControlMode
+    ahead: float
+    up: float
+    size: tuple[float, float, float]
+    steering: Steering
+    speed: SpeedControl
+    foreign: bool = False
+    now: Measurement | None = None
+    _physics: bool = True
+    _placed: Sequence[float] | None = None
+
+    @property
+    def is_vehicle(self) -> bool:
+        """Whether it has wheels, pedals and lights."""
+        return self.blueprint.startswith("vehicle.")
+
+    @property
+    def other_size(self) -> bool:
+        """Whether the simulator has another size of it than the scenario."""
+        shape = self.spec.shape
+        sizes = zip(self.size, (shape.length, shape.width, shape.height), strict=True)
+        return any(abs(theirs - ours) > SIZE_NOTED for theirs, ours in sizes)
+
+    def transform(self, state: ActorState) -> list[float]:
+        """Where CARLA has it in a state."""
+        pose = Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
+        return transform_of(pose, self.ahead, self.up)
+
+    def measured(self, state: Sequence[float]) -> Measurement:
+        """Note how it moves."""
+        self.now = measurement_from(state, self.ahead, self.up)
+        return self.now
+
+    def deviation(self, state: Sequence[float]) -> float:
+        """Metres between where it was put and where it is."""
+        return 0.0 if self._placed is None else math.dist(self._placed[:3], state[:3])
+
+    # --- commands of a step -------------------------------------------------------------------
+
+    def first(self, setpoint: Setpoint) -> list[Command]:
+        """Return what puts it where it starts, standing."""
+        if setpoint.towed or self.control == "exact":
+            return self._exact(setpoint)
+        x, y, z, *turn = self.transform(setpoint.state)
+        commands: list[Command] = [("place", self.actor, x, y, z + ABOVE, *turn)]
+        if self.foreign:
+            commands.append(("velocity", self.actor, 0.0, 0.0, 0.0))
+        if self.control == "driven" and self.is_vehicle:
+            commands.append(("control", self.actor, 0.0, 0.0, 1.0, True, False))
+        return commands
+
+    def kick(self, setpoint: Setpoint) -> list[Command]:
+        """Return what gives it its speed at once."""
+        state = setpoint.state
+        if setpoint.towed or self.control == "exact" or self.foreign:
+            return []
+        return [self._velocity(state)]
+
+    def commands(self, setpoint: Setpoint, dt: float) -> list[Command]:
+        """Return what brings its setpoint about."""
+        if setpoint.towed or self.control == "exact":
+            return self._exact(setpoint)
+        commands = self._with_physics(True)
+        if setpoint.jumps:
+            commands.append(("place", self.actor, *self.transform(setpoint.state)))
+        if setpoint.jumps or setpoint.kicked:
+            self.speed.reset()
+            return [*commands, self._velocity(setpoint.state)]
+        if self.control == "driven" and self.now is not None:
+            commands.append(self._driven(setpoint, self.now, dt))
+        return commands
+
+    def _velocity(self, state: ActorState) -> Command:
+        return ("velocity", self.actor, *vector_of(state.v, state.h))
+
+    def _with_physics(self, wanted: bool) -> list[Command]:
+        if self._physics == wanted:
+            return []
+        self._physics = wanted
+        return [("physics", self.actor, wanted)]
+
+    def _exact(self, setpoint: Setpoint) -> list[Command]:
+        self.now = None
+        commands = self._with_physics(False) if self.spec.movable else []
+        place = self.transform(setpoint.state)
+        if place != self._placed:
+            self._placed = place
+            commands.append(("place", self.actor, *place))
+        return commands
+
+    def _driven(self, setpoint: Setpoint, now: Measurement, dt: float) -> Command:
+        if not self.is_vehicle:
+            x, y, speed = walking(setpoint, now, dt)
+            return ("walk", self.actor, x, -y, speed)
+        state, speed = setpoint.state, now.velocity[0]
+        pedals = self.speed.pedals(state.v, state.a, speed, dt)
+        steer = self.steering.steer(setpoint, now)
+        standing = state.v == 0.0 and abs(speed) < STILL
+        throttle, brake, reverse = pedals
+        return ("control", self.actor, throttle, steer, brake, standing, reverse)
+
+
+def member_of(spec: ActorSpec, found: Mapping[str, Any], control: ControlMode) -> CastMember:
+    """Return the member for an actor as the session describes it."""
+    middle, half_length, half_width, half_height = found["box"]
+    shape = spec.shape
+    # The boxes of both worlds lie one upon the other, from the rear end on.
+    ahead = middle - half_length + shape.rear if shape.wheelbase > 0.0 else 0.0
+    gains = GAINS.get(_category(spec), CAR)
+    largest = math.radians(found["steering"]) if "steering" in found else shape.steering
+    return CastMember(
+        spec,
+        found["id"],
+        found["type"],
+        control,
+        ahead,
+        half_height if found["type"].startswith("walker.") else 0.0,
+        (2.0 * half_length, 2.0 * half_width, 2.0 * half_height),
+        Steering(_wheelbase(found, shape.wheelbase), largest, gains),
+        SpeedControl(gains),
+    )
+
+
+def _category(spec: ActorSpec) -> str:
+    """What a vehicle drives like: by its model, else by its size and strength."""
+    if spec.model in MODELS:
+        return MODELS[spec.model][0]
+    slow = spec.limits.acceleration < SLOW_STARTER
+    if spec.shape.width < 1.2:
+        return "bicycle" if slow else "motorcycle"
+    return "heavy_truck" if slow else "car"
+
+
+def _wheelbase(found: Mapping[str, Any], otherwise: float) -> float:
+    """Metres between the axles, from the places of the wheels (cm), front ones first."""
+    wheels = found.get("wheels", ())
+    if len(wheels) < 2:
+        return otherwise
+    half = len(wheels) // 2
+    return 0.01 * math.dist(_middle(wheels[:half]), _middle(wheels[half:]))
+
+
+def _middle(points: Sequence[Sequence[float]]) -> tuple[float, float]:
+    count = len(points)
+    return sum(x for x, _ in points) / count, sum(y for _, y in points) / count

@@ -1,0 +1,17 @@
+"""The process that holds CARLA's client library.
+
+Requests come as lines of JSON, `[number, name, arguments]`, and are answered by `[number, kind,
+value]`: a kind is a value, an error or a bug. Names are those of the methods of
+`session.Session`. The end of the input ends the session: its actors are destroyed, and the
+settings are restored.
+"""
+
+from __future__ import annotations
+
+__all__ = ["LETTING_GO", "MISSING"]
+
+MISSING = 3
+"""Exit code where the client library is not installed."""
+
+LETTING_GO = 60
+"""How long (s) the process tries to let go of a server at most."""

@@ -1,0 +1,49 @@
+"""Commands of a step: a name, the id of an actor, and values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import carla
+
+command = carla.command
+
+
+def _control(actor: int, *values: Any) -> Any:
+    """Throttle, steer, brake, hand brake, reverse."""
+    return command.ApplyVehicleControl(actor, carla.VehicleControl(*values))
+
+
+def _walk(actor: int, x: float, y: float, speed: float) -> Any:
+    return command.ApplyWalkerControl(
+        actor, carla.WalkerControl(carla.Vector3D(x, y, 0.0), speed, False)
+    )
+
+
+def _place(actor: int, *pose: float) -> Any:
+    x, y, z, pitch, yaw, roll = pose
+    return command.ApplyTransform(
+        actor, carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
+    )
+
+
+def _lights(actor: int, flags: int) -> Any:
+    return command.SetVehicleLightState(actor, carla.VehicleLightState(flags))
+
+
+COMMANDS: Mapping[str, Callable[..., Any]] = {
+    "control": _control,
+    "walk": _walk,
+    "place": _place,
+    "velocity": lambda actor, x, y, z: command.ApplyTargetVelocity(actor, carla.Vector3D(x, y, z)),
+    "physics": command.SetSimulatePhysics,
+    "autopilot": command.SetAutopilot,
+    "lights": _lights,
+}
+
+
+def command_of(given: Sequence[Any]) -> Any:
+    """Return a command of a batch."""
+    name, *values = given
+    return COMMANDS[name](*values)

@@ -1,0 +1,42 @@
+"""Serves requests until the input ends."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import traceback
+
+from . import LETTING_GO, MISSING
+
+
+def main() -> int:
+    """Serve a session."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # who started it decides
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # the library prints warnings
+    try:
+        from .session import Session
+    except ImportError as error:
+        if error.name != "carla":
+            raise
+        return MISSING
+    session = Session()
+    try:
+        for line in sys.stdin:
+            number, name, arguments = json.loads(line)
+            try:
+                answer = [number, "value", getattr(session, name)(*arguments)]
+            except RuntimeError as error:  # all that the library raises
+                answer = [number, "error", str(error)]
+            except Exception:  # goes on, on the other side
+                answer = [number, "bug", traceback.format_exc()]
+            answers.write(json.dumps(answer) + "\n")
+            answers.flush()
+    except BrokenPipeError:
+        pass  # nobody is there any more to be answered
+    finally:
+        signal.alarm(LETTING_GO)
+        session.close()
+    return 0

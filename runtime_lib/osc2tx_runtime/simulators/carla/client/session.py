@@ -1,0 +1,300 @@
+"""A session with a server: what it changes it undoes in the end."""
+
+from __future__ import annotations
+
+import math
+import socket
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import carla
+
+from .commands import command_of
+from .snapshots import Collisions, actor_state, light_states
+
+POLL = 0.1  # s between two looks for an actor of somebody else
+SUBSTEP, MOST_SUBSTEPS = 0.01, 16
+"""s, and how many of them the server makes in a step at most."""
+
+
+class Session:
+    """A session; its methods are the requests, with values that JSON knows."""
+
+    def __init__(self) -> None:
+        self._own: list[int] = []
+        self._settings: Any = None
+        self._ticks = False
+        self._frozen = False
+        self._collisions = Collisions()
+        self._sensors: list[Any] = []
+        self._lights: dict[str, Any] = {}
+        self._manager: Any = None
+        self._frame: int | None = None
+        self._watched: list[int] = []
+
+    # --- connection and map -------------------------------------------------------------------
+
+    def connect(self, host: str, port: int, timeout: float) -> Mapping[str, Any]:
+        """Return the versions of server and client, and whether somebody else owns the time."""
+        self._address = (host, port)
+        self._client = carla.Client(host, port)
+        self._client.set_timeout(timeout)
+        self._timeout = timeout
+        found = {
+            "server": self._client.get_server_version(),
+            "client": self._client.get_client_version(),
+        }
+        if found["server"] == found["client"]:  # others may not even have the same calls
+            self._world = self._client.get_world()
+            settings = self._world.get_settings()
+            found["synchronous"] = settings.synchronous_mode
+            if settings.synchronous_mode:
+                found["dt"] = settings.fixed_delta_seconds
+        return found
+
+    def level(self) -> Mapping[str, Any]:
+        """Return name, OpenDRIVE text and spawn points of the level, and which maps there are."""
+        found = self._world.get_map()
+        return {
+            "name": found.name.rpartition("/")[2],
+            "text": found.to_opendrive(),
+            "spawn_points": [written(point) for point in found.get_spawn_points()],
+        }
+
+    def maps(self) -> Sequence[str]:
+        """Return the names of the maps that the server has."""
+        return [each.rpartition("/")[2] for each in self._client.get_available_maps()]
+
+    def load(self, name: str) -> None:
+        """Load a map of the server."""
+        self._world = self._client.load_world(name)
+
+    def generate(self, text: str) -> None:
+        """Make a level from OpenDRIVE text."""
+        parameters = carla.OpendriveGenerationParameters()
+        self._world = self._client.generate_opendrive_world(text, parameters)
+
+    def blueprints(self) -> Mapping[str, Mapping[str, Sequence[str]]]:
+        """Return recommended values of the attributes of all blueprints."""
+        return {
+            blueprint.id: {
+                attribute.id: [str(value) for value in attribute.recommended_values]
+                for attribute in blueprint
+            }
+            for blueprint in self._world.get_blueprint_library()
+        }
+
+    # --- time ---------------------------------------------------------------------------------
+
+    def own_time(self, dt: float) -> None:
+        """Take the time into our hands: steps of so many seconds, made by us."""
+        self._settings = self._world.get_settings()
+        settings = self._world.get_settings()
+        settings.synchronous_mode, settings.fixed_delta_seconds = True, dt
+        settings.max_substeps = min(MOST_SUBSTEPS, max(1, math.ceil(dt / SUBSTEP - 1e-9)))
+        settings.max_substep_delta_time = max(SUBSTEP, dt / settings.max_substeps)
+        self._ticks = True
+        self._world.apply_settings(settings)
+
+    def step(self, commands: Sequence[Sequence[Any]]) -> Mapping[str, Any]:
+        """Carry out commands, go on by a step, and return how things are then."""
+        self.apply(commands)
+        if self._ticks:
+            self._world.tick(self._timeout)
+        else:
+            self._world.wait_for_tick(self._timeout)
+        return self.look()
+
+    def apply(self, commands: Sequence[Sequence[Any]]) -> None:
+        """Carry out commands; one that the server refuses is an error."""
+        batch = [command_of(each) for each in commands]
+        answers = self._client.apply_batch_sync(batch, False) if batch else []
+        refused = [
+            f"{each[0]} of actor {each[1]}: {answer.error}"
+            for each, answer in zip(commands, answers, strict=True)
+            if answer.error
+        ]
+        if refused:
+            raise RuntimeError(refused[0])
+
+    def look(self) -> Mapping[str, Any]:
+        """Return the latest snapshot: states of the watched actors, traffic lights, contacts."""
+        snapshot = self._world.get_snapshot()
+        skipped = 0 if self._frame is None else snapshot.frame - self._frame - 1
+        self._frame = snapshot.frame
+        actors = {}
+        for actor in self._watched:
+            found = snapshot.find(actor)
+            actors[actor] = None if found is None else actor_state(found)
+        return {
+            "skipped": skipped,
+            "time": snapshot.timestamp.elapsed_seconds,
+            "actors": list(actors.items()),
+            "lights": light_states(self._lights),
+            "collisions": self._collisions.take(),
+        }
+
+    # --- actors -------------------------------------------------------------------------------
+
+    def spawn(
+        self, blueprint: str, attributes: Mapping[str, str], pose: Sequence[float], parent: int = 0
+    ) -> Mapping[str, Any]:
+        """Make an actor that goes with the session, and return what it is like."""
+        description = self._world.get_blueprint_library().find(blueprint)
+        for name, value in attributes.items():
+            description.set_attribute(name, value)
+        holder = self._world.get_actor(parent) if parent else None
+        actor = self._world.spawn_actor(description, transform(pose), attach_to=holder)
+        self._own.append(actor.id)
+        return self._described(actor)
+
+    def find(self, role: str, patience: float) -> Mapping[str, Any] | None:
+        """Return an actor of somebody else by its role name; None if none comes in time."""
+        end = time.monotonic() + patience
+        while True:
+            for actor in self._world.get_actors():
+                if actor.attributes.get("role_name") == role and actor.is_alive:
+                    return self._described(actor)
+            if time.monotonic() >= end:
+                return None
+            time.sleep(POLL)
+
+    def _described(self, actor: Any) -> Mapping[str, Any]:
+        found: dict[str, Any] = {"id": actor.id, "type": actor.type_id}
+        if isinstance(actor, carla.Vehicle | carla.Walker) or actor.type_id.startswith("static."):
+            self._watched.append(actor.id)
+            box = actor.bounding_box
+            found["box"] = [box.location.x, box.extent.x, box.extent.y, box.extent.z]
+        if isinstance(actor, carla.Vehicle):  # asked before physics is switched off
+            wheels = actor.get_physics_control().wheels
+            found["steering"] = max(wheel.max_steer_angle for wheel in wheels)
+            found["wheels"] = [[wheel.position.x, wheel.position.y] for wheel in wheels]
+        return found
+
+    def nearby(self, x: float, y: float, radius: float) -> Sequence[Sequence[Any]]:
+        """Return id, blueprint and role name of the actors within a radius (m)."""
+        here = carla.Location(x, y, 0.0)
+        found = []
+        for actor in self._world.get_actors():
+            at = actor.get_location()
+            at.z = 0.0
+            if at.distance(here) <= radius and actor.type_id.startswith(("vehicle.", "walker.")):
+                found.append([actor.id, actor.type_id, actor.attributes.get("role_name", "")])
+        return found
+
+    def watch_collisions(self, actor: int) -> None:
+        """Note the contacts of an actor from now on."""
+        description = self._world.get_blueprint_library().find("sensor.other.collision")
+        holder = self._world.get_actor(actor)
+        sensor = self._world.spawn_actor(description, carla.Transform(), attach_to=holder)
+        self._own.append(sensor.id)
+        sensor.listen(self._collisions.add)
+        self._sensors.append(sensor)
+
+    def enable_for_ros(self, sensor: int) -> None:
+        """Have the server publish what a sensor sees, by its native ROS 2."""
+        self._world.get_actor(sensor).enable_for_ros()
+
+    def begin_autopilot(self, port: int, seed: int) -> int:
+        """Start the Traffic Manager, in step with the world; return its port."""
+        self._manager = self._client.get_trafficmanager(port)
+        self._manager.set_synchronous_mode(True)
+        self._manager.set_random_device_seed(seed)
+        return int(self._manager.get_port())
+
+    # --- surroundings -------------------------------------------------------------------------
+
+    def set_weather(self, values: Mapping[str, float]) -> None:
+        """Change the weather; what is not named stays."""
+        weather = self._world.get_weather()
+        for name, value in values.items():
+            setattr(weather, name, value)
+        self._world.set_weather(weather)
+
+    def set_friction(self, friction: float | None) -> None:
+        """Have all tyres hold so much everywhere; None: as they do by themselves."""
+        for actor in self._world.get_actors(self._own).filter("static.trigger.friction"):
+            actor.destroy()
+            self._own.remove(actor.id)
+        if friction is not None:
+            far = str(1e6)  # cm
+            extents = {f"extent_{axis}": far for axis in "xyz"}
+            attributes = {"friction": str(friction), **extents}
+            self.spawn("static.trigger.friction", attributes, [0.0] * 6)
+
+    def traffic_lights(self) -> Sequence[str]:
+        """Return the OpenDRIVE ids of the lights; `look` has their states from now on."""
+        lights = self._world.get_actors().filter("traffic.traffic_light*")
+        self._lights = {each.get_opendrive_id(): each for each in lights}
+        return [name for name in self._lights if name]
+
+    def set_light(self, name: str, state: str) -> None:
+        """Have a traffic light show a state; batches have no command for that."""
+        self._lights[name].set_state(carla.TrafficLightState.names[state])
+
+    def freeze_lights(self) -> None:
+        """Stop the cycles of all lights."""
+        self._frozen = True
+        self._world.freeze_all_traffic_lights(True)
+
+    # --- end ----------------------------------------------------------------------------------
+
+    def close(self) -> None:
+        """Undo what the session changed.
+
+        A server that does not answer may come to itself again: this goes on until somebody ends
+        the process, or the server is gone.
+        """
+        for undo in (self._stop, self._thaw, self._destroy, self._restore):
+            while True:
+                try:
+                    undo()
+                    break
+                except RuntimeError as error:
+                    if "time-out" not in str(error):
+                        break  # it cannot be undone
+                    if not self._is_there():
+                        return
+
+    def _is_there(self) -> bool:
+        """Whether anybody listens where the server was."""
+        try:
+            with socket.create_connection(self._address, timeout=1.0):
+                return True
+        except OSError:
+            return False
+
+    def _stop(self) -> None:
+        for sensor in self._sensors:
+            sensor.stop()
+        if self._manager is not None:
+            self._manager.shut_down()
+
+    def _thaw(self) -> None:
+        if self._frozen:
+            self._world.freeze_all_traffic_lights(False)
+
+    def _destroy(self) -> None:
+        if not self._own:
+            return
+        destroy = [carla.command.DestroyActor(each) for each in reversed(self._own)]
+        self._client.apply_batch_sync(destroy, False)
+        if self._ticks:
+            self._world.tick(self._timeout)  # the batch would tick with the interpreter locked
+
+    def _restore(self) -> None:
+        if self._settings is not None:
+            self._world.apply_settings(self._settings)
+
+
+def transform(pose: Sequence[float]) -> Any:
+    """Return x, y, z, pitch, yaw, roll as the library has it."""
+    x, y, z, pitch, yaw, roll = pose
+    return carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
+
+
+def written(pose: Any) -> list[float]:
+    """Return a transform as numbers."""
+    at, turn = pose.location, pose.rotation
+    return [at.x, at.y, at.z, turn.pitch, turn.yaw, turn.roll]

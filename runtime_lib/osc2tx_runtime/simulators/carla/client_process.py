@@ -1,0 +1,117 @@
+"""The process of the client library, seen from this side: requests that never wait for ever."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import subprocess
+import sys
+from pathlib import Path
+from select import select
+from typing import Any
+
+from osc2tx_runtime.errors import SimulatorError
+
+from .client import MISSING
+
+__all__ = ["ClientProcess"]
+
+HERE = Path(__file__).parent
+SERVE = "import sys; sys.path.append(sys.argv[1]); from client.serve import main; sys.exit(main())"
+"""What the process does: the package on its own, since importing all of the runtime takes time."""
+
+MARGIN = 3.0
+"""How much longer (s) than the library itself this side waits for an answer."""
+
+CLOSING = 5.0
+"""How long (s) the process has for letting go of the simulator."""
+
+
+class ClientProcess:
+    """A running process.
+
+    Args:
+        timeout: How long (s) the server may take to answer one call.
+    """
+
+    def __init__(self, timeout: float) -> None:
+        self._timeout = timeout
+        self._number = 0
+        self._lost = False
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", SERVE, str(HERE)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,  # it may live longer than this side
+            start_new_session=True,  # Ctrl-C is for this side
+        )
+        self._received = b""
+
+    def ask(self, name: str, *arguments: Any, patience: float = 0.0) -> Any:
+        """Make a request and return its answer.
+
+        Args:
+            name: Of a method of `client.session.Session`.
+            *arguments: For it.
+            patience: Seconds that the answer may take beside those of one call.
+
+        Raises:
+            SimulatorError: The server refuses, is lost, or does not answer.
+        """
+        self._number += 1
+        request = json.dumps([self._number, name, arguments])
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(request.encode() + b"\n")
+            self._process.stdin.flush()
+        except BrokenPipeError:
+            raise self._gone() from None
+        while True:
+            number, kind, value = json.loads(self._line(patience))
+            if number == self._number:  # an earlier one was interrupted
+                break
+        if kind == "bug":
+            raise RuntimeError(f"in the process of CARLA's client library: {value}")
+        if kind == "error":
+            raise SimulatorError(f"CARLA: {value}")
+        return value
+
+    def _line(self, patience: float) -> bytes:
+        assert self._process.stdout is not None
+        stream = self._process.stdout.fileno()
+        most = 2.0 * self._timeout + MARGIN + patience
+        while b"\n" not in self._received:
+            ready, _, _ = select([stream], [], [], most)
+            if not ready:
+                self._lost = True
+                raise SimulatorError(f"CARLA does not answer any more (waited {most:g} s)")
+            received = self._process.stdout.read1(1 << 20)  # type: ignore[attr-defined]
+            if not received:
+                raise self._gone()
+            self._received += received
+        line, _, self._received = self._received.partition(b"\n")
+        return line
+
+    def _gone(self) -> SimulatorError:
+        self._lost = True
+        code = self._process.wait(CLOSING)
+        if code == MISSING:
+            return SimulatorError(
+                "the client library of CARLA is not installed: pip install osc2tx-runtime[carla]"
+                " (CPython 3.10 to 3.12 on x86-64)"
+            )
+        return SimulatorError(
+            f"the client library of CARLA has ended its process (code {code}): the server is lost"
+        )
+
+    def close(self) -> None:
+        """End the process; it lets go of the simulator first.
+
+        Where the server does not answer it goes on trying for a while by itself.
+        """
+        assert self._process.stdin is not None and self._process.stdout is not None
+        with contextlib.suppress(BrokenPipeError):  # it has ended
+            self._process.stdin.close()
+        self._process.stdout.close()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(0.1 if self._lost else CLOSING + self._timeout)

@@ -1,0 +1,42 @@
+"""How controllers of vehicles are set, by category."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+__all__ = ["CAR", "GAINS", "Gains"]
+
+
+class Gains(NamedTuple):
+    """Gains of a vehicle's controllers.
+
+    Attributes:
+        proportional: Pedal per m/s of error.
+        integral: Pedal per metre of its sum.
+        throttle: Pedal per m/s^2 that is wanted: what one unit of throttle does not give.
+        brake: Pedal per m/s^2 of braking.
+        look: Seconds that it looks ahead for steering.
+        wheelbases: So many wheelbases at least.
+    """
+
+    proportional: float
+    integral: float
+    throttle: float
+    brake: float
+    look: float = 0.5
+    wheelbases: float = 2.0
+
+
+CAR = Gains(0.35, 0.25, 0.2, 0.125)
+
+GAINS: Mapping[str, Gains] = {
+    "car": CAR,
+    "van": Gains(0.4, 0.25, 0.25, 0.125),
+    "bus": Gains(0.5, 0.3, 0.33, 0.125),
+    "heavy_truck": Gains(0.5, 0.3, 0.33, 0.125),
+    "motorcycle": Gains(0.3, 0.2, 0.17, 0.125),
+    "bicycle": Gains(0.6, 0.4, 0.5, 0.125, 0.5, 3.0),
+}
+"""Gains by vehicle category; the others take those of a car. Found on a kinematic single-track
+model; vehicles of a real server may want others."""

@@ -1,0 +1,207 @@
+"""The plant: what the world wishes goes to CARLA, and what has become of it comes back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from osc2tx_runtime.errors import SettingsError, SimulatorError
+from osc2tx_runtime.world.actor_dimensions import Shape
+from osc2tx_runtime.world.features import FEATURES, Feature
+from osc2tx_runtime.world.measurement import Measurement
+from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
+from osc2tx_runtime.world.scene import Scene, Setpoint
+from osc2tx_text import complain, say
+
+from .cast import CastMember, Command
+from .client_process import ClientProcess
+from .sensors import SensorStacks
+from .spawning import Spawning
+from .surroundings import CarlaSurroundings
+
+__all__ = ["CarlaPlant"]
+
+SETTLING = 40
+"""Steps that vehicles have at most to come to rest on their wheels."""
+
+AT_REST = 0.05  # m/s upwards
+MOVED = 0.05  # m: an exact actor that is farther away was moved by somebody else
+TRAFFIC_MANAGER_PORT = 8000
+DRIVABLE = ("vehicle", "person")
+
+
+class CarlaPlant:
+    """A plant whose actors are in CARLA.
+
+    Args:
+        client: Connected, on the map of the run.
+        version: Of the server.
+        control: Who moves an actor, by its id; `""` stands for all others.
+        waiting: Seconds to wait for actors that somebody else spawns.
+        sensors: Sensor stacks.
+        ticks: We make the steps of the simulator.
+        dt: Length of a step (s).
+        seed: Of the Traffic Manager.
+    """
+
+    def __init__(
+        self,
+        client: ClientProcess,
+        version: str,
+        control: Mapping[str, ControlMode],
+        waiting: Mapping[str, float],
+        sensors: SensorStacks,
+        *,
+        ticks: bool,
+        dt: float,
+        seed: int,
+    ) -> None:
+        self.name = f"carla {version}"
+        self._client, self._wanted, self._sensors = client, control, sensors
+        self._spawning = Spawning(client, waiting)
+        self._ticks, self._dt, self._seed = ticks, dt, seed
+        self._specs: dict[str, ActorSpec] = {}
+        self._members: dict[str, CastMember] = {}
+        self._surroundings = CarlaSurroundings(client)
+        self._start = 0.0  # s of the episode at step 0
+
+    # --- what it can --------------------------------------------------------------------------
+
+    def control(self, actor: str) -> ControlMode:
+        """Who moves an actor; what cannot move by itself is where it is wished."""
+        spec = self._specs.get(actor)
+        drives = spec is None or (spec.movable and spec.kind in DRIVABLE)
+        wanted = self._wanted.get(actor)
+        if wanted is None:
+            wanted = "external" if self._spawning.awaited(actor) else self._wanted.get("", "exact")
+            return wanted if drives else "exact"
+        if not drives and wanted != "exact":
+            raise SettingsError(f"--control {actor}={wanted}: {actor} is nothing that drives")
+        return wanted
+
+    def capabilities(self) -> frozenset[Feature]:
+        """All there are; `capabilities` says how."""
+        return FEATURES
+
+    def shape(self, spec: ActorSpec) -> Shape | None:
+        """That of the scenario; sizes of CARLA are known after spawning."""
+        self._specs[spec.id] = spec
+        return None
+
+    # --- life ---------------------------------------------------------------------------------
+
+    def begin(self, scene: Scene) -> Mapping[str, Measurement]:
+        """Spawn the actors, let them come to rest, and give them their speeds."""
+        setpoints = scene.setpoints
+        foreign = {
+            actor: self._spawning.wait(setpoint, self.control(actor))
+            for actor, setpoint in setpoints.items()
+            if self._spawning.awaited(actor)
+        }
+        if self._ticks:
+            self._client.ask("own_time", self._dt)
+        for actor, setpoint in setpoints.items():
+            member = foreign.get(actor) or self._spawning.spawn(setpoint, self.control(actor))
+            self._members[actor] = member
+            if member.control != "exact" and member.other_size:
+                length, width, height = (round(each, 3) for each in member.size)
+                scene.note("simulator_size", actor=actor, length=length, width=width, height=height)
+        self._sensors.attach(self._client, self._members)
+        self._report(setpoints)
+        members = self._members.items()
+        first = [each for actor, member in members for each in member.first(setpoints[actor])]
+        looked = self._at_rest(self._client.ask("step", first))
+        self._begin_autopilot()
+        for member in self._members.values():
+            if member.control != "exact":
+                self._client.ask("watch_collisions", member.actor)
+        kicks = [each for actor, member in members for each in member.kick(setpoints[actor])]
+        self._client.ask("apply", kicks)
+        self._surroundings.begin()
+        self._start = looked["time"]
+        return {
+            actor: found if self._members[actor].foreign else found._replace(velocity=(v, 0.0, 0.0))
+            for actor, found in self._measured(looked, scene).items()
+            for v in (setpoints[actor].state.v,)
+        }
+
+    def _report(self, setpoints: Mapping[str, Setpoint]) -> None:
+        """Say what cannot be as it is wanted, and which topics there will be."""
+        for problem in self._spawning.problems:
+            complain(f"warning: {problem}")
+        roles = {actor: each.spec.role or actor for actor, each in setpoints.items()}
+        for line in self._sensors.table(roles):
+            say(line)
+
+    def _at_rest(self, looked: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Wait until those with wheels or legs stand on the ground."""
+        falling = {m.actor for m in self._members.values() if m.control != "exact"}
+        for _ in range(SETTLING if self._ticks else 1):
+            states = dict(looked["actors"])
+            if all(abs(states[each][8]) < AT_REST for each in falling if states[each]):
+                break
+            looked = self._client.ask("step", [])
+        return looked
+
+    def _begin_autopilot(self) -> None:
+        numbers = [m.actor for m in self._members.values() if m.control == "autopilot"]
+        if numbers:
+            port = self._client.ask("begin_autopilot", TRAFFIC_MANAGER_PORT, self._seed)
+            self._client.ask("apply", [("autopilot", number, True, port) for number in numbers])
+
+    def moved(self, scene: Scene) -> Mapping[str, Measurement]:
+        """Go one step on, and measure."""
+        setpoints = scene.setpoints
+        batch: list[Command] = [
+            each
+            for actor, member in self._members.items()
+            for each in member.commands(setpoints[actor], self._dt)
+        ]
+        batch += self._surroundings.commands(scene, self._members)
+        looked = self._client.ask("step", batch)
+        if looked["skipped"]:
+            raise SimulatorError(
+                "another client makes steps of CARLA, too: only one can (--no-tick leaves it to it)"
+                if self._ticks
+                else f"CARLA went on by {looked['skipped'] + 1} steps at once: this run is too slow"
+                " for the client that makes them"
+            )
+        self._surroundings.observe(scene, looked["lights"])
+        self._note_collisions(scene, looked)
+        return self._measured(looked, scene)
+
+    def _measured(self, looked: Mapping[str, Any], scene: Scene) -> Mapping[str, Measurement]:
+        states = dict(looked["actors"])
+        found = {}
+        for actor, setpoint in scene.setpoints.items():
+            member = self._members[actor]
+            state = states.get(member.actor)
+            if state is None:
+                raise SimulatorError(f"{actor} is not in CARLA any more: another client removed it")
+            if member.control == "exact" or setpoint.towed:
+                self._check_place(actor, member, state)
+            else:
+                found[actor] = member.measured(state)
+        return found
+
+    def _check_place(self, actor: str, member: CastMember, state: list[float]) -> None:
+        if member.deviation(state) > MOVED:
+            raise SimulatorError(
+                f"{actor} is not where it was put in CARLA: another client moves it"
+                f" (--control {actor}=external leaves it to it)"
+            )
+
+    def _note_collisions(self, scene: Scene, looked: Mapping[str, Any]) -> None:
+        """Contacts as the simulator sees them; those of the trace's own test decide."""
+        names = {member.actor: actor for actor, member in self._members.items()}
+        for time, number, other, blueprint in looked["collisions"]:
+            scene.note(
+                "simulator_collision",
+                at=round(time - self._start, 3),
+                actor=names[number],
+                other=names.get(other, blueprint),
+            )
+
+    def close(self) -> None:
+        """Leave CARLA as it was."""
+        self._client.close()

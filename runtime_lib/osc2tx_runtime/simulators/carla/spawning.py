@@ -1,0 +1,99 @@
+"""How actors come into CARLA: spawned by us, or by somebody else whom we wait for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from osc2tx_runtime.errors import SimulatorError
+from osc2tx_runtime.opendrive import Pose
+from osc2tx_runtime.world.protocol import ControlMode
+from osc2tx_runtime.world.scene import Setpoint
+
+from .blueprints import attributes_of, blueprint_for
+from .cast import ABOVE, CastMember, member_of
+from .client_process import ClientProcess
+from .frames import transform_of
+
+__all__ = ["Spawning"]
+
+OUT_OF_THE_WAY = 50.0
+"""Metres above the ground at which others are that are put to their place afterwards."""
+
+CLOSE = 8.0  # m: who may stand in the way
+
+
+class Spawning:
+    """Makes the actors of a run.
+
+    Args:
+        client: A connected one.
+        waiting: Seconds to wait for actors that somebody else spawns, by id.
+    """
+
+    def __init__(self, client: ClientProcess, waiting: Mapping[str, float]) -> None:
+        self._client, self._waiting = client, waiting
+        self._library = client.ask("blueprints")
+        self._count = 0
+        self.problems: list[str] = []
+
+    def awaited(self, actor: str) -> bool:
+        """Whether somebody else spawns an actor."""
+        return actor in self._waiting
+
+    def wait(self, setpoint: Setpoint, control: ControlMode) -> CastMember:
+        """Return an actor that somebody else spawns.
+
+        Raises:
+            SimulatorError: It does not come in time.
+        """
+        spec = setpoint.spec
+        patience = self._waiting[spec.id]
+        role = spec.role or spec.id
+        found = self._client.ask("find", role, patience, patience=patience)
+        if found is None:
+            raise SimulatorError(
+                f"--wait-for {spec.id}: no actor with role_name {role} came within {patience:g} s"
+            )
+        member = member_of(spec, found, control)
+        member.foreign = True
+        return member
+
+    def spawn(self, setpoint: Setpoint, control: ControlMode) -> CastMember:
+        """Spawn an actor where it starts.
+
+        Raises:
+            SimulatorError: There is no such blueprint, or the place is taken.
+        """
+        spec, state = setpoint.spec, setpoint.state
+        blueprint = blueprint_for(spec, self._library)
+        role = spec.role or spec.id
+        attributes, problem = attributes_of(spec, self._library[blueprint], role)
+        if problem is not None:
+            self.problems.append(problem)
+        self._count += 1
+        exact = control == "exact" or setpoint.towed
+        up = OUT_OF_THE_WAY + 5.0 * self._count if exact else ABOVE
+        if blueprint.startswith("walker."):
+            up += 1.0
+        half = 0.5 * spec.shape.length
+        ahead = spec.shape.rear - half if spec.shape.wheelbase > 0.0 else 0.0
+        pose = Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
+        try:
+            found = self._client.ask("spawn", blueprint, attributes, transform_of(pose, ahead, up))
+        except SimulatorError as error:
+            raise self._refused(setpoint, blueprint, error) from None
+        return member_of(spec, found, control)
+
+    def _refused(self, setpoint: Setpoint, blueprint: str, error: SimulatorError) -> SimulatorError:
+        """Say who stands in the way, if somebody does."""
+        state = setpoint.state
+        x, y, *_ = transform_of(Pose(state.x, state.y, state.z, state.h))
+        near: list[Any] = self._client.ask("nearby", x, y, CLOSE)
+        names = [f"{kind} {number}{f' ({role})' if role else ''}" for number, kind, role in near]
+        who = f"; there is {', '.join(names)}" if names else ""
+        place = f"({state.x:.1f}, {state.y:.1f})"
+        return SimulatorError(
+            f"{setpoint.spec.id}: CARLA does not spawn {blueprint} at {place}:"
+            f" {error.message.removeprefix('CARLA: ')}{who}"
+        )

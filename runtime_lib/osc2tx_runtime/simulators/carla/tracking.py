@@ -1,0 +1,111 @@
+"""Controllers: a driven actor follows its reference.
+
+Vehicles have a PI controller of the speed with feed-forward of the acceleration, and steer by
+pure pursuit: towards a point ahead on the path, on a circle from the rear axle through it
+(R. C. Coulter, Implementation of the Pure Pursuit Path Tracking Algorithm, CMU-RI-TR-92-01).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from osc2tx_runtime.world.measurement import Measurement
+from osc2tx_runtime.world.scene import Setpoint
+
+from .gains import Gains
+
+__all__ = ["Pedals", "SpeedControl", "Steering", "walking"]
+
+STANDING = 0.5  # m/s below which brakes hold a vehicle that is to stand
+HOLD = 0.6  # of the brake
+NEAR = 0.5  # m: a point that is nearer says nothing about steering
+CATCHING_UP = 1.0  # m/s that a walker adds to its speed to come back to its way
+
+
+class Pedals(NamedTuple):
+    """Throttle and brake, from 0 to 1, and whether the gear is reverse."""
+
+    throttle: float
+    brake: float
+    reverse: bool
+
+
+@dataclass
+class SpeedControl:
+    """Keeps a speed.
+
+    Attributes:
+        gains: Of the vehicle.
+    """
+
+    gains: Gains
+    _sum: float = 0.0
+
+    def reset(self) -> None:
+        """Forget the past: the vehicle was put somewhere, or its speed was set."""
+        self._sum = 0.0
+
+    def pedals(self, wanted: float, acceleration: float, speed: float, dt: float) -> Pedals:
+        """Return the pedals for the next step.
+
+        Args:
+            wanted: Speed at its end (m/s).
+            acceleration: So, too (m/s^2).
+            speed: Measured at its begin (m/s).
+            dt: Its length (s).
+        """
+        if wanted == 0.0 and abs(speed) < STANDING:
+            self._sum = 0.0
+            return Pedals(0.0, HOLD, False)
+        back = wanted < 0.0 or (wanted == 0.0 and speed < 0.0)
+        sign = -1.0 if back else 1.0
+        error, rate = sign * (wanted - speed), sign * acceleration
+        gains = self.gains
+        forward = rate * (gains.throttle if rate > 0.0 else gains.brake)
+        pedal = gains.proportional * error + gains.integral * (self._sum + error * dt) + forward
+        if abs(pedal) < 1.0:
+            self._sum += error * dt
+        pedal = min(max(pedal, -1.0), 1.0)
+        return Pedals(max(pedal, 0.0), max(-pedal, 0.0), back)
+
+
+@dataclass
+class Steering:
+    """Steers a vehicle.
+
+    Attributes:
+        wheelbase: m.
+        largest: Angle of the wheels at full lock (rad).
+        gains: Of the vehicle.
+    """
+
+    wheelbase: float
+    largest: float
+    gains: Gains
+    _last: float = 0.0
+
+    def steer(self, setpoint: Setpoint, now: Measurement) -> float:
+        """Return the steering from -1 (full lock to the left) to 1."""
+        speed, at = now.velocity[0], now.pose
+        look = max(self.gains.wheelbases * self.wheelbase, self.gains.look * abs(speed))
+        back = setpoint.state.v < 0.0
+        goal = setpoint.ahead(-look if back else look)
+        dx, dy = goal.x - at.x, goal.y - at.y
+        far = math.hypot(dx, dy)
+        if far > NEAR:
+            aside = -dx * math.sin(at.h) + dy * math.cos(at.h)  # to the left
+            self._last = math.atan(2.0 * self.wheelbase * aside / far**2)
+        return min(max(-self._last / self.largest, -1.0), 1.0)
+
+
+def walking(setpoint: Setpoint, now: Measurement, dt: float) -> tuple[float, float, float]:
+    """Return the direction in which a walker goes, as a vector of our axes, and its speed (m/s)."""
+    goal, at = setpoint.state, now.pose
+    dx, dy = goal.x - at.x, goal.y - at.y
+    far = math.hypot(dx, dy)
+    speed = min(far / dt, abs(goal.v) + CATCHING_UP)
+    if far < 1e-4:
+        return math.cos(goal.h), math.sin(goal.h), 0.0
+    return dx / far, dy / far, speed

@@ -1,0 +1,15 @@
+"""The worlds that a run can choose from, by name: `--world NAME`.
+
+A world is described by a `WorldType`: its options, and the function that makes it from a
+`WorldRequest`. `embedded` describes the one of this package; `registry` finds those that installed
+packages name in the entry point group `osc2tx.worlds`. See docs/extending.md.
+"""
+
+from __future__ import annotations
+
+from .embedded import EMBEDDED
+from .option import Option
+from .registry import ENTRY_POINTS, find_world
+from .world_type import WorldRequest, WorldType
+
+__all__ = ["EMBEDDED", "ENTRY_POINTS", "Option", "WorldRequest", "WorldType", "find_world"]

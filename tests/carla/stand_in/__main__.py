@@ -1,0 +1,19 @@
+"""`python -m tests.carla.stand_in FOLDER... --town Town06`: serves until its input ends."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from .server import VERSION, StandIn
+
+parser = argparse.ArgumentParser(prog="python -m tests.carla.stand_in")
+parser.add_argument("folders", metavar="FOLDER", type=Path, nargs="+", help="with maps (.xodr)")
+parser.add_argument("--town", required=True, help="the map to begin with, without .xodr")
+parser.add_argument("--port", type=int, default=0, help="0, the default, takes a free one")
+parser.add_argument("--version", default=VERSION, help="what it says it is")
+options = parser.parse_args()
+with StandIn(options.folders, options.town, options.version, options.port) as server:
+    print(server.port, flush=True)
+    sys.stdin.read()

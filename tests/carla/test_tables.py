@@ -1,0 +1,174 @@
+"""Frames, units and words, without a server."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from osc2tx_runtime.errors import SimulatorError
+from osc2tx_runtime.opendrive import LanePosition, Pose, read_map
+from osc2tx_runtime.simulators.carla.blueprints import attributes_of, blueprint_for
+from osc2tx_runtime.simulators.carla.capabilities import IN_CARLA
+from osc2tx_runtime.simulators.carla.frames import measurement_from, pose_from, transform_of
+from osc2tx_runtime.simulators.carla.gains import CAR
+from osc2tx_runtime.simulators.carla.level import with_spawn_points
+from osc2tx_runtime.simulators.carla.tracking import SpeedControl
+from osc2tx_runtime.simulators.carla.traffic_lights import lamps_for, state_for
+from osc2tx_runtime.simulators.carla.vehicle_lights import FLAGS
+from osc2tx_runtime.simulators.carla.weather import weather_of
+from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
+from osc2tx_runtime.world.protocol import ActorSpec
+from osc2tx_runtime.world.traffic_light_lamps import BOXES
+
+from .conftest import OWN_MAPS
+from .runs import modules
+
+carla: Any = pytest.importorskip("carla", reason="the carla package is not installed")
+
+ANGLE = math.radians(30.0)
+
+
+def library_rotation(pose: list[float]) -> Any:
+    _, _, _, pitch, yaw, roll = pose
+    return carla.Transform(carla.Location(), carla.Rotation(pitch, yaw, roll))
+
+
+def test_axes_are_those_of_the_library() -> None:
+    """Heading, nose and right side of an actor point the same way in both frames."""
+    ahead = library_rotation(transform_of(Pose(0.0, 0.0, 0.0, ANGLE))).get_forward_vector()
+    assert (ahead.x, -ahead.y) == pytest.approx((math.cos(ANGLE), math.sin(ANGLE)), abs=1e-6)
+    nose_down = library_rotation(transform_of(Pose(0.0, 0.0, 0.0, 0.0, pitch=ANGLE)))
+    assert nose_down.get_forward_vector().z == pytest.approx(-math.sin(ANGLE), abs=1e-6)
+    right_down = library_rotation(transform_of(Pose(0.0, 0.0, 0.0, 0.0, roll=ANGLE)))
+    assert right_down.get_right_vector().z == pytest.approx(-math.sin(ANGLE), abs=1e-6)
+
+
+@pytest.mark.parametrize("h", [-3.0, -1.0, 0.0, 2.0, 3.1])
+def test_poses_there_and_back(h: float) -> None:
+    pose = Pose(12.0, -7.0, 1.5, h, 0.1, -0.2)
+    assert pose_from(transform_of(pose, 1.3, 0.9), 1.3, 0.9) == pytest.approx(pose)
+
+
+def test_a_turning_actor_moves_aside_ahead_of_its_origin() -> None:
+    """Rigid body: v at r is v0 + w x r; 0.5 rad/s to the left at 2 m ahead is 1 m/s to the left."""
+    state = [0.0] * 6 + [10.0, 0.0, 0.0] + [0.0, 0.0, -math.degrees(0.5)] + [0.0] * 3
+    found = measurement_from(state, ahead=2.0)
+    assert found.velocity == pytest.approx((10.0, 1.0, 0.0))
+    assert found.turning is not None and found.turning[2] == pytest.approx(0.5)
+
+
+def test_flags_are_those_of_the_library() -> None:
+    light = carla.VehicleLightState
+    assert FLAGS["high_beam"] == int(light.Position | light.LowBeam | light.HighBeam)
+    assert FLAGS["low_beam"] == int(light.Position | light.LowBeam)
+    assert (FLAGS["position"], FLAGS["off"]) == (int(light.Position), int(light.NONE))
+
+
+def test_weather_has_fields_of_the_library() -> None:
+    sky = {"sun_elevation": ANGLE, "sun_azimuth": -ANGLE, "cloudiness": 8.0, "wind_speed": 15.0}
+    weather = weather_of({**sky, "rain_intensity": 25e-3 / 3600.0, "visual_range": 50.0})
+    assert all(hasattr(carla.WeatherParameters(), name) for name in weather)
+    assert weather["sun_altitude_angle"] == pytest.approx(30.0)
+    assert weather["sun_azimuth_angle"] == pytest.approx(330.0)
+    assert (weather["cloudiness"], weather["fog_density"]) == (100.0, 100.0)
+    assert weather["precipitation"] == pytest.approx(50.0)
+    assert weather_of({"snow_intensity": 1e-6, "temperature": 270.0}) == {}
+
+
+def test_default_places_are_the_spawn_points_of_the_level() -> None:
+    """In its order, without those that are on no lane; half a metre above the ground is on it."""
+    road_map = read_map(OWN_MAPS / "highway.xodr")
+    places = [LanePosition("1", -2, 77.0), LanePosition("1", -3, 12.5)]
+    points = [transform_of(road_map.pose(place), up=0.6) for place in places]
+    level = {"spawn_points": [points[0], [0.0, 9e3, 0.0, 0.0, 0.0, 0.0], points[1]]}
+    assert with_spawn_points(road_map, level).spawn_points() == tuple(places)
+    assert len(road_map.spawn_points()) > len(places)  # it stays as it was
+
+
+YELLOW = ("is_off", "is_on", "is_off")
+
+
+def test_what_a_light_shows() -> None:
+    lamps = BOXES["1000001"]
+    cases = {
+        "Red": ("is_on", "is_off", "is_off"),
+        "Yellow": ("is_on", "is_on", "is_off"),  # yellow with red, too
+        "Green": ("is_off", "is_off", "is_on"),
+        "Off": ("is_off", "is_off", "is_off"),
+    }
+    for state, shown in cases.items():
+        assert state_for(lamps, shown) == state
+        assert state in carla.TrafficLightState.names
+        assert lamps_for(lamps, state) == (shown if state != "Yellow" else YELLOW)
+    assert lamps_for(lamps, "Unknown") is None
+
+
+LIBRARY = {
+    "vehicle.tesla.model3": {"color": ["0,0,0"], "role_name": [], "number_of_wheels": ["4"]},
+    "vehicle.carlamotors.european_hgv": {"role_name": [], "number_of_wheels": ["4"]},
+    "vehicle.diamondback.century": {"role_name": [], "number_of_wheels": ["2"]},
+    "walker.pedestrian.0001": {"role_name": []},
+    "static.prop.box01": {},
+}
+
+
+def spec(kind: str = "vehicle", category: str | None = None, **given: Any) -> ActorSpec:
+    shape, limits = shape_of(kind, category), limits_of(kind, category)
+    return ActorSpec("it", kind, shape, limits, **given)
+
+
+@pytest.mark.parametrize(
+    ("actor", "blueprint"),
+    [
+        (spec(), "vehicle.tesla.model3"),
+        (spec(category="heavy_truck"), "vehicle.carlamotors.european_hgv"),
+        (spec(category="bicycle"), "vehicle.diamondback.century"),
+        (spec("person"), "walker.pedestrian.0001"),
+        (spec("stationary_object"), "static.prop.box01"),
+        (spec(model="vehicle.carlamotors.european_hgv"), "vehicle.carlamotors.european_hgv"),
+    ],
+)
+def test_blueprints(actor: ActorSpec, blueprint: str) -> None:
+    assert blueprint_for(actor, LIBRARY) == blueprint
+
+
+def test_an_unknown_blueprint_has_a_neighbor() -> None:
+    with pytest.raises(SimulatorError, match=r"did you mean vehicle\.tesla\.model3"):
+        blueprint_for(spec(model="vehicle.tesla.model_3"), LIBRARY)
+
+
+@pytest.mark.parametrize(
+    ("written", "color"), [("0,128,0", "0,128,0"), ("#ff8000", "255,128,0"), ("red", "255,0,0")]
+)
+def test_colors(written: str, color: str) -> None:
+    attributes, problem = attributes_of(
+        spec(color=written), LIBRARY["vehicle.tesla.model3"], "hero"
+    )
+    assert (attributes, problem) == ({"role_name": "hero", "color": color}, None)
+
+
+def test_a_color_that_cannot_be() -> None:
+    library = LIBRARY["vehicle.carlamotors.european_hgv"]
+    attributes, problem = attributes_of(spec(color="red"), library, "npc")
+    assert attributes == {"role_name": "npc"} and problem is not None
+
+
+def test_pedals() -> None:
+    """Closed loop on a point mass: the speed is reached and kept, brakes hold who stands."""
+    control, speed = SpeedControl(CAR), 0.0
+    for _ in range(400):
+        throttle, brake, reverse = control.pedals(10.0, 0.0, speed, 0.05)
+        speed += (5.0 * throttle - 8.0 * brake) * 0.05
+    assert speed == pytest.approx(10.0, abs=0.05) and not reverse
+    assert control.pedals(0.0, 0.0, 0.2, 0.05)[:2] == (0.0, 0.6)
+    throttle, brake, reverse = control.pedals(-2.0, -1.0, 0.0, 0.05)
+    assert throttle > 0.0 and brake == 0.0 and reverse
+
+
+def test_each_row_says_how_it_does_in_carla() -> None:
+    """Its scenarios are among those that `test_exact` and `test_driven` run."""
+    assert list(IN_CARLA) == [f"C{number:02}" for number in range(1, 39)]
+    run = {path.stem[:3] for path in modules()}
+    assert set(IN_CARLA) - run <= {"C35"}  # its scenarios have mistakes, so they have no module

@@ -1,0 +1,192 @@
+"""A build that is killed leaves each output old or new, and the next one puts all right."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from osc2tx.building import write as writing
+from osc2tx.building.manifest import read_manifest
+from osc2tx.building.written_digests import read_digests
+from tests.processes import HANGING
+from tests.unit.building.projects import Project, contents
+
+ROOT = Path(__file__).parents[3]
+
+
+class Killed(BaseException):
+    """The end of the process: nothing of the build runs after it."""
+
+
+CALLS = ("open", "fdopen", "replace", "unlink")
+
+
+class Axe:
+    """Ends the build at one of its calls of the system, before or after it."""
+
+    def __init__(self, patch: pytest.MonkeyPatch, number: int) -> None:
+        self.left = number
+        for name in CALLS:
+            patch.setattr(writing.os, name, self._falling_on(getattr(os, name)))
+
+    def _falling_on(self, call):  # type: ignore[no-untyped-def]
+        def called(*args, **more):  # type: ignore[no-untyped-def]
+            self._strike()
+            result = call(*args, **more)
+            self._strike()
+            return result
+
+        return called
+
+    def _strike(self) -> None:
+        self.left -= 1
+        if self.left == 0:
+            raise Killed
+
+
+def prepared(folder: Path) -> tuple[Project, dict[str, bytes], dict[str, bytes]]:
+    """Return a project with old outputs and changed sources, and its outputs before and after."""
+    project = Project(folder)
+    for name in ("a.osc", "b.osc", "gone.osc"):
+        project.drive(name)
+    project.build()
+    before = contents(project.out)
+    (project.sources / "gone.osc").unlink()
+    project.drive("a.osc", speed=40)
+    project.drive("sub/new.osc")
+    other = project.copy(folder.parent / f"{folder.name}-whole")
+    other.build(prune=True)
+    return project, before, contents(other.out)
+
+
+def assert_old_or_new(project: Project, before: dict[str, bytes], after: dict[str, bytes]) -> None:
+    for name, data in contents(project.out).items():
+        if name not in writing.RECORDS and not name.endswith(writing.TEMPORARY):
+            assert data in (before.get(name), after.get(name)), name
+    read_manifest(project.out)
+
+
+def assert_heals(project: Project, after: dict[str, bytes]) -> None:
+    result = project.build(prune=True)
+    assert result.remaining() == ()
+    assert contents(project.out) == after
+    assert project.check() == []
+
+
+@pytest.mark.parametrize("step", [9, pytest.param(1, marks=pytest.mark.slow)])
+def test_killed_at_any_call(tmp_path: Path, step: int) -> None:
+    original, before, after = prepared(tmp_path / "project")
+    number = 0
+    while True:
+        number += step
+        project = original.copy(tmp_path / f"killed-{number}")
+        with pytest.MonkeyPatch.context() as patch:
+            axe = Axe(patch, number)
+            with suppress(Killed):
+                project.build(prune=True)
+        assert_old_or_new(project, before, after)
+        if axe.left > 0:
+            break
+        # The sources change once more before the next build: its own work must not look foreign.
+        moved_on = project.copy(tmp_path / f"moved-on-{number}")
+        moved_on.drive("a.osc", speed=50)
+        moved_on.drive("sub/new.osc", speed=50)
+        assert moved_on.build(prune=True).remaining() == ()
+        assert moved_on.check() == []
+        assert_heals(project, after)
+    assert number > 40
+
+
+def test_a_partial_build_keeps_what_an_unfinished_one_wrote(tmp_path: Path) -> None:
+    original, before, _ = prepared(tmp_path / "project")
+    for number in range(10, 100):
+        project = original.copy(tmp_path / f"killed-{number}")
+        with pytest.MonkeyPatch.context() as patch, suppress(Killed):
+            Axe(patch, number)
+            project.build()
+        now = contents(project.out)
+        if len(read_digests(project.out)["a.py"]) == 2 and now["a.py"] != before["a.py"]:
+            break
+    assert len(read_digests(project.out)["a.py"]) == 2  # the new one and that of the old text
+    project.build(project.sources / "b.osc")
+    project.drive("a.osc", speed=50)
+    assert [change.state.name for change in project.build().remaining()] == ["ORPHANED"] * 2
+
+
+def command(project: Project) -> list[str]:
+    paths = [str(project.sources), "-o", str(project.out)]
+    return [sys.executable, "-m", "osc2tx", "build", *paths, "--target", "py", "-j", "2", "--prune"]
+
+
+@pytest.mark.slow
+def test_killed_for_real(tmp_path: Path) -> None:
+    project = Project(tmp_path / "project")
+    chance = random.Random(7)
+    folders = os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")])
+    environment = {**os.environ, "PYTHONPATH": folders, "OSC2TX_NO_CACHE": "1"}
+    for number in range(40):
+        project.drive(f"s{number}.osc")
+    project.build()
+    old = contents(project.out)
+    for path in project.sources.iterdir():
+        project.drive(path.name, speed=40)
+    whole = project.copy(tmp_path / "whole")
+    started = time.monotonic()
+    subprocess.run(command(whole), env=environment, check=True, capture_output=True)
+    length = time.monotonic() - started
+    new = contents(whole.out)
+    for _ in range(20):
+        victim = project.copy(tmp_path / "victim")
+        process = subprocess.Popen(
+            command(victim), env=environment, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+        )
+        try:
+            process.wait(timeout=length * chance.uniform(0.2, 1.05))
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+        process.wait()
+        assert_old_or_new(victim, old, new)
+        assert_heals(victim, new)
+        shutil.rmtree(victim.folder)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes there")
+def test_no_worker_outlives_a_killed_build(tmp_path: Path) -> None:
+    project = Project(tmp_path)
+    for number in range(200):
+        project.drive(f"s{number}.osc")
+    folders = os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")])
+    process = subprocess.Popen(
+        command(project),
+        env={**os.environ, "PYTHONPATH": folders, "OSC2TX_NO_CACHE": "1"},
+        stderr=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+    )
+    workers: list[int] = []
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    while len(workers) < 2 and process.poll() is None:
+        workers = [int(pid) for pid in children.read_text().split()]
+        time.sleep(0.02)
+    process.kill()
+    process.wait()
+    assert len(workers) == 2
+    deadline = time.monotonic() + HANGING
+    while any(is_running(pid) for pid in workers) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not any(is_running(pid) for pid in workers)
+
+
+def is_running(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return state != "Z"
