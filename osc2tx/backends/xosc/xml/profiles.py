@@ -72,9 +72,7 @@ _SCENARIO_RUNNER_IGNORES = {
 
 PROFILES: Mapping[XmlProfile, ToolProfile] = {
     "generic": ToolProfile(name="generic", unsupported={}),
-    "esmini": ToolProfile(
-        name="esmini", unsupported=_ESMINI_IGNORES, carries_acceleration=True
-    ),
+    "esmini": ToolProfile(name="esmini", unsupported=_ESMINI_IGNORES, carries_acceleration=True),
     "scenario_runner": ToolProfile(
         name="scenario_runner",
         versions=("1.0",),
