@@ -240,7 +240,7 @@ def test_contacts_of_boxes_that_turn_in_a_step(first: int) -> None:
 
 
 def test_a_tip_that_passes_between_two_instants() -> None:
-    """The tip of a bar of 12 m passes a post; at begin and end of the step it is 0.9 m beside it."""
+    """The tip of a bar of 12 m passes a post; at begin and end of the step it is 0.9 m beside."""
     bar = ActorState(0.0, 0.0, 0.0, -0.15, 0.0, 0.0, None, 0.0, Shape(12.0, 0.2, 1.5, 6.0))
     post = ActorState(6.05, 0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0, Shape(0.2, 0.2, 1.5, 0.1))
     for away, touches in ((0.0, True), (0.06, False)):
