@@ -10,7 +10,6 @@ from lxml import etree
 from own_maps.shapes import corners, step
 from own_maps.specs import JunctionSpec, LaneSpec, MapSpec, RoadSpec
 
-
 COEFFICIENTS = ("b", "c", "d")
 
 
