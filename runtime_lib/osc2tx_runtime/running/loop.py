@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
+from osc2tx_runtime.language.outline import outline
 from osc2tx_runtime.language.tree.base import (
     FAILURE,
     INVALID,
@@ -85,7 +86,21 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
                 node.status = INVALID
         context.clear()
         context.trace.end_instant(context.time, states(context))
+        write_summary(root, context)
         context.trace.result(outcome.status, outcome.reason, outcome.steps)
+
+
+def write_summary(root: Behaviour, context: ExecutionContext) -> None:
+    """Write what can only be told at the end: overloads, and when each node of the tree ran."""
+    if not context.trace.enabled:
+        return
+    for each in context.world.overloads():
+        context.trace.overload(
+            {"actor": each.actor, "start": each.time, "end": each.end, "text": str(each)}
+        )
+    context.trace.tree(
+        (each.node, len(each.last), each.kind, each.text, each.source) for each in outline(root)
+    )
 
 
 def loop(
