@@ -59,19 +59,20 @@ function criteria(run) {
   return ["the behavior tree", ...forbidden.map(verdict)].join(", ");
 }
 
-/** Collisions and motions that tyres cannot do, with buttons that go there. */
+/** Collisions, with buttons that go there, and warnings, such as motions that tyres cannot do. */
 function notices(run) {
   const collisions = run.marks.filter((mark) => mark.kind === "collision").map((mark) => [mark.name, mark.t]);
-  const overloads = run.overloads.map((each) => [each.text, each.start]);
+  const warnings = run.result && Array.isArray(run.result.warnings) ? run.result.warnings.map((text) => [asText(text), null]) : [];
   return [
     notice("collisions", collisions.length === 1 ? "1 collision:" : `${collisions.length} collisions:`, collisions),
-    notice("warnings", "Not drivable:", overloads),
+    notice("warnings", warnings.length === 1 ? "1 warning:" : `${warnings.length} warnings:`, warnings),
   ].filter(Boolean);
 }
 
 function notice(className, head, entries) {
   if (!entries.length) return null;
   const buttons = entries.slice(0, 10).map(([text, time]) => {
+    if (time === null) return element("p", { textContent: text });
     const button = element("button", { type: "button", textContent: `${text} at ${seconds(time)}` });
     button.addEventListener("click", () => clock.set(time));
     return button;

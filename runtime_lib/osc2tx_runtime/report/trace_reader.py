@@ -44,7 +44,6 @@ class Run:
         tracks: Movement by actor id.
         surroundings: Lights and weather.
         nodes: The behavior tree, each node with the times at which it ran.
-        overloads: Motions that tyres cannot do.
         end: Latest time in the trace (s).
         skipped: Number of lines that could not be shown.
     """
@@ -56,7 +55,6 @@ class Run:
     marks: list[Json] = field(default_factory=list)
     surroundings: Surroundings = field(default_factory=Surroundings)
     nodes: list[Json] = field(default_factory=list)
-    overloads: list[Json] = field(default_factory=list)
     end: float = 0.0
     skipped: int = 0
 
@@ -67,9 +65,6 @@ class Run:
             self.header = line
         elif kind == "result":
             self.result = line
-        elif kind == "overload":
-            start = short(number(line.get("start")) or 0.0, 4)
-            self.overloads.append({"text": text(line.get("text")), "start": start})
         elif kind == "tree":
             self.nodes = node_list(line.get("nodes"))
         else:
@@ -110,7 +105,6 @@ class Run:
             "actions": self.actions.as_json(),
             "marks": self.marks,
             "nodes": self.nodes,
-            "overloads": self.overloads,
         }
 
     def _cast(self) -> dict[str, Json]:

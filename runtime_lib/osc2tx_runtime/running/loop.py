@@ -25,7 +25,7 @@ from osc2tx_runtime.running.criteria import Criteria
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["OnProgress", "Outcome", "run_tree", "settle"]
+__all__ = ["OnProgress", "Outcome", "overloads", "run_tree", "settle"]
 
 OnProgress = Callable[[float, float], None]
 """Takes the time of the run and the time at which it has to end, in seconds."""
@@ -86,21 +86,24 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
                 node.status = INVALID
         context.clear()
         context.trace.end_instant(context.time, states(context))
-        write_summary(root, context)
-        context.trace.result(outcome.status, outcome.reason, outcome.steps)
+        write_tree(root, context)
+        found = overloads(context)
+        context.trace.result(outcome.status, outcome.reason, outcome.steps, found)
 
 
-def write_summary(root: Behaviour, context: ExecutionContext) -> None:
-    """Write what can only be told at the end: overloads, and when each node of the tree ran."""
-    if not context.trace.enabled:
-        return
-    for each in context.world.overloads():
-        context.trace.overload(
-            {"actor": each.actor, "start": each.time, "end": each.end, "text": str(each)}
+def overloads(context: ExecutionContext) -> tuple[str, ...]:
+    """Return what no tyre could have done in a run that went on all the same."""
+    if context.settings.physics == "fail":
+        return ()
+    return tuple(map(str, context.world.overloads()))
+
+
+def write_tree(root: Behaviour, context: ExecutionContext) -> None:
+    """Write when each node of the tree ran."""
+    if context.trace.enabled:
+        context.trace.tree(
+            (each.node, len(each.last), each.kind, each.text, each.source) for each in outline(root)
         )
-    context.trace.tree(
-        (each.node, len(each.last), each.kind, each.text, each.source) for each in outline(root)
-    )
 
 
 def loop(
