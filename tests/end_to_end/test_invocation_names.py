@@ -38,7 +38,7 @@ def test_names_go_by_place(
         "gain_speed.faster",
         "gain_speed_2.faster",
     }
-    assert permuted.text == plain.text
+    assert permuted.ordered == plain.ordered
 
 
 ALIKE = """import osc.standard.all

@@ -30,15 +30,18 @@ function makeChart(id) {
   };
   clock.listeners.push(() => moveCursor(chart));
   span.listeners.push(() => chart.plot && chart.plot.setScale("x", { min: span.from, max: span.to }));
-  new ResizeObserver(() => {
-    if (chart.plot && chart.host.clientWidth) chart.plot.setSize(chartSize(chart));
-  }).observe(chart.host);
+  new ResizeObserver(() => requestAnimationFrame(() => fitChart(chart))).observe(chart.host);
   byId(id + "-csv").addEventListener("click", () => saveChartCsv(chart));
   byId(id + "-png").addEventListener("click", () => savePng(chart.title, chartPicture(chart)));
   return chart;
 }
 
 const chartSize = ({ host }) => ({ width: Math.max(host.clientWidth, 120), height: 250 });
+
+function fitChart(chart) {
+  const { plot } = chart, { width, height } = chartSize(chart);
+  if (plot && plot.width !== width) plot.setSize({ width, height });
+}
 
 function buildLegend(chart) {
   chart.values = chart.series.map(() => element("span", { className: "value" }));

@@ -1,33 +1,8 @@
-"use strict";
-// Data, time, colours and small helpers that all views share. Texts of the trace reach the page
-// through textContent only.
+// The runs of the page: actors, colours, time, and what all views draw with.
 
-const byId = (id) => document.getElementById(id);
-const DATA = JSON.parse(byId("run-data").textContent);
 const RUNS = DATA.runs;
 const COMPARED = RUNS.length > 1;
 const SVG_SPACE = byId("timeline").namespaceURI;
-
-// ---- errors: shown on the page and readable in the DOM -----------------------------------------
-
-function showError(message) {
-  document.documentElement.dataset.error = message;
-  byId("error").hidden = false;
-  byId("error").textContent = "The report could not be drawn completely: " + message;
-}
-window.addEventListener("error", (event) => showError(String(event.message)));
-
-// ---- small helpers -----------------------------------------------------------------------------
-
-const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-const mix = (a, b, share) => (a === null || b === null ? a : a + (b - a) * share);
-
-/** Make an HTML element: element("td", {className: "x"}, "text", child...). */
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
 
 /** Make an SVG element with attributes; children may be texts (they stay texts). */
 function svg(tag, attributes = {}, ...children) {
@@ -35,38 +10,6 @@ function svg(tag, attributes = {}, ...children) {
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   made.append(...children);
   return made;
-}
-
-/** A number with fixed decimals and a true minus sign; a dash where there is none. */
-function format(value, digits) {
-  if (value === null || value === undefined) return "–";
-  const text = value.toFixed(digits);
-  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
-}
-
-const seconds = (time) => format(time, 2) + " s";
-
-/** Index of the last entry of a sorted list that is not after `value` (0 if all are). */
-function lastIndex(list, value) {
-  let low = 0, high = list.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (list[middle] <= value) low = middle + 1; else high = middle;
-  }
-  return Math.max(low - 1, 0);
-}
-
-/** A row of buttons of which one is pressed. */
-function segments(host, choices, onPick, first = choices[0][0]) {
-  const buttons = choices.map(([value, text]) => {
-    const button = element("button", { type: "button", textContent: text });
-    button.addEventListener("click", () => { press(value); onPick(value); });
-    return [value, button];
-  });
-  const press = (chosen) =>
-    buttons.forEach(([value, button]) => button.setAttribute("aria-pressed", value === chosen));
-  host.append(...buttons.map(([, button]) => button));
-  press(first);
 }
 
 const measure = document.createElement("canvas").getContext("2d");
@@ -235,11 +178,13 @@ function scrub(host, timeOf) {
 /** Draw now and again whenever the width of an element changes. */
 function drawOnResize(host, draw) {
   let width = host.clientWidth;
-  new ResizeObserver(() => {
+  const redraw = () => {
     if (host.clientWidth === width) return;
     width = host.clientWidth;
     draw();
-  }).observe(host);
+  };
+  // Drawing may change the height, which an observer must not do while it is told of a change.
+  new ResizeObserver(() => requestAnimationFrame(redraw)).observe(host);
   draw();
 }
 

@@ -20,6 +20,7 @@ _VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
     f"vendor/{name}" for name in ("uplot.js", "uplot.css", "LICENSE")
 )
 _SCRIPTS = (
+    "base.js",
     "core.js",
     "export.js",
     "roads.js",
@@ -104,6 +105,6 @@ def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> s
 
 
 def _vendored() -> str:
-    """uPlot under its licence; its own first line is only an address."""
+    """The code of uPlot under its licence; its own first line is only an address."""
     code = resource(_VENDOR_SCRIPT).partition("\n")[2]
     return f"/* uPlot\n\n{resource(_VENDOR_LICENCE)}*/\n{code}"

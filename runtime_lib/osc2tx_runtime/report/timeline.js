@@ -4,7 +4,6 @@ const LINE_HEIGHT = 24;
 const BAR_HEIGHT = 18;
 const MAX_MARK_LINES = 4;
 
-const TIMELINE_ROWS = buildTimelineRows();
 const timeline = { host: byId("timeline"), axis: null, cursor: null };
 
 // Marks of these kinds have rows of their own; what else happened is in the log.
@@ -44,6 +43,8 @@ function waitRows(run) {
   return actions.length ? [{ name: COMPARED ? `${run.letter}: waits` : "waits", actions, waits: true }] : [];
 }
 
+const TIMELINE_ROWS = buildTimelineRows();
+
 /** Without the actor's name in front, which the row already says. */
 const shortName = (action) =>
   action.name.startsWith(action.actor + " ") ? action.name.slice(action.actor.length + 1) : action.name;
@@ -65,7 +66,9 @@ function layoutBar(action, toX, left, right) {
   const textSpan = textWidth(name, style) + 12;
   if (textSpan <= x1 - x0) return { action, x0, x1, name, textX: x0 + 6, from: x0, to: x1 };
   if (x1 + textSpan <= right) return { action, x0, x1, name, textX: x1 + 5, from: x0, to: x1 + textSpan };
-  return { action, x0, x1, name, textX: x0 - textSpan + 6, from: x0 - textSpan, to: x1 };
+  if (x0 - textSpan >= left) return { action, x0, x1, name, textX: x0 - textSpan + 6, from: x0 - textSpan, to: x1 };
+  const cut = fitText(name, right - x0 - 8, style); // no side has room: over the bar and beyond
+  return { action, x0, x1, name: cut, textX: x0 + 6, from: x0, to: right };
 }
 
 function layoutMark(mark, toX, right) {

@@ -13,7 +13,7 @@ MAX_SAMPLES = 4000
 """Samples of one actor on the page; longer runs are thinned evenly."""
 
 DIGITS = {"t": 4, "x": 2, "y": 2, "h": 4, "v": 3, "a": 3, "s": 2, "offset": 2}
-"""Columns, and the decimals that are kept: centimetres, about 0.01 degrees, millimetres per second."""
+"""Columns, and the decimals that are kept: centimetres, 0.01 degrees, millimetres per second."""
 
 _Sample = dict[str, float | None]
 
