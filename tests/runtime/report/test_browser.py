@@ -68,7 +68,7 @@ byId("motion-legend").firstChild.click();
 found.curves = charts[0].plot.series.filter((series, i) => i > 0 && series.show).length;
 clock.set(20); byId("zoom-in").click(); found.span = [span.from, span.to].join("-");
 byId("zoom-all").click(); found.whole = span.to;
-enter("actor-filter", "npc", "input"); 
+enter("actor-filter", "npc", "input");
 found.shown = [...shown.actors].map((actor) => actor.id).join();
 found.filtered = charts[0].series.map((series) => series.name).join();
 enter("actor-filter", "", "input");

@@ -178,7 +178,7 @@ def test_the_trace_of_a_failing_run_says_why_actions_ended() -> None:
     ends = [
         json.loads(line)
         for line in run.lines
-        if '"kind":"action"' in line and '"start"' not in line
+        if line.startswith('{"t"') and '"action"' in line and '"start"' not in line
     ]
     assert [(x["t"], x["status"], x["name"], x["source"], x["reason"]) for x in ends] == [
         (0.1, "fail", "hero task", "x.osc:2", "gave up"),
