@@ -1,12 +1,13 @@
 """The intermediate representation: what a program means, ready for any backend.
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `values`, `expressions`, `behaviors`, `coverage`, `nodes`,
-`lineages`; then `traversal`, `rewrite`, `compare`, `verify` (the invariants) and `dump` (the
-printable form).
+Modules, in reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
+`coverage`, `nodes`, `lineages`; then `traversal`, `rewrite`, `compare`, `verify` (the invariants)
+and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
+    Application,
     Behavior,
     BehaviorBase,
     Call,
@@ -33,9 +34,26 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
-from osc2tx.ir.compare import same, words
+from osc2tx.ir.compare import means_same, same, words
 from osc2tx.ir.constants import constant
 from osc2tx.ir.coverage import Coverage
+from osc2tx.ir.declarations import (
+    GLOBAL_MARK,
+    Actor,
+    Constraint,
+    Declaration,
+    DeclarationBase,
+    Event,
+    External,
+    FieldValue,
+    Method,
+    MethodParameter,
+    Parameter,
+    Sample,
+    Struct,
+    Variable,
+    setting_name,
+)
 from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.expression_text import show, show_arguments
 from osc2tx.ir.expressions import (
@@ -71,33 +89,21 @@ from osc2tx.ir.expressions import (
 )
 from osc2tx.ir.lineages import lineage, merged
 from osc2tx.ir.nodes import (
-    GLOBAL_MARK,
-    ActionParameter,
-    Actor,
-    Constraint,
-    Declaration,
-    DeclarationBase,
-    Event,
-    External,
-    FieldValue,
-    Method,
-    MethodParameter,
     Module,
     Override,
-    Parameter,
     Placement,
-    Sample,
     Scenario,
-    Struct,
+)
+from osc2tx.ir.rewrite import applied_with, rewrite
+from osc2tx.ir.traversal import children, is_live, walk
+from osc2tx.ir.user_types import (
+    ActionParameter,
     UserAction,
     UserEnum,
     UserField,
+    UserModifier,
     UserType,
-    Variable,
-    setting_name,
 )
-from osc2tx.ir.rewrite import rewrite
-from osc2tx.ir.traversal import children, is_live, walk
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
@@ -105,6 +111,7 @@ __all__ = [
     "GLOBAL_MARK",
     "ActionParameter",
     "Actor",
+    "Application",
     "Argument",
     "Attribute",
     "Behavior",
@@ -179,17 +186,20 @@ __all__ = [
     "UserAction",
     "UserEnum",
     "UserField",
+    "UserModifier",
     "UserShape",
     "UserType",
     "ValueType",
     "Variable",
     "Wait",
+    "applied_with",
     "children",
     "condition_expressions",
     "constant",
     "dump_ir",
     "is_live",
     "lineage",
+    "means_same",
     "merged",
     "rewrite",
     "same",

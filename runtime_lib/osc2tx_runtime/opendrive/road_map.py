@@ -29,8 +29,10 @@ from .model import (
 from .network import connect_lanes, linked_ends
 from .outlines import lane_outlines, spawn_points
 from .poses import lane_pose, surface_pose
-from .projection import Projection, RoadIndex, lane_at, place_score, position_of, project
+from .projection import Projection, best_place, lane_at, place_score, position_of, project
 from .reader import MapContent, read_content, read_content_text
+from .road_index import RoadIndex
+from .seams import Seam, seams
 from .signals import Controller, Signal
 
 __all__ = ["RoadMap", "read_map", "read_map_text"]
@@ -46,6 +48,8 @@ class RoadMap:
         roads: Roads by id, in numeric order.
         junctions: Junctions by id, in numeric order.
         geo_reference: Where it lies on the globe.
+        header: Attributes of the header of the file.
+        remarks: What is wrong with the file, or matters and is not read.
     """
 
     def __init__(self, content: MapContent) -> None:
@@ -57,6 +61,8 @@ class RoadMap:
         self._controllers = content.controllers
         self._crosswalks = content.crosswalks
         self.geo_reference = content.geo_reference
+        self.header = content.header
+        self.remarks = content.remarks
         self._forks = Forks()
         table = LaneTable(content.roads, content.file)
         self._road, self._lane, self._keyed = table.road, table.at, table.keyed
@@ -94,7 +100,7 @@ class RoadMap:
             found = self._track(x, y, hint, lane_types, z, heading)
             if found is not None:
                 return position_of(*found)
-        best = self._index.best((x, y), lane_types, max_distance, z, heading)
+        best = best_place(self._index, (x, y), lane_types, max_distance, z, heading)
         return None if best is None else position_of(*best)
 
     def _track(
@@ -261,17 +267,27 @@ class RoadMap:
         """Edges of all lanes for drawing, optionally only near a box (xmin, ymin, xmax, ymax)."""
         return lane_outlines(self._roads.values(), bounds, step)
 
+    def seams(self) -> tuple[Seam, ...]:
+        """Where lanes go on beside where they end, or in another direction."""
+        return self._seams
+
+    @cached_property
+    def _seams(self) -> tuple[Seam, ...]:
+        return seams(self._roads.values())
+
     def bounds(self) -> tuple[float, float, float, float]:
         """Box around all lanes: xmin, ymin, xmax, ymax (m)."""
-        edges = self._index.outline
-        low, high = edges.min(axis=0), edges.max(axis=0)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        return self._bounds
 
     # --- internals ----------------------------------------------------------------------------
 
     @cached_property
     def _index(self) -> RoadIndex:
-        return RoadIndex(self._roads)
+        return RoadIndex(self._roads.values())
+
+    @cached_property
+    def _bounds(self) -> tuple[float, float, float, float]:
+        return self._index.bounds()
 
     @cached_property
     def _groups(self) -> LaneGroups:
