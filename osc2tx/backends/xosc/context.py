@@ -46,6 +46,7 @@ class Context:
         automatic_lights: What shines of vehicles whose lights follow the weather, by name.
         segments: Where declared roads and lanes are on the map, once they have been looked for.
         init_globals: Actions of `Init` that concern no entity.
+        demands: Greatest acceleration (m/s^2) that the scenario asks of an actor, by name.
         weather: What the scenario has said about it up to the present place of the tree.
         monitors: Value at the start of monitors, by name.
         variables: Type and value at the start of variables, by name.
@@ -89,6 +90,7 @@ class Context:
         self.map_places = tuple(map_places(self.map_file, folders))
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}
+        self.demands: dict[str, float] = {}
         self.monitors: dict[str, bool] = {}
         self.weather: dict[str, float] = {}
         self.init_globals: list[Element] = []

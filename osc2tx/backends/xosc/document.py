@@ -29,11 +29,11 @@ MOST_TIME = 300.0
 
 def make_document(ctx: Context) -> Element:
     """Return the document; what it cannot say is in the report."""
-    objects = scenario_objects(ctx)
     ctx.init_globals.extend(initial_environment(ctx))
     privates = initial_actions(ctx)
     flattener = Flattener(ctx)
     end = flattener.run()
+    objects = scenario_objects(ctx)  # only now it is known what they have to be able to do
     writer = StoryboardWriter(ctx.version)
     end = _end(ctx, end)
     acts = adapted(ctx, flattener.acts, end)

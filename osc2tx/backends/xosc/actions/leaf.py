@@ -193,6 +193,11 @@ class Leaf:
         """What the actor can do on roads that the weather has wetted."""
         return held_by(self.member.limits, road_condition(self.ctx.weather))
 
+    def demand(self, rate: float) -> None:
+        """Note an acceleration (m/s^2) that the actor has to be able to."""
+        demands, name = self.ctx.demands, self.member.name
+        demands[name] = max(demands.get(name, 0.0), rate)
+
     @property
     def construct(self) -> str:
         """What it is called in reports."""

@@ -228,13 +228,6 @@ def follow(
     """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
     if is_timed:
         leaf.ctx.require_support("Vertex/time", leaf.node.span)
-    return polyline(leaf, vertices, is_timed, is_exact)
-
-
-def polyline(
-    leaf: Leaf, vertices: Sequence[tuple[float, Element]], is_timed: bool, is_exact: bool
-) -> Element:
-    """Return the action along a polyline, whatever the tool does about times."""
     older = leaf.ctx.version == "1.0"
     trajectory = element(
         "Trajectory",

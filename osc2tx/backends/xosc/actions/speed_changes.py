@@ -12,12 +12,15 @@ from dataclasses import replace
 from osc2tx.backends.xosc.actions.leaf import Change, Course, Leaf
 from osc2tx.backends.xosc.facts.actors import (
     COMFORT,
+    COSINE_PEAK,
     GENTLE,
+    TOP_SPEED,
     Cosine,
     Limits,
     Linear,
     Profile,
     course_of_speed,
+    fastest,
     way_by_acceleration,
 )
 from osc2tx.backends.xosc.report import Remedy
@@ -57,10 +60,21 @@ def change_speed(
         start = state.speed.low
         course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
         leaf.course = course
+        leaf.demand(fastest(course))
         action = _from_known(leaf, course, target, profile, peak)
         return Change(LONGITUDINAL, (action,), course.duration, during, after)
+    if peak is not None:
+        leaf.demand(peak)
+    elif duration is not None and profile != "asap":
+        leaf.demand(_steepest(leaf, target, duration))
     action = _from_unknown(leaf, target, profile, peak, duration)
     return Change(LONGITUDINAL, (action,), duration, during, after)
+
+
+def _steepest(leaf: Leaf, target: float, duration: float) -> float:
+    """Return the greatest acceleration of a change that takes a time, from any speed it may have."""
+    speeds = leaf.state.speed or (0.0, TOP_SPEED)
+    return COSINE_PEAK * max(abs(target - speed) for speed in speeds) / duration
 
 
 def jump_to(leaf: Leaf, target: float) -> Change:

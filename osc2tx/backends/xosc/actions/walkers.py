@@ -10,7 +10,7 @@ import math
 from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.paths import polyline
+from osc2tx.backends.xosc.actions.paths import follow
 from osc2tx.backends.xosc.actions.speed_changes import jump_to
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
@@ -88,7 +88,7 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Elem
         )
         for point in thinned(points, is_timed=True)
     ]
-    return polyline(leaf, vertices, is_timed=True, is_exact=True)
+    return follow(leaf, vertices, is_timed=True, is_exact=True)
 
 
 def _ahead(pose: Pose, way: float) -> Pose:

@@ -67,6 +67,18 @@ def of_entity(actor: str, condition: Element) -> Element:
     )
 
 
+def relative_speed(ctx: Context, actor: str, other: str, rule: str, value: float) -> Groups:
+    """Return the condition on the difference (m/s) of the speeds of two actors."""
+    condition = element(
+        "RelativeSpeedCondition",
+        entityRef=other,
+        rule=rule,
+        value=value,
+        direction="longitudinal" if ctx.version >= "1.2" else None,
+    )
+    return ((of_entity(actor, condition),),)
+
+
 MIRRORED = {
     "greaterThan": "lessThan",
     "greaterOrEqual": "lessOrEqual",

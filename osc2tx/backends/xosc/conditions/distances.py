@@ -6,7 +6,7 @@ from math import cos, pi, sin
 
 from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.stationary_actors import standing_heading
+from osc2tx.backends.xosc.entities.stationary_actors import faces_along, standing_heading
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -59,7 +59,7 @@ FAR = 10000.0
 """Metres that no pair of actors is apart."""
 
 MANY_LANES = 100
-"""Lanes that no road has; without a range esmini finds no lane at all."""
+"""Lanes that no road has, for tools that find no lane at all without a range."""
 
 
 def _signed(
@@ -85,10 +85,10 @@ def _signed(
     if shifted is not None:
         return shifted
     me, other = c.actor, c.reference()
-    behind, ahead = (me, other) if ahead_is_positive else (other, me)
-    rule, value = c.rule, c.value
+    is_ahead, rule, value = ahead_is_positive, c.rule, c.value
     if value < 0.0:
-        behind, ahead, rule, value = ahead, behind, MIRRORED[rule], -value
+        is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
+    _note_facing(ctx, c, freespace, system)
     has_order = direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2")
     if value == 0.0 and not freespace:  # only the order counts
         if not has_order:
@@ -97,8 +97,7 @@ def _signed(
                 "conditions on distances have no sign, so they cannot ask for that of a distance"
             )
             raise Inexpressible(reason, c.source.span, remedy)
-        first, second = (ahead, behind) if rule.startswith("less") else (behind, ahead)
-        return ((_is_ahead(first, second),),)
+        return ((_is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
     distance = of_entity(
         me,
         element(
@@ -113,14 +112,14 @@ def _signed(
     )
     if has_order:
         if rule.startswith("less") and not c.is_edge:
-            return ((distance,), (_is_ahead(ahead, behind),))
-        return ((distance, _is_ahead(behind, ahead)),)
+            return ((distance,), (_is_clear(ctx, me, other, ahead=is_ahead),))
+        return ((distance, _is_clear(ctx, me, other, ahead=not is_ahead)),)
     span = c.source.span
     ctx.report.approximate(
         f"sign of {c.name}",
         span,
         "conditions on distances have no sign",
-        f"differs only while {behind} is on the other side of {ahead} by more than {value:g} m",
+        f"differs only while {other} is on the other side of {me} by more than {value:g} m",
         Remedy(version="1.2") if direction == "longitudinal" else Remedy(),
     )
     return ((distance,),)
@@ -157,19 +156,39 @@ def _shifted(ctx: Context, c: Comparison, direction: str, system: str) -> Groups
     return ((of_entity(c.actor, condition),),)
 
 
-def _is_ahead(behind: str, ahead: str) -> Element:
-    """Return the condition that one actor is not behind another one, on whatever lane."""
+def _is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
+    """Return the condition that another actor is not ahead of one, or not behind, on any lane.
+
+    Ahead is where the one looks, whatever the other one does.
+    """
+    every_lane = ctx.profile.needs_lane_range
     return of_entity(
-        behind,
+        me,
         element(
             "RelativeClearanceCondition",
-            element("RelativeLaneRange", from_=-MANY_LANES, to=MANY_LANES),
-            element("EntityRef", entityRef=ahead),
-            distanceForward=0.0,
-            distanceBackward=FAR,
+            element("RelativeLaneRange", from_=-MANY_LANES, to=MANY_LANES) if every_lane else None,
+            element("EntityRef", entityRef=other),
+            distanceForward=FAR if ahead else 0.0,
+            distanceBackward=0.0 if ahead else FAR,
             freeSpace=False,
             oppositeLanes=True,
         ),
+    )
+
+
+def _note_facing(ctx: Context, c: Comparison, freespace: bool, system: str) -> None:
+    """Report a space between ends that depends on which end the other one turns this way."""
+    if not freespace or system != "road":
+        return
+    shape = next(m.shape for m in ctx.entities if m.name == c.reference())
+    off = abs(shape.front - shape.rear)
+    if off < 1e-6 or faces_along(ctx, c.actor, c.reference()):
+        return
+    ctx.report.approximate(
+        c.name,
+        c.source.span,
+        f"{c.reference()} may look another way than {c.actor}, so that another end of it faces it",
+        f"at most {off:.2g} m",
     )
 
 

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
+from osc2tx.backends.xosc.conditions.comparisons import (
+    MIRRORED,
+    Comparison,
+    Groups,
+    of_entity,
+    relative_speed,
+)
 from osc2tx.backends.xosc.conditions.distances import overhang
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
@@ -54,16 +60,49 @@ def _headway(
 
 
 def time_to_collision(ctx: Context, c: Comparison) -> Groups:
-    """Compare the time until both collide if their speeds stay as they are."""
-    newer = ctx.version >= "1.1"
-    condition = element(
-        "TimeToCollisionCondition",
-        element("TimeToCollisionConditionTarget", element("EntityRef", entityRef=c.reference())),
-        value=c.value,
-        rule=c.rule,
-        freespace=True,
-        alongRoute=None if newer else True,
-        coordinateSystem="lane" if newer else None,
-        relativeDistanceType="longitudinal" if newer else None,
+    """Compare the time until both collide if their speeds stay as they are.
+
+    The XML divides a distance along one axis by the speed along it, so a condition across is
+    paired with it: that one is ahead, and not beside. Who moves away is never reached.
+    """
+    ctx.require("a distance in the axes of an object", "1.1", c.source.span)
+    target = element("EntityRef", entityRef=c.reference())
+    time = of_entity(
+        c.actor,
+        element(
+            "TimeToCollisionCondition",
+            element("TimeToCollisionConditionTarget", target),
+            value=c.value,
+            rule=c.rule,
+            freespace=True,
+            coordinateSystem="entity",
+            relativeDistanceType="longitudinal",
+        ),
     )
-    return ((of_entity(c.actor, condition),),)
+    ctx.report.approximate(
+        c.name,
+        c.source.span,
+        "a time in the XML counts along one axis; motion across it does not count",
+        "none where both keep to the axis of the actor; else by the time to come to its width",
+    )
+    if c.rule.startswith("less"):
+        beside = _across(c, "lessOrEqual")
+        return ((time, beside), (beside, time)) if c.is_edge else ((time, beside),)
+    away = relative_speed(ctx, c.actor, c.reference(), "lessOrEqual", 0.0)
+    return ((time,), (_across(c, "greaterThan"),), *away)
+
+
+def _across(c: Comparison, rule: str) -> Element:
+    """Return the condition on the space between the sides of two actors."""
+    return of_entity(
+        c.actor,
+        element(
+            "RelativeDistanceCondition",
+            entityRef=c.reference(),
+            relativeDistanceType="lateral",
+            coordinateSystem="entity",
+            value=0.0,
+            freespace=True,
+            rule=rule,
+        ),
+    )

@@ -57,18 +57,6 @@ def _motion(ctx: Context, c: Comparison, condition: str, direction: str | None) 
     return ((of_entity(c.actor, made),),)
 
 
-def relative_speed(ctx: Context, actor: str, other: str, rule: str, value: float) -> Groups:
-    """Return the condition on the difference (m/s) of the speeds of two actors."""
-    condition = element(
-        "RelativeSpeedCondition",
-        entityRef=other,
-        rule=rule,
-        value=value,
-        direction="longitudinal" if ctx.version >= "1.2" else None,
-    )
-    return ((of_entity(actor, condition),),)
-
-
 MEASURES: Mapping[str, Measure] = {
     "speed": _speed,
     "velocity.translational.x": _speed,

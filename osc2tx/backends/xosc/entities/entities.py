@@ -109,6 +109,7 @@ def _scenario_object(ctx: Context, member: CastMember) -> Element:
 
 def _vehicle(ctx: Context, member: CastMember) -> Element:
     limits = member.limits
+    demand = round(ctx.demands.get(member.name, 0.0), 6)
     jerk = limits.jerk if ctx.version >= "1.2" else None
     return element(
         "Vehicle",
@@ -116,8 +117,8 @@ def _vehicle(ctx: Context, member: CastMember) -> Element:
         element(
             "Performance",
             maxSpeed=TOP_SPEED,
-            maxAcceleration=limits.acceleration,
-            maxDeceleration=limits.deceleration,
+            maxAcceleration=max(limits.acceleration, demand),
+            maxDeceleration=max(limits.deceleration, demand),
             maxAccelerationRate=jerk,
             maxDecelerationRate=jerk,
         ),

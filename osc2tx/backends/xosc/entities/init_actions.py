@@ -24,7 +24,7 @@ OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})
 def initial_actions(ctx: Context) -> list[Element]:
     """Return the start of each actor, references first, and note what is known about them."""
     for member in ctx.entities:
-        ctx.states[member.name] = ActorState(speed=known(0.0))
+        ctx.states[member.name] = ActorState()
     privates = []
     tows = towing(ctx)
     for start in in_order(starts_of(ctx)):

@@ -33,6 +33,9 @@ class Start:
 
 
 RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
+FASTER = {"faster_than": 1.0, "slower_than": -1.0}
+"""Parameters that name whose speed another one is relative to, with the sign of the difference."""
+
 TURNS = frozenset({"orientation", "speed", "tow_trailer", "yaw"})
 """Modifiers that name others without a place beside them."""
 
@@ -72,7 +75,7 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
     tow = towing(ctx).get(member.name)
     references = [] if tow is None else [tow]
     for arguments in modifiers.values():
-        for name in RELATIVE:
+        for name in (*RELATIVE, *FASTER):
             other = arguments.entity(name)
             if other is not None:
                 references.append(other.name)
@@ -102,7 +105,7 @@ def speed_at_start(ctx: Context, start: Start) -> float:
     if arguments is None:
         return 0.0
     speed = arguments.number("speed") or 0.0
-    for name, sign in (("same_as", 1.0), ("faster_than", 1.0), ("slower_than", -1.0)):
+    for name, sign in (("same_as", 1.0), *FASTER.items()):
         other = arguments.entity(name)
         if other is not None:
             theirs = ctx.states[other.name].speed

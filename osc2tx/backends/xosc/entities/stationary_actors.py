@@ -1,6 +1,8 @@
-"""Actors that stand still during the whole run: their heading is known in advance."""
+"""Headings of actors that are known in advance: of who stands still, or drives along its lane."""
 
 from __future__ import annotations
+
+from math import cos
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
@@ -26,3 +28,19 @@ def standing_heading(ctx: Context, entity: str) -> float | None:
             if member is None or member.name == entity:
                 return None
     return state.pose.h
+
+
+def faces_along(ctx: Context, me: str, other: str) -> bool:
+    """Whether two actors surely look the same way along their road, wherever they are on it."""
+    ways = [_way_along(ctx, name) for name in (me, other)]
+    return ways[0] is not None and ways[0] == ways[1]
+
+
+def _way_along(ctx: Context, entity: str) -> tuple[str, bool] | None:
+    """Return road and direction in which an actor set out along its lane; `None` if unknown."""
+    state, roads = ctx.at_start.get(entity), ctx.roads
+    if state is None or state.lane is None or roads is None:
+        return None
+    if state.pose is not None and cos(state.pose.h - roads.pose(state.lane).h) < 0.999:
+        return None
+    return state.lane.road, roads.map.travel_direction(state.lane.road, state.lane.lane) > 0

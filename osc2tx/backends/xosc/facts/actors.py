@@ -26,7 +26,7 @@ from osc2tx_runtime.world.commands import AccelerationChange, SpeedChange
 from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.longitudinal import speed_profile
-from osc2tx_runtime.world.profiles import Cosine, Linear, Profile, Quintic, SCurve
+from osc2tx_runtime.world.profiles import COSINE_PEAK, Cosine, Linear, Profile, Quintic, SCurve
 from osc2tx_runtime.world.towing import DRAWBAR
 from osc2tx_runtime.world.weather_effects import Surroundings
 
@@ -34,6 +34,7 @@ __all__ = [
     "ADHESION",
     "CATEGORIES",
     "COMFORT",
+    "COSINE_PEAK",
     "CRUISE",
     "DRAWBAR",
     "GENTLE",
@@ -153,7 +154,7 @@ def apart(one: Profile, other: Profile) -> float:
 def fastest(course: Profile) -> float:
     """Return the greatest rate of a course."""
     step = course.duration / STEPS
-    return max(abs(course.rate((index + 0.5) * step)) for index in range(STEPS))
+    return max(abs(course.rate((index + 0.5) * step)) for index in range(STEPS + 1))
 
 
 def _known(profile: str) -> DynamicProfile:

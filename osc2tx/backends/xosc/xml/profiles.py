@@ -22,6 +22,8 @@ class ToolProfile:
             condition that is no longer true does not count.
         has_act_stop: It ends acts by their stop triggers.
         has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
+        needs_lane_range: It finds no lane where a condition names none; in the standard that is
+            all.
         has_shapes: It looks at the shape of the dynamics.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
             standard it begins without any.
@@ -38,6 +40,7 @@ class ToolProfile:
     has_delays: bool = True
     has_act_stop: bool = True
     has_stop: bool = True
+    needs_lane_range: bool = False
     has_shapes: bool = True
     carries_acceleration: bool = False
     ego_property: str = ""
@@ -72,7 +75,9 @@ _SCENARIO_RUNNER_IGNORES = {
 
 PROFILES: Mapping[XmlProfile, ToolProfile] = {
     "generic": ToolProfile(name="generic", unsupported={}),
-    "esmini": ToolProfile(name="esmini", unsupported=_ESMINI_IGNORES, carries_acceleration=True),
+    "esmini": ToolProfile(
+        name="esmini", unsupported=_ESMINI_IGNORES, carries_acceleration=True, needs_lane_range=True
+    ),
     "scenario_runner": ToolProfile(
         name="scenario_runner",
         versions=("1.0",),
