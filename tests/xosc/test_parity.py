@@ -4,15 +4,20 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.options import XmlOptions, XmlProfile
 from tests.xosc.parity import Given, check, is_exact, scenarios
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
-OWN = ["cut_in", "pedestrian_crossing", "cut_in_and_evade"]
+OWN: dict[str, XmlProfile] = {
+    "cut_in": "generic",
+    "cut_in_and_evade": "esmini",
+    "pedestrian_crossing": "generic",
+}
 
 
 @pytest.mark.parametrize("name", OWN)
 def test_own_scenarios(name: str) -> None:
-    given = Given(SCENARIOS / f"{name}.osc")
+    given = Given(SCENARIOS / f"{name}.osc", xml=XmlOptions(profile=OWN[name]))
     (document,) = scenarios(given)
     assert is_exact(document), document.report.obstacles
     check(given, document)

@@ -72,7 +72,7 @@ def change_speed(
 
 
 def _steepest(leaf: Leaf, target: float, duration: float) -> float:
-    """Return the greatest acceleration of a change that takes a time, from any speed it may have."""
+    """Return the greatest acceleration of a change in a time, from any speed it may have."""
     speeds = leaf.state.speed or (0.0, TOP_SPEED)
     return COSINE_PEAK * max(abs(target - speed) for speed in speeds) / duration
 

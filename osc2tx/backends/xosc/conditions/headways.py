@@ -65,7 +65,7 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
     The XML divides a distance along one axis by the speed along it, so a condition across is
     paired with it: that one is ahead, and not beside. Who moves away is never reached.
     """
-    ctx.require("a distance in the axes of an object", "1.1", c.source.span)
+    newer = ctx.version >= "1.1"
     target = element("EntityRef", entityRef=c.reference())
     time = of_entity(
         c.actor,
@@ -75,8 +75,9 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
             value=c.value,
             rule=c.rule,
             freespace=True,
-            coordinateSystem="entity",
-            relativeDistanceType="longitudinal",
+            alongRoute=None if newer else False,
+            coordinateSystem="entity" if newer else None,
+            relativeDistanceType="longitudinal" if newer else None,
         ),
     )
     ctx.report.approximate(
@@ -86,13 +87,13 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
         "none where both keep to the axis of the actor; else by the time to come to its width",
     )
     if c.rule.startswith("less"):
-        beside = _across(c, "lessOrEqual")
+        beside = _across(ctx, c, "lessOrEqual")
         return ((time, beside), (beside, time)) if c.is_edge else ((time, beside),)
     away = relative_speed(ctx, c.actor, c.reference(), "lessOrEqual", 0.0)
-    return ((time,), (_across(c, "greaterThan"),), *away)
+    return ((time,), (_across(ctx, c, "greaterThan"),), *away)
 
 
-def _across(c: Comparison, rule: str) -> Element:
+def _across(ctx: Context, c: Comparison, rule: str) -> Element:
     """Return the condition on the space between the sides of two actors."""
     return of_entity(
         c.actor,
@@ -100,7 +101,7 @@ def _across(c: Comparison, rule: str) -> Element:
             "RelativeDistanceCondition",
             entityRef=c.reference(),
             relativeDistanceType="lateral",
-            coordinateSystem="entity",
+            coordinateSystem="entity" if ctx.version >= "1.1" else None,
             value=0.0,
             freespace=True,
             rule=rule,

@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import required_roads
 from osc2tx.backends.xosc.entities.start_orientations import orientation_in_lane, turned
-from osc2tx.backends.xosc.entities.start_statements import TURNS, Start, speed_at_start
+from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
@@ -32,7 +32,7 @@ def position_of(ctx: Context, start: Start) -> tuple[Element, ActorState]:
         return _at_pose(ctx, start, location)
     if position is not None and ("at_point" in position or "x" in position):
         return _at_point(ctx, start, position)
-    if start.references and not (set(start.modifiers) <= TURNS):
+    if start.is_beside:
         return _beside(ctx, start)
     along = start.modifiers.get("along")
     if along is not None:

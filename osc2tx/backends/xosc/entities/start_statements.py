@@ -18,13 +18,14 @@ from osc2tx.diagnostics import Span
 
 @dataclass(slots=True)
 class Start:
-    """The start of one actor: its modifiers by name, and whom it refers to."""
+    """The start of one actor: modifiers by name, whom it refers to, and whether by its place."""
 
     member: CastMember
     scope: Scope
     placement: ir.Placement | None
     modifiers: dict[str, Arguments]
     references: tuple[str, ...]
+    is_beside: bool = False
 
     @property
     def span(self) -> Span:
@@ -74,12 +75,14 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
     modifiers = {call.name: Arguments(ctx, call.arguments, call) for call in placement.modifiers}
     tow = towing(ctx).get(member.name)
     references = [] if tow is None else [tow]
-    for arguments in modifiers.values():
+    is_beside = False
+    for modifier, arguments in modifiers.items():
         for name in (*RELATIVE, *FASTER):
             other = arguments.entity(name)
             if other is not None:
                 references.append(other.name)
-    return Start(member, scope, placement, modifiers, tuple(references))
+                is_beside = is_beside or modifier not in TURNS
+    return Start(member, scope, placement, modifiers, tuple(references), is_beside)
 
 
 def in_order(starts: list[Start]) -> list[Start]:
