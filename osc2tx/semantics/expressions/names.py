@@ -11,6 +11,7 @@ from osc2tx.semantics.expressions.type_receivers import type_as_receiver
 from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose, resolve_type_name
+from osc2tx.semantics.scenario_runner import actor_of_caller
 from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
     EnumSymbol,
@@ -40,6 +41,8 @@ def infer_name(
         receiver = type_as_receiver(r, node, env)
         if receiver is not None:
             return receiver
+    if symbol is None and env.owner is not None:
+        symbol = actor_of_caller(r, node.name, env)
     if symbol is None:
         return _infer_unknown(r, node, env, expected)
     r.references[node] = symbol
