@@ -12,6 +12,7 @@ from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.fields import FieldLowering
 from osc2tx.lowering.methods import lower_method
+from osc2tx.lowering.references import alias_of
 from osc2tx.lowering.triggers import event_parameter, lower_trigger
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
@@ -96,6 +97,8 @@ class DeclarationLowering:
         if isinstance(symbol, sym.FieldSymbol) and is_path(symbol.type):
             members = path_members(self._ctx, self._statements)
             return path_declarations(self._ctx, symbol, members, comments)
+        if isinstance(symbol, sym.FieldSymbol) and alias_of(self._ctx, symbol) is not None:
+            return ()
         if isinstance(symbol, sym.FieldSymbol) and is_placeholder(symbol_of(symbol.type)):
             return ()
         return present([self._field(statement, name, comments)])

@@ -15,7 +15,13 @@ def listed_arguments(body: ast.Node) -> tuple[ast.Argument, ...]:
     """Return the arguments of an external body that list what its function gets."""
     if not isinstance(body, ast.ExternalBody):
         return ()
-    return tuple(a for a in body.arguments if a.name and a.name.text not in ARGUMENTS)
+    return tuple(
+        argument
+        for argument in body.arguments
+        if argument.name is not None
+        and argument.name.text not in ARGUMENTS
+        and isinstance(argument.value, ast.NameExpression)
+    )
 
 
 def lower_external(

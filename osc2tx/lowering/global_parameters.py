@@ -11,6 +11,7 @@ from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.fields import FieldLowering
 from osc2tx.lowering.global_names import global_name
+from osc2tx.lowering.references import alias_of
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.conversions import symbol_of
@@ -60,7 +61,7 @@ class GlobalLowering:
     def _declarations(
         self, name: str, symbol: sym.FieldSymbol
     ) -> tuple[ir.Actor | ir.Struct | ir.Parameter, ...]:
-        if is_placeholder(symbol_of(symbol.type)):
+        if is_placeholder(symbol_of(symbol.type)) or alias_of(self._ctx, symbol) is not None:
             return ()
         if is_path(symbol.type):
             return self._path(name, symbol)

@@ -84,6 +84,8 @@ class Resolution:
         event_fields: The event behind each name that `as` bound.
         actor_fields: The implicit field `actor` per actor type.
         implied_objects: The objects that a program has without declaring them, per type.
+        quantities: What texts of ScenarioRunner such as `"npc_speed"` read.
+        adopted: Fields that stand for actors of the caller, which a dialect finds by their names.
         invoked: What the name in an invocation was found to be; `None` if it was reported.
     """
 
@@ -100,6 +102,8 @@ class Resolution:
     event_fields: dict[Symbol, EventSymbol] = field(default_factory=dict)
     actor_fields: dict[ActorSymbol, FieldSymbol] = field(default_factory=dict)
     implied_objects: dict[ActorSymbol | StructSymbol, FieldSymbol] = field(default_factory=dict)
+    quantities: dict[ast.StringLiteral, ast.MemberAccess] = field(default_factory=dict)
+    adopted: set[FieldSymbol] = field(default_factory=set)
     invoked: dict[ast.Name, ScenarioSymbol | ActionSymbol | None] = field(default_factory=dict)
 
     def type_of(

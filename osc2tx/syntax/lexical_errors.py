@@ -23,9 +23,7 @@ _REPLACEMENTS = {
 class LexicalErrors:
     """Reports lexical mistakes of one source, each once, not more than 100 of a kind."""
 
-    def __init__(
-        self, table: TokenTable, sink: DiagnosticSink, *, allow: Collection[str]
-    ) -> None:
+    def __init__(self, table: TokenTable, sink: DiagnosticSink, *, allow: Collection[str]) -> None:
         """Report into `sink` what is not among the codes that are fine."""
         self._table = table
         self._text = table.source.text
