@@ -79,7 +79,7 @@ class EmbeddedWorld:
         self._friction = FrictionWatch(dt)
         self._plant: Plant = Identity() if plant is None else CheckedPlant(plant)
         self._scene = Scene(
-            *(road_map, dt, self.signals, self._lights, self._surroundings, self._couplings)
+            road_map, dt, self.signals, self._lights, self._surroundings, self._couplings
         )
 
     # --- life ---------------------------------------------------------------------------------
@@ -217,6 +217,10 @@ class EmbeddedWorld:
         """Motions up to now that no tyre can transmit."""
         return self._friction.overloads
 
+    def warnings(self) -> Sequence[str]:
+        """What a simulator could not do as it was wanted, up to now."""
+        return self._scene.warnings()
+
     def capabilities(self) -> frozenset[Feature]:
         """What it has beside moving actors."""
         return self._plant.capabilities()
@@ -316,9 +320,9 @@ class EmbeddedWorld:
         self._changes.clear()
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = arrive(
-            *(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
-        )
+        states = arrive(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
+        for tow, trailer, angle in self._couplings.take_folded():
+            self._scene.note_jack_knife(tow, trailer, angle)
         self._track.add(before, frozenset(jumped))
         self._contacts.step(before, states, jumped, self._couplings.pairs())
         self._friction.step(members, put | jumped, self._surroundings.road)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -90,6 +91,7 @@ class Scene:
         self._kicked: frozenset[str] | set[str] = frozenset()
         self._setpoints: Mapping[str, Setpoint] | None = None
         self._notes: list[Note] = []
+        self._warnings: dict[str, None] = {}
 
     def wish(
         self,
@@ -146,6 +148,20 @@ class Scene:
     def note(self, kind: str, **values: Any) -> None:
         """Writes a line into the trace at the end of this step."""
         self._notes.append((kind, values))
+
+    def note_jack_knife(self, tow: str, trailer: str, angle: float) -> None:
+        """Says that a trailer stands across its towing vehicle (rad), as no bar can."""
+        degrees, time = round(math.degrees(angle), 1), self.step * self.dt
+        self.note("jack_knife", actor=trailer, tow=tow, angle=degrees)
+        self.warn(f"{trailer} jack-knifes at {time:.2f} s: it stands at {degrees:g}° to {tow}")
+
+    def warn(self, text: str) -> None:
+        """Says once what cannot be as the scenario wants it, in a run that goes on all the same."""
+        self._warnings[text] = None
+
+    def warnings(self) -> tuple[str, ...]:
+        """What was said with `warn`, in order."""
+        return tuple(self._warnings)
 
     def take_notes(self) -> Sequence[Note]:
         """Hands over the notes since the last call."""
