@@ -1,4 +1,4 @@
-"""What scenarios written for ScenarioRunner mean by names: actors, speeds, types without objects."""
+"""What scenarios for ScenarioRunner mean by names: actors, speeds, types without objects."""
 
 from collections.abc import Callable
 from pathlib import Path
