@@ -98,7 +98,7 @@ from osc2tx.ir.nodes import (
 )
 from osc2tx.ir.rewrite import rewrite
 from osc2tx.ir.traversal import children, is_live, walk
-from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
+from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -191,6 +191,7 @@ __all__ = [
     "is_live",
     "lineage",
     "merged",
+    "qualified",
     "rewrite",
     "same",
     "setting_name",

@@ -8,7 +8,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Behavior, ModifierCall, Trigger
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.expressions import Choices, Domain, Expression, RangeValue
-from osc2tx.ir.values import ValueType
+from osc2tx.ir.values import ValueType, qualified
 from osc2tx.support.light_dataclass import dataclass
 
 # Before the name of a global parameter that a field of the scenario hides: no field has a blank in
@@ -332,17 +332,22 @@ class UserAction:
 
     Attributes:
         name: Its name.
-        owner: The actor type that it belongs to.
+        owner: The actor type that it belongs to, if any.
         parameters: Its own and those of its bases.
         takes_modifiers: Whether modifiers of movement may be applied to it.
     """
 
     name: str
-    owner: str
+    owner: str | None
     span: Span
     parameters: tuple[ActionParameter, ...]
     takes_modifiers: bool
     comments: tuple[str, ...] = ()
+
+    @property
+    def qualified_name(self) -> str:
+        """`vehicle.creep`; the name alone if it belongs to no actor."""
+        return qualified(self.owner, self.name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

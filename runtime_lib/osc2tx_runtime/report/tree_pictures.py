@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
-from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial
 from osc2tx_text import visible
 
@@ -101,13 +101,13 @@ def _kind(node: Behaviour) -> str:
     for kind, name in ((Serial, "serial"), (Parallel, "parallel"), (OneOf, "one_of")):
         if isinstance(node, kind):
             return name
-    return "action" if isinstance(node, Action) else type(node).__name__.lower()
+    return "action" if isinstance(node, BaseAction) else type(node).__name__.lower()
 
 
 def _text(node: Behaviour) -> str:
     """The name, without what the kind says already; a label with what the action does."""
     kind = _kind(node)
-    if isinstance(node, Action) and node.label is not None:
+    if isinstance(node, BaseAction) and node.label is not None:
         return f"{node.label}: {node.action_name}"
     name = node.name.removeprefix(kind).lstrip(" ,")
     return "" if name == kind else name
