@@ -12,7 +12,7 @@ from typing import Any, get_args, get_type_hints
 
 from osc2tx_rules import Rule
 from osc2tx_runtime import enums
-from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
@@ -78,7 +78,7 @@ def _action(method: RegisteredMethod, factory: type[Action]) -> dict[str, Any]:
         "arguments": _arguments(factory.__init__),
         "required": _required(factory.__init__),
         "modifiers": sorted(accepted),
-        "moves": issubclass(factory, ShapedAction) and not factory.stands,
+        "moves": issubclass(factory, ModifiableAction) and not factory.stands,
         "physical": factory.physical,
         "slots": list(method.slots),
         "ends": method.ends,
