@@ -99,6 +99,7 @@ class UserAction:
         """`vehicle.creep`; the name alone if it belongs to no actor."""
         return qualified(self.owner, self.name)
 
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UserModifier:
     """A modifier that the scenario's files declare, as a function of its parameters.
