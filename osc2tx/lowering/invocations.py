@@ -9,7 +9,12 @@ from osc2tx.analysis.operation_list import Key
 from osc2tx.ir.source_text import statement_name
 from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.carla_paths import start_on_path
-from osc2tx.lowering.composed_behaviors import Composed, has_behavior, is_composed
+from osc2tx.lowering.composed_behaviors import (
+    Composed,
+    actor_type_of,
+    has_behavior,
+    is_composed,
+)
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
@@ -46,15 +51,7 @@ class InvocationLowering:
         actor = self._actor(node, binding)
         if is_composed(callee):
             return self._scenario(node, callee, actor, comments)
-        if not isinstance(callee, sym.ActionSymbol) or callee.actor is None or actor is None:
-            self._ctx.unsupported(
-                "OSC504",
-                node.span,
-                f"action `{node.behavior}` has no actor that could carry it out",
-                help="say what it does with a `do`, or declare it for an actor, "
-                f"`action vehicle.{node.behavior}`",
-            )
-            return None
+        assert isinstance(callee, sym.ActionSymbol)
         self._ctx.actions.append(callee)
         arguments = self._arguments(node, actor)
         if is_user_defined(callee):
@@ -64,13 +61,13 @@ class InvocationLowering:
             span=node.span,
             label=label_of(node),
             name=invocation_name(
-                actor.name if isinstance(actor, ir.FieldRef) else actor.span.text,
+                _written(actor),
                 callee.name,
                 [*(a.span.text for a in node.arguments), *(m.span.text for m in written)],
             ),
             comments=comments,
             actor=actor,
-            owner=callee.actor.name,
+            owner=None if callee.actor is None else callee.actor.name,
             action=callee.name,
             arguments=tuple(a for a in arguments if a.parameter != "duration"),
             modifiers=self._modifiers(node, actor),
@@ -82,12 +79,13 @@ class InvocationLowering:
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
         """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        callee = binding.callee
+        type_of_actor = actor_type_of(callee) if isinstance(callee, sym.BehaviorSymbol) else None
+        if type_of_actor is None:
+            return None
         if binding.receiver is not None:
             return lower_expression(self._ctx, binding.receiver)
-        callee = binding.callee
-        if not isinstance(callee, sym.ScenarioSymbol | sym.ActionSymbol) or callee.actor is None:
-            return None
-        type_ = ir.ValueType(ir.Kind.ACTOR, callee.actor.name)
+        type_ = ir.ValueType(ir.Kind.ACTOR, type_of_actor.name)
         return ir.FieldRef(span=node.span, type=type_, name="actor")
 
     def _scenario(
@@ -254,6 +252,12 @@ class InvocationLowering:
                 name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
                 if name == actor.name:
                     yield statement
+
+
+def _written(actor: ir.Expression | None) -> str | None:
+    if actor is None:
+        return None
+    return actor.name if isinstance(actor, ir.FieldRef) else actor.span.text
 
 
 def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
