@@ -59,6 +59,10 @@ def _headway(
     return of_entity(behind, condition)
 
 
+TOUCHING = 0.001
+"""Metres between those that touch, and m/s of who stays where it is: 1.0 cannot say `0 or less`."""
+
+
 def time_to_collision(ctx: Context, c: Comparison) -> Groups:
     """Compare the time until both collide if their speeds stay as they are.
 
@@ -87,9 +91,9 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
         "none where both keep to the axis of the actor; else by the time to come to its width",
     )
     if c.rule.startswith("less"):
-        beside = _across(ctx, c, "lessOrEqual")
+        beside = _across(ctx, c, "lessThan")
         return ((time, beside), (beside, time)) if c.is_edge else ((time, beside),)
-    away = relative_speed(ctx, c.actor, c.reference(), "lessOrEqual", 0.0)
+    away = relative_speed(ctx, c.actor, c.reference(), "lessThan", TOUCHING)
     return ((time,), (_across(ctx, c, "greaterThan"),), *away)
 
 
@@ -102,7 +106,7 @@ def _across(ctx: Context, c: Comparison, rule: str) -> Element:
             entityRef=c.reference(),
             relativeDistanceType="lateral",
             coordinateSystem="entity" if ctx.version >= "1.1" else None,
-            value=0.0,
+            value=TOUCHING,
             freespace=True,
             rule=rule,
         ),
