@@ -20,6 +20,8 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
     """Lower an expression; `None` if a part of it was refused."""
     span, type_ = node.span, lower_type(ctx.model.type_of(node))
     match node:
+        case ast.StringLiteral() if node in ctx.model.quantities:
+            return lower_expression(ctx, ctx.model.quantities[node])
         case (
             ast.BoolLiteral(value=value)
             | ast.IntegerLiteral(value=value)
