@@ -115,8 +115,12 @@ def _run_source(
     wanted = wanted or only_one_to_run(compilation)
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
-    with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
-        return _run_one_of(scenarios, path, wanted, settings, reporter)
+    try:
+        with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
+            return _run_one_of(scenarios, path, wanted, settings, reporter)
+    except ScenarioError as error:
+        complain(f"{error.source}: error: {error.message}")
+        return Exit(error.exit_code)
 
 
 def only_one_to_run(compilation: Compilation) -> str | None:
