@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from osc2tx.options import XmlProfile, XmlVersion
+from osc2tx.options import XML_VERSIONS, XmlProfile, XmlVersion
 from osc2tx.support.light_dataclass import dataclass
 
 
@@ -30,7 +30,7 @@ class ToolProfile:
     """
 
     name: XmlProfile
-    versions: tuple[XmlVersion, ...] = ("1.0", "1.1", "1.2", "1.3")
+    versions: tuple[XmlVersion, ...] = XML_VERSIONS
     unsupported: Mapping[str, str]
     has_edges: bool = True
     has_delays: bool = True
@@ -69,7 +69,9 @@ _SCENARIO_RUNNER_IGNORES = {
 
 PROFILES: Mapping[XmlProfile, ToolProfile] = {
     "generic": ToolProfile(name="generic", unsupported={}),
-    "esmini": ToolProfile(name="esmini", unsupported=_ESMINI_IGNORES),
+    "esmini": ToolProfile(
+        name="esmini", versions=("1.0", "1.1", "1.2", "1.3"), unsupported=_ESMINI_IGNORES
+    ),
     "scenario_runner": ToolProfile(
         name="scenario_runner",
         versions=("1.0",),
