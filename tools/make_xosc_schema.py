@@ -124,7 +124,9 @@ def make() -> str:
                 _add(entry["children"], element.get("name"), type_, version, not optional)
             orders.setdefault(name, []).append(order)
         (element,) = (e for e in root.findall(f"{XSD}element") if e.get("name") == ROOT)
-        types.setdefault("", {"attributes": {}, "children": {ROOT: ["", VERSIONS[0], VERSIONS[-1], []]}})
+        types.setdefault(
+            "", {"attributes": {}, "children": {ROOT: ["", VERSIONS[0], VERSIONS[-1], []]}}
+        )
         types[""]["children"][ROOT][0] = element.get("type")
     for name, found in orders.items():
         children = types[name]["children"]

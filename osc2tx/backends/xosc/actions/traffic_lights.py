@@ -127,7 +127,9 @@ def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str
 def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
     group = ctx.values.field(light.name, ("group",)) if isinstance(light, Named) else None
     return (
-        roads_of(ctx).group_of(_map_id(ctx, light)) if group is None else lights_of_group(ctx, group)
+        roads_of(ctx).group_of(_map_id(ctx, light))
+        if group is None
+        else lights_of_group(ctx, group)
     )
 
 
