@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -101,6 +102,26 @@ def test_weather(stand_in: StandInProcess) -> None:
     ]
     assert sent and all(0.0 <= value <= 100.0 for weather in sent for value in weather[:4])
     assert any(weather[1] > 0.0 for weather in sent)  # it rains
+
+
+def test_what_carla_does_not_show_of_the_weather_is_said_once(stand_in: StandInProcess) -> None:
+    (module,) = GENERATED.rglob("C16_weather.py")
+    results = run_all(module, in_carla(settings_for(module), stand_in.port)).values()
+    said = [each for one in results if not isinstance(one, str) for each in one.warnings]
+    assert "rain is a percentage in CARLA: 50 mm/h are its most" in said
+    assert len(said) == len(set(said)) * len(results)
+    assert [one for one in results if isinstance(one, str)] == []
+
+
+def test_lights_under_autopilot(stand_in: StandInProcess) -> None:
+    """The Traffic Manager drives; the lights are the scenario's: position 1 + low beam 2."""
+    module = CAPABILITIES / "C16_automatic_lights.py"
+    settings = replace(settings_for(module), expect=True)
+    results = run_all(module, in_carla(settings, stand_in.port, control={"": "autopilot"}))
+    assert not [each for each in results.values() if isinstance(each, str)]
+    calls = stand_in.calls()
+    assert 3 in [light for _, light in commands(calls, 18)]
+    assert commands(calls, 2)  # pedals, by the Traffic Manager
 
 
 def test_slippery_roads_are_a_trigger(stand_in: StandInProcess) -> None:

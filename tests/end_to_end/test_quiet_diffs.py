@@ -15,13 +15,7 @@ TYPICAL = 3
 
 LOUD = {
     "statement capabilities/C16_automatic_lights": (177, "XML cannot say it: the document goes"),
-    "value capabilities/C11_road_path": (35, "a path has a line for each of its corners"),
-    "statement pedestrian_crossing: walker.walk": (23, "one more path, and the next moves"),
-    "value pedestrian_crossing: v_walk": (12, "a path has a line for each of its corners"),
     "label capabilities/C04_duration": (18, "an act and the variables that stop it have the label"),
-    "statement cut_in: wait": (16, "the first variable keeps the edge that the wait begins with"),
-    "statement hello_world: wait": (12, "a variable keeps the edge that the wait begins with"),
-    "statement cut_in_and_evade: emit": (14, "an event emitted twice is reset after each time"),
 }
 """Edits that change more: how much, and why."""
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 from typing import Any, Protocol
 
 from osc2tx_runtime.clock import lateness, whole_steps
@@ -23,6 +24,7 @@ from osc2tx_runtime.language.slots import Effect, Effects, Owner, Slots
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.world.command_checks import command_problem
 from osc2tx_runtime.world.commands import Command
+from osc2tx_runtime.world.plant import EXACT
 from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, World
 
 __all__ = ["MAX_PASSES", "ExecutionContext"]
@@ -152,6 +154,11 @@ class ExecutionContext:
             found = (actor_id for actor_id in self.actors if actor_id in placed)
             self._cast = tuple(sorted(found, key=lambda name: name.rpartition(".")[0]))
         return self._cast
+
+    @cached_property
+    def is_measured(self) -> bool:
+        """Whether a simulator moves some of the actors, so that their states are noisy."""
+        return any(self.world.control(actor) != EXACT for actor in self.cast())
 
     def random_for(self, key: str) -> random.Random:
         """Return a generator of its own for `key`: same seed and key, same draws."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
@@ -227,11 +227,12 @@ class TraceWriter:
         self._actions.clear()
         self._others.clear()
 
-    def result(self, status: str, reason: str, steps: int) -> None:
+    def result(self, status: str, reason: str, steps: int, warnings: Sequence[str] = ()) -> None:
         """Write the last line."""
         if self.enabled:
             values = {"kind": "result", "status": status, "reason": reason, "steps": steps}
-            self.lines.append(to_json(values))
+            said = {"warnings": list(warnings)} if warnings else {}
+            self.lines.append(to_json({**values, **said}))
 
 
 def state_json(state: ActorState) -> str:

@@ -31,6 +31,7 @@ ANSWERS: Mapping[str, Any] = {
     "state": ActorState,
     "take_notes": Sequence[tuple[str, Mapping[str, Any]]],
     "trailer_of": str | None,
+    "warnings": Sequence[str],
 }
 
 

@@ -24,7 +24,7 @@ from osc2tx_runtime.running.criteria import Criteria
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["OnProgress", "Outcome", "run_tree", "settle"]
+__all__ = ["OnProgress", "Outcome", "overloads", "run_tree", "settle"]
 
 OnProgress = Callable[[float, float], None]
 """Takes the time of the run and the time at which it has to end, in seconds."""
@@ -85,7 +85,15 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
                 node.status = INVALID
         context.clear()
         context.trace.end_instant(context.time, states(context))
-        context.trace.result(outcome.status, outcome.reason, outcome.steps)
+        found = overloads(context)
+        context.trace.result(outcome.status, outcome.reason, outcome.steps, found)
+
+
+def overloads(context: ExecutionContext) -> tuple[str, ...]:
+    """Return what no tyre could have done in a run that went on all the same."""
+    if context.settings.physics == "fail":
+        return ()
+    return tuple(map(str, context.world.overloads()))
 
 
 def loop(

@@ -11,7 +11,7 @@ from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.running.checked_world import checked_world
-from osc2tx_runtime.running.loop import OnProgress, run_tree
+from osc2tx_runtime.running.loop import OnProgress, overloads, run_tree
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.worlds import WorldRequest, find_world
@@ -93,7 +93,7 @@ def run_scenario(
         outcome.steps * context.dt,
         tuple(context.trace.lines),
         tuple(context.collisions),
-        tuple(map(str, world.overloads())) if settings.physics == "warn" else (),
+        (*world.warnings(), *overloads(context)),
     )
 
 

@@ -10,11 +10,12 @@ from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 from .step_inputs import StepInputs
 
-__all__ = ["Schedule", "towards"]
+__all__ = ["PATIENCE", "Schedule", "towards"]
 
 _CATCH_UP = 0.8  # 1/s: how fast a delay decays
 _ARRIVED = 0.1  # m from the end that count as there
-_PATIENCE = 10.0  # s after the last time in which an actor may still arrive
+PATIENCE = 10.0
+"""s after the last time in which an actor may still arrive."""
 
 
 def towards(speed: float, wanted: float, limits: Limits, share: float, dt: float) -> float:
@@ -48,9 +49,9 @@ class Schedule:
         self._along = curve.nearest(me.x, me.y, self._along, reach)
         behind = curve.length_at(min(now, self._end)) - self._along
         self._late = self._goal - self._along
-        if now > self._end + _PATIENCE and self._late > _ARRIVED:
+        if now > self._end + PATIENCE and self._late > _ARRIVED:
             self._failed = (
-                f"it is still {self._late:.1f} m from the end, {_PATIENCE:g} s after its time"
+                f"it is still {self._late:.1f} m from the end, {PATIENCE:g} s after its time"
             )
         dx, dy, _ = curve.rate(after)
         feed = math.hypot(dx, dy) if now < self._end else 0.0

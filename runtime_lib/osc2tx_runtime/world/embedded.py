@@ -217,6 +217,10 @@ class EmbeddedWorld:
         """Motions up to now that no tyre can transmit."""
         return self._friction.overloads
 
+    def warnings(self) -> Sequence[str]:
+        """What a simulator could not do as it was wanted, up to now."""
+        return self._scene.warnings()
+
     def capabilities(self) -> frozenset[Feature]:
         """What it has beside moving actors."""
         return self._plant.capabilities()

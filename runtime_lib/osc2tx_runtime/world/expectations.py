@@ -1,8 +1,8 @@
 """What is expected of an actor that somebody else drives: goals that are measured, not commanded.
 
 An expectation is reached as soon as the actor was measured where the command wants it, in its own
-time; what has a duration has to be reached by then, as always. Standing or going on is expected of
-nobody.
+time and by a course of its own; what has a duration has to be reached by then, as always. Standing
+or going on is expected of nobody.
 """
 
 from __future__ import annotations
@@ -12,27 +12,43 @@ from collections.abc import Callable
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
 
 from .commands import (
+    Accelerate,
+    AccelerationChange,
+    Arrive,
+    Beside,
     Careful,
     Command,
+    Cover,
     FollowCourse,
     FollowRoute,
     FollowSpeed,
+    GapCourse,
     KeepGap,
     KeepLane,
+    KeepSchedule,
     LaneChange,
     LaneOffset,
+    Sideways,
+    Slant,
     SpeedChange,
     Standstill,
     Turn,
 )
 from .curve import turn_between
-from .gap_control import allowed_gap
+from .distances import side_gap
 from .lane_neighbours import neighbouring
+from .profiles import Profile
 from .protocol import PENDING, REACHED, Progress
 from .route_following import Way
 from .state import ActorState
 from .step_inputs import StepInputs
-from .tolerances import HEADING_TOLERANCE, PLACE_TOLERANCE, SPEED_TOLERANCE
+from .timed_expectations import Arrival, Timetable, gap_error, speed_error
+from .tolerances import (
+    ACCELERATION_TOLERANCE,
+    HEADING_TOLERANCE,
+    PLACE_TOLERANCE,
+    SPEED_TOLERANCE,
+)
 
 __all__ = ["Expectation", "expected"]
 
@@ -83,18 +99,22 @@ def _judge(
             return lambda me, inputs: REACHED
         case Careful():
             return _judge(command.course, state, road_map, route)
-        case SpeedChange():
-            return lambda me, inputs: _near(me.v - command.target, SPEED_TOLERANCE)
-        case Standstill():
-            return lambda me, inputs: _near(me.v, 0.0)
-        case FollowSpeed():
-            return lambda me, inputs: _speed_of_another(command, me, inputs)
-        case KeepGap():
-            return lambda me, inputs: _gap(command, me, inputs)
+        case SpeedChange() | Standstill() | FollowSpeed() | Accelerate() | AccelerationChange():
+            return _speed(command, state)
+        case KeepGap() | GapCourse():
+            return _gap(command)
+        case Arrive():
+            return Arrival(command)
+        case Cover(course=course):
+            return Arrival(Arrive(course.duration, way=_last(course, 0.0)))
+        case KeepSchedule():
+            return Timetable(command)
         case LaneChange() | LaneOffset():
             return _lane(command, state, road_map)
-        case Turn(heading=heading) if heading is not None:
-            return lambda me, inputs: _near(turn_between(heading, me.h), HEADING_TOLERANCE)
+        case Sideways() | Slant() | Turn():
+            return _heading(command, road_map)
+        case Beside():
+            return _beside(command)
         case FollowRoute():
             return _route(command, road_map, route)
         case FollowCourse():
@@ -107,23 +127,95 @@ def _near(error: float, tolerance: float) -> Progress:
     return REACHED if abs(error) <= tolerance else PENDING
 
 
-def _speed_of_another(command: FollowSpeed, me: ActorState, inputs: StepInputs) -> Progress:
-    least = inputs.state(command.reference).v * command.factor + command.difference
-    return _near(me.v - min(max(me.v, least), least + command.spread), SPEED_TOLERANCE)
+def _last(course: Profile | None, otherwise: float) -> float:
+    """Where a course ends; without one, what is wanted."""
+    return otherwise if course is None else course.value(course.duration)
 
 
-def _gap(command: KeepGap, me: ActorState, inputs: StepInputs) -> Progress:
-    found = allowed_gap(command, me, inputs.state(command.reference), me.v, inputs)
-    if found is None:
-        return Progress(False, f"there is no way along lanes to {command.reference}")
-    here, low, high = found
-    return _near(here - min(max(here, low), high), PLACE_TOLERANCE)
+def _speed(
+    command: SpeedChange | Standstill | FollowSpeed | Accelerate | AccelerationChange,
+    state: ActorState,
+) -> Judge:
+    match command:
+        case SpeedChange(target=speed, course=course):
+            goal = _last(course, speed)
+            return lambda me, inputs: _near(me.v - goal, SPEED_TOLERANCE)
+        case Standstill():
+            return lambda me, inputs: _near(me.v, 0.0)
+        case FollowSpeed():
+            return lambda me, inputs: _near(speed_error(command, me, inputs), SPEED_TOLERANCE)
+        case Accelerate(acceleration=rate):
+            wanted = state.a if rate is None else rate
+        case AccelerationChange(target=target, course=course):
+            wanted = _last(course, target)
+    return lambda me, inputs: _near(me.a - wanted, ACCELERATION_TOLERANCE)
+
+
+def _gap(command: KeepGap | GapCourse) -> Judge:
+    no_way = Progress(False, f"there is no way along lanes to {command.reference}")
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        if isinstance(command, KeepGap):
+            error = gap_error(command, me, inputs)
+        else:
+            here = inputs.along(inputs.state(command.reference), me)
+            error = None if here is None else _last(command.course, 0.0) - here
+        return no_way if error is None else _near(error, PLACE_TOLERANCE)
+
+    return judge
+
+
+def _heading(command: Sideways | Slant | Turn, road_map: RoadMap) -> Judge:
+    """How an actor is turned, in the world or against its lane, or moves across the lane."""
+    match command:
+        case Turn(heading=heading, course=course):
+            if heading is None and course is None:
+                return lambda me, inputs: REACHED  # pitch and roll are what the road makes of them
+            goal = _last(course, heading or 0.0)
+            return lambda me, inputs: _near(turn_between(goal, me.h), HEADING_TOLERANCE)
+        case Sideways():
+            return lambda me, inputs: _near(_missing_rate(command, me, inputs), SPEED_TOLERANCE)
+        case Slant(angle=angle, course=course):
+            goal = _last(course, angle)
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        if me.lane_position is None:
+            return PENDING
+        turn = turn_between(road_map.pose(me.lane_position).h, me.h)
+        return _near(turn_between(goal, turn), HEADING_TOLERANCE)
+
+    return judge
+
+
+def _missing_rate(command: Sideways, me: ActorState, inputs: StepInputs) -> float:
+    """How much (m/s) an actor moves to the left too slowly."""
+    other = command.reference
+    moving = 0.0 if other is None else command.factor * inputs.state(other).lateral_speed
+    return _last(command.course, command.speed) + moving - me.lateral_speed
+
+
+def _beside(command: Beside) -> Judge:
+    no_way = Progress(False, f"there is no way along lanes to {command.reference}")
+    low = _last(command.course, command.left or 0.0)
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        other = inputs.state(command.reference)
+        to_left = inputs.aside(me, other)
+        if to_left is None:
+            return no_way
+        if command.time is not None:
+            closing = side_gap(to_left, me.shape, other.shape) / command.time
+            return _near(other.lateral_speed - closing - me.lateral_speed, SPEED_TOLERANCE)
+        return _near(-to_left - min(max(-to_left, low), low + command.spread), PLACE_TOLERANCE)
+
+    return judge
 
 
 def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap) -> Judge:
     here = state.lane_position
     lanes = command.lanes if isinstance(command, LaneChange) else 0
     target = None if here is None else neighbouring(road_map, here, lanes)
+    offset = _last(command.course, command.offset)
     if target is None:
         failed = Progress(False, "there is no such lane where it is")
         return lambda me, inputs: failed
@@ -138,7 +230,7 @@ def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap
         if ahead is not None:  # the lane goes on, under whatever number
             goal = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
         there = (place.road, place.lane) == (goal.road, goal.lane)
-        return _near(place.offset - command.offset, PLACE_TOLERANCE) if there else PENDING
+        return _near(place.offset - offset, PLACE_TOLERANCE) if there else PENDING
 
     return judge
 

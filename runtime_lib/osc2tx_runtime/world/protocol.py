@@ -232,6 +232,9 @@ class World(Protocol):
     def overloads(self) -> Sequence[Overload]:
         """Motions up to now that no tyre can transmit, in order of time."""
 
+    def warnings(self) -> Sequence[str]:
+        """What the world could not do as it was wanted, up to now, in a run that goes on."""
+
     def take_notes(self) -> Sequence[Note]:
         """Hands over lines for the trace, as kind and values, since the last call."""
 

@@ -90,6 +90,7 @@ class Scene:
         self._kicked: frozenset[str] | set[str] = frozenset()
         self._setpoints: Mapping[str, Setpoint] | None = None
         self._notes: list[Note] = []
+        self._warnings: dict[str, None] = {}
 
     def wish(
         self,
@@ -146,6 +147,14 @@ class Scene:
     def note(self, kind: str, **values: Any) -> None:
         """Writes a line into the trace at the end of this step."""
         self._notes.append((kind, values))
+
+    def warn(self, text: str) -> None:
+        """Says once what cannot be as the scenario wants it, in a run that goes on all the same."""
+        self._warnings[text] = None
+
+    def warnings(self) -> tuple[str, ...]:
+        """What was said with `warn`, in order."""
+        return tuple(self._warnings)
 
     def take_notes(self) -> Sequence[Note]:
         """Hands over the notes since the last call."""

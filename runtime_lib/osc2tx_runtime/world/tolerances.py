@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 __all__ = [
+    "ACCELERATION_TOLERANCE",
     "HEADING_TOLERANCE",
     "OFF_ITS_PATH",
     "PATIENCE",
@@ -17,6 +18,8 @@ STANDSTILL = 0.05
 """m/s: who was measured slower than that stands."""
 SPEED_TOLERANCE = 0.5
 """m/s off the wished speed that count as reached; at standstill none do."""
+ACCELERATION_TOLERANCE = 0.5
+"""m/s^2 off the wished acceleration that count as reached."""
 PLACE_TOLERANCE = 0.5
 """m beside the wished path that count as on it."""
 HEADING_TOLERANCE = math.radians(3.0)

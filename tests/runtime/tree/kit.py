@@ -77,6 +77,9 @@ class FakeWorld:
     def deviation(self, actor: str, slots: Any) -> None:
         return None
 
+    def warnings(self) -> tuple[()]:
+        return ()
+
     def overloads(self) -> tuple[()]:
         return ()
 

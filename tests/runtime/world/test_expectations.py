@@ -12,20 +12,30 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.commands import (
     Accelerate,
+    AccelerationChange,
+    Arrive,
+    Beside,
     Careful,
     Command,
+    Cover,
     FollowCourse,
     FollowRoute,
     FollowSpeed,
+    GapCourse,
     KeepGap,
+    KeepSchedule,
     LaneOffset,
+    ReplayCourse,
+    Sideways,
+    Slant,
     SpeedChange,
     Standstill,
 )
 from osc2tx_runtime.world.curve import Curve, Knot
 from osc2tx_runtime.world.drivers import DriversPlant
 from osc2tx_runtime.world.driving import Control, Observation
-from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
+from osc2tx_runtime.world.profiles import Linear
+from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, PENDING
 
 DT = 0.05
 
@@ -116,11 +126,87 @@ def test_a_path_beside_it_is_never_joined(world: tuple[EmbeddedWorld, Steady]) -
     assert reached(made, LATERAL, FollowCourse(curve, 0.0, 40.0)) == math.inf
 
 
+@pytest.mark.parametrize(
+    ("command", "acceleration", "seconds"),
+    [
+        # The shape of a change is the driver's own: only its end counts.
+        (FollowSpeed("b", course=Linear(-2.0, 3.0, 1.0)), 1.0, 4.5),
+        # What is measured is smoothed: after k steps it is 1 - 0.8^k of it.
+        (Accelerate(1.0), 1.0, 0.2),
+        (Accelerate(2.0), 1.0, math.inf),
+        (AccelerationChange(9.0, course=Linear(0.0, 1.2, 3.0)), 1.0, 0.3),
+        # 30 m behind at the start, and 2 m/s slower.
+        (GapCourse("b", Linear(-30.0, -40.0, 3.0)), 0.0, 4.75),
+        (Arrive(4.0, way=40.0), 0.0, 4.0),
+        (Arrive(4.0, way=48.0, speed=14.0), 1.0, 4.0),
+        (Arrive(4.0, gap=KeepGap("b", ahead=False, measure="reference", distance=38.0)), 0.0, 4.0),
+        (Cover(Linear(0.0, 30.0, 3.0)), 0.0, 3.0),
+    ],
+)
+def test_goals_with_a_shape_or_a_time(
+    world: tuple[EmbeddedWorld, Steady], command: Command, acceleration: float, seconds: float
+) -> None:
+    made, driver = world
+    driver.acceleration = acceleration
+    assert reached(made, LONGITUDINAL, command) == pytest.approx(seconds, abs=0.051)
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        (Arrive(4.0, way=60.0), "when its time is over it is 20.0 m short of its place"),
+        (Arrive(4.0, way=40.0, speed=14.0), "when its time is over it is 4.0 m/s too slow"),
+        (Arrive(4.0, way=40.0, speed=FollowSpeed("b")), "it is 2.0 m/s too slow"),
+        (Cover(Linear(0.0, 50.0, 4.0)), "when its time is over it is 10.0 m short of its place"),
+    ],
+)
+def test_who_is_not_there_in_time_fails(
+    world: tuple[EmbeddedWorld, Steady], command: Command, words: str
+) -> None:
+    made, _ = world
+    made.command("a", LONGITUDINAL, command)
+    for _ in range(79):
+        made.step()
+        assert made.progress("a", LONGITUDINAL) == PENDING
+    made.step()
+    assert words in (made.progress("a", LONGITUDINAL).failed or "")
+
+
+def test_a_schedule_is_over_at_its_end_or_too_late(world: tuple[EmbeddedWorld, Steady]) -> None:
+    made, driver = world
+    here = made.state("a")
+
+    def line(seconds: float) -> KeepSchedule:
+        knots = [Knot(0.0, here.x, here.y, 0.0), Knot(seconds, here.x + 40.0, here.y, 0.0)]
+        return KeepSchedule(Curve(knots, smooth=False), 0.0, seconds)
+
+    assert reached(made, LONGITUDINAL, line(3.0)) == pytest.approx(4.0, abs=0.1)
+    driver.acceleration = -5.0
+    made.command("a", LONGITUDINAL, KeepSchedule(line(3.0).curve, 3.0, 3.0))
+    here = made.state("a")
+    made.command("a", LONGITUDINAL, line(3.0))
+    for _ in range(round(13.2 / DT)):
+        made.step()
+    assert "m from the end, 10 s after its time" in (made.progress("a", LONGITUDINAL).failed or "")
+
+
+def test_to_the_side(world: tuple[EmbeddedWorld, Steady]) -> None:
+    """The driver goes 1.2 m to the left, at about 1 m/s, and is straight again."""
+    made, driver = world
+    driver.offset = 1.2
+    assert 0.0 < reached(made, LATERAL, Sideways(1.0, course=Linear(0.0, 0.8, 9.0))) < 3.0
+    assert reached(made, LATERAL, Beside("b", 1.0)) < 8.0
+    assert made.state("a").offset == pytest.approx(0.5, abs=0.3)
+    assert reached(made, LATERAL, Slant(0.0)) < 8.0
+    assert reached(made, LATERAL, Slant(0.5), 1.0) == math.inf
+
+
 def test_what_can_only_be_commanded_fails(world: tuple[EmbeddedWorld, Steady]) -> None:
     made, _ = world
-    made.command("a", LONGITUDINAL, Accelerate(1.0))
+    curve = Curve([Knot(0.0, 110.0, 0.0, 0.0), Knot(40.0, 150.0, 0.0, 0.0)], smooth=False)
+    made.command("a", LATERAL, ReplayCourse(curve, 0.0, 40.0))
     made.step()
-    assert made.progress("a", LONGITUDINAL).failed == (
-        "Accelerate can only be commanded, not expected"
+    assert made.progress("a", LATERAL).failed == (
+        "ReplayCourse can only be commanded, not expected"
     )
     assert made.state("a").v == 10.0

@@ -115,6 +115,7 @@ def test_by_default_the_run_goes_on_with_a_warning() -> None:
         f"brake: success after {done.time:.2f} s",
         f"  warning: {warning}",
     ]
+    assert json.loads(done.trace_lines[-1])["warnings"] == [warning]
 
 
 def test_on_request_it_fails_there_and_then() -> None:
@@ -125,6 +126,7 @@ def test_on_request_it_fails_there_and_then() -> None:
     assert failed.reason.startswith("a cannot be driven so")
     assert failed.steps == 1
     assert not failed.warnings
+    assert "warnings" not in json.loads(failed.trace_lines[-1])
     states = [e for e in map(json.loads, failed.trace_lines) if e["kind"] == "state"]
     assert [e["t"] for e in states if e["actor"] == "a"] == [0.0, DT]
     same = sum(a == b for a, b in zip(failed.trace_lines, warned.trace_lines, strict=False))

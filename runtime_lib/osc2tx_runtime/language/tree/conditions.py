@@ -32,6 +32,9 @@ __all__ = [
     "watch_level",
 ]
 
+SETTLED_STEPS = 2
+"""Steps for which a condition has had its value before a turn of measured states is no noise."""
+
 EVALUATION_ERRORS = (ArithmeticError, LookupError)
 """What an expression of a scenario raises when it has no value."""
 
@@ -149,6 +152,9 @@ class Deadline:
 class Edge:
     """Watches for the instant at which a function turns; its first sample is no edge.
 
+    Where states are measured, a value at the threshold flickers: a turn counts if the value before
+    it was there for some steps, or from the start on.
+
     Args:
         function: The function.
         target: What it turns to.
@@ -159,7 +165,16 @@ class Edge:
             since.
     """
 
-    __slots__ = ("_context", "_edge", "_function", "_sampled", "_target", "_value", "is_vain")
+    __slots__ = (
+        "_context",
+        "_edge",
+        "_function",
+        "_sampled",
+        "_settled",
+        "_target",
+        "_value",
+        "is_vain",
+    )
 
     def __init__(
         self, function: Callable[[], bool], target: bool, context: ExecutionContext
@@ -168,16 +183,21 @@ class Edge:
         self._target = target
         self._context = context
         self._sampled = context.snapshot
+        self._settled = context.step  # from which step on the value counts as settled
         self._value = evaluate(function)
         self._edge = False
         self.is_vain = self._value is target
 
     def __call__(self) -> bool:
         """Return whether the function turns in the present snapshot."""
-        if self._context.snapshot != self._sampled:
+        context = self._context
+        if context.snapshot != self._sampled:
             before, self._value = self._value, evaluate(self._function)
-            self._sampled = self._context.snapshot
-            self._edge = self._value is self._target and before is not self._target
+            self._sampled = context.snapshot
+            turned = self._value is not before
+            self._edge = turned and self._value is self._target and context.step >= self._settled
+            if turned and context.is_measured:
+                self._settled = context.step + SETTLED_STEPS
             self.is_vain = self.is_vain and not self._edge
         return self._edge
 

@@ -10,8 +10,8 @@ from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.features import FEATURES, Feature
 from osc2tx_runtime.world.measurement import Measurement
 from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
-from osc2tx_runtime.world.scene import Scene, Setpoint
-from osc2tx_text import complain, say
+from osc2tx_runtime.world.scene import Scene
+from osc2tx_text import say
 
 from .cast import CastMember, Command
 from .client_process import ClientProcess
@@ -107,7 +107,7 @@ class CarlaPlant:
                 length, width, height = (round(each, 3) for each in member.size)
                 scene.note("simulator_size", actor=actor, length=length, width=width, height=height)
         self._sensors.attach(self._client, self._members)
-        self._report(setpoints)
+        self._report(scene)
         members = self._members.items()
         first = [each for actor, member in members for each in member.first(setpoints[actor])]
         looked = self._at_rest(self._client.ask("step", first))
@@ -125,11 +125,11 @@ class CarlaPlant:
             for v in (setpoints[actor].state.v,)
         }
 
-    def _report(self, setpoints: Mapping[str, Setpoint]) -> None:
+    def _report(self, scene: Scene) -> None:
         """Say what cannot be as it is wanted, and which topics there will be."""
         for problem in self._spawning.problems:
-            complain(f"warning: {problem}")
-        roles = {actor: each.spec.role or actor for actor, each in setpoints.items()}
+            scene.warn(problem)
+        roles = {actor: each.spec.role or actor for actor, each in scene.setpoints.items()}
         for line in self._sensors.table(roles):
             say(line)
 

@@ -11,7 +11,7 @@ from .cast import CastMember, Command
 from .client_process import ClientProcess
 from .traffic_lights import lamps_for, state_for
 from .vehicle_lights import FLAGS
-from .weather import weather_of
+from .weather import losses_of, weather_of
 
 __all__ = ["CarlaSurroundings"]
 
@@ -29,7 +29,7 @@ class CarlaSurroundings:
     def __init__(self, client: ClientProcess) -> None:
         self._client = client
         self._lit: dict[str, int] = {}
-        self._weather: Mapping[str, float] = {}
+        self._environment: Mapping[str, float] = {}
         self._adhesion = 1.0
         self._signals: frozenset[str] = frozenset()
         self._shown: dict[str, str] = {}
@@ -45,11 +45,15 @@ class CarlaSurroundings:
         yield from self._vehicle_lights(scene, members)
 
     def _set_weather(self, scene: Scene) -> None:
-        weather = weather_of(scene.environment)
-        changed = dict(weather.items() - self._weather.items())
-        if changed:
-            self._weather = weather
-            self._client.ask("set_weather", changed)
+        environment = dict(scene.environment)
+        if environment != self._environment:
+            before, weather = weather_of(self._environment), weather_of(environment)
+            self._environment = environment
+            changed = dict(weather.items() - before.items())
+            if changed:
+                self._client.ask("set_weather", changed)
+            for loss in losses_of(environment):
+                scene.warn(loss)
         if scene.adhesion != self._adhesion:
             self._adhesion = scene.adhesion
             friction = None if scene.adhesion == 1.0 else TYRE_FRICTION * scene.adhesion

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-__all__ = ["weather_of"]
+__all__ = ["losses_of", "weather_of"]
 
 HOUR = 3600.0
 MM = 1000.0
@@ -42,6 +42,27 @@ FIELDS: Mapping[str, Callable[[float], Mapping[str, float]]] = {
     "wind_speed": lambda speed: {"wind_intensity": _percent(speed / 0.3)},
 }
 """Name of a value of the environment -> fields of `carla.WeatherParameters`."""
+
+
+APPROXIMATED: Mapping[str, str] = {
+    "rain_intensity": "rain is a percentage in CARLA: 50 mm/h are its most",
+    "visual_range": "fog is a percentage in CARLA: dense where one sees 50 m",
+    "wind_speed": "wind is a percentage in CARLA: 30 m/s are its most",
+}
+MISSING: Mapping[str, str] = {
+    "snow_intensity": "CARLA shows no snow",
+    "temperature": "CARLA has no temperature",
+    "pressure": "CARLA has no air pressure",
+    "relative_humidity": "CARLA has no humidity",
+    "wind_direction": "wind has no direction in CARLA",
+}
+"""What is only heard of in the scenario: its effects and conditions hold, nobody sees it."""
+
+
+def losses_of(environment: Mapping[str, float]) -> tuple[str, ...]:
+    """Return what of an environment CARLA does not show, or not so."""
+    losses = {**APPROXIMATED, **MISSING}
+    return tuple(losses[name] for name in losses if environment.get(name))
 
 
 def weather_of(environment: Mapping[str, float]) -> Mapping[str, float]:
