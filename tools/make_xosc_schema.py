@@ -1,6 +1,6 @@
 """Writes `osc2tx/backends/xosc/xml/schema.json`: what each version of OpenSCENARIO XML has.
 
-Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`); they end with 1.3, to which
+Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`); they end with 1.3, and
 `xosc_1_4.toml` adds what is new in 1.4. One type a line:
 
     "Event": {"attributes": {NAME: [TYPE, SINCE, UNTIL, REQUIRED]}, "children": {…}}

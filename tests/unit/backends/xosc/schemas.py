@@ -1,6 +1,6 @@
 """The schemas of OpenSCENARIO XML, from the package of the quality checker of ASAM.
 
-It ends with 1.3. The schema of 1.4 is that of 1.3 with the additions that `tools/xosc_1_4.toml` lists;
+It ends with 1.3. The schema of 1.4 is that of 1.3 with the additions in `tools/xosc_1_4.toml`;
 where `OSC2TX_XML_SCHEMA_1_4` names the file of ASAM, it is that file.
 """
 
