@@ -22,7 +22,7 @@ import black
 
 from osc2tx.backends.py_trees.naming import class_name
 from osc2tx.catalogue import catalogue
-from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
 from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
 from osc2tx_runtime.domain.modifiers.groups import (
     PATH_SHAPERS,
@@ -138,7 +138,7 @@ def _modifiers(factory: type[Any], imports: Imports) -> Iterator[str]:
         if name != STARTS and set(group) <= taken and left & set(group):
             groups.append(name)
             left -= set(group)
-    if issubclass(factory, ShapedAction) and not set(GROUPS[STARTS]) <= taken:
+    if issubclass(factory, ModifiableAction) and not set(GROUPS[STARTS]) <= taken:
         groups.append(STARTS)
         left -= set(GROUPS[STARTS])
     imports.setdefault(own, set()).update(groups)

@@ -14,6 +14,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+from osc2tx.compilation import stages
 from osc2tx.compilation.file_reports import LossEntry, apply_suppressions
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
 from osc2tx.compilation.inputs import is_unicode
@@ -132,41 +133,19 @@ class Compilation:
         """The checked program; not made for a text with syntax errors, as they breed others."""
         if self.ast is None or self._failed():
             return None
-        from osc2tx.semantics import DIALECTS, ModelBuilder
-
+        paths = tuple(map(Path, self.options.import_paths))
         loader = ImportLoader(
-            self.path,
-            self.name,
-            self._roots,
-            self.sink,
-            self._relaxed,
-            import_paths=tuple(map(Path, self.options.import_paths)),
+            self.path, self.name, self._roots, self.sink, self._relaxed, import_paths=paths
         )
         self.lookups = loader.lookups
-        builder = ModelBuilder(
-            self.sink,
-            standard=self.options.standard,
-            dialect=DIALECTS[self.options.dialect],
-            load=loader,
-            import_help=loader.help_for,
-        )
-        with room_for_trees():
-            return builder.build(self.ast)
+        return stages.build_model(self.ast, self.options, loader, self.sink)
 
     @cached_property
     def analysis(self) -> Analysis | None:
         """What constraints allow, and how far the scenarios are worked out."""
         if self.model is None or self._failed():
             return None
-        from osc2tx.analysis import analyse
-
-        with room_for_trees():
-            return analyse(
-                self.model,
-                self.sink,
-                self.options.one_of,
-                first_come=self.options.dialect == "carla",
-            )
+        return stages.analyse_constraints(self.model, self.options, self.sink)
 
     @property
     def levels(self) -> Sequence[ScenarioLevel]:
@@ -180,15 +159,7 @@ class Compilation:
         """What the scenarios mean, verified; an `ir.Module` without scenarios for a library."""
         if self.model is None or self.analysis is None or self._failed():
             return None
-        from osc2tx.ir import verify
-        from osc2tx.lowering import lower
-
-        with room_for_trees():
-            module = lower(self.model, self.analysis.constraints, self.options, self.sink)
-            if self._failed():
-                return None
-            verify(module)
-        return module
+        return stages.lower_and_verify(self.model, self.analysis, self.options, self.sink)
 
     @cached_property
     def is_supported(self) -> bool:

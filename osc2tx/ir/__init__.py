@@ -1,9 +1,9 @@
 """The intermediate representation: what a program means, ready for any backend.
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `values`, `expressions`, `behaviors`, `coverage`, `nodes`,
-`lineages`; then `traversal`, `rewrite`, `compare`, `verify` (the invariants) and `dump` (the
-printable form).
+Modules, in reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
+`coverage`, `nodes`, `lineages`; then `traversal`, `rewrite`, `compare`, `verify` (the invariants)
+and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -36,6 +36,23 @@ from osc2tx.ir.behaviors import (
 from osc2tx.ir.compare import same, words
 from osc2tx.ir.constants import constant
 from osc2tx.ir.coverage import Coverage
+from osc2tx.ir.declarations import (
+    GLOBAL_MARK,
+    Actor,
+    Constraint,
+    Declaration,
+    DeclarationBase,
+    Event,
+    External,
+    FieldValue,
+    Method,
+    MethodParameter,
+    Parameter,
+    Sample,
+    Struct,
+    Variable,
+    setting_name,
+)
 from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.expression_text import show, show_arguments
 from osc2tx.ir.expressions import (
@@ -71,33 +88,20 @@ from osc2tx.ir.expressions import (
 )
 from osc2tx.ir.lineages import lineage, merged
 from osc2tx.ir.nodes import (
-    GLOBAL_MARK,
-    ActionParameter,
-    Actor,
-    Constraint,
-    Declaration,
-    DeclarationBase,
-    Event,
-    External,
-    FieldValue,
-    Method,
-    MethodParameter,
     Module,
     Override,
-    Parameter,
     Placement,
-    Sample,
     Scenario,
-    Struct,
+)
+from osc2tx.ir.rewrite import rewrite
+from osc2tx.ir.traversal import children, is_live, walk
+from osc2tx.ir.user_types import (
+    ActionParameter,
     UserAction,
     UserEnum,
     UserField,
     UserType,
-    Variable,
-    setting_name,
 )
-from osc2tx.ir.rewrite import rewrite
-from osc2tx.ir.traversal import children, is_live, walk
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 

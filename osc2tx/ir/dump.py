@@ -30,25 +30,29 @@ from osc2tx.ir.behaviors import (
     Wait,
 )
 from osc2tx.ir.coverage import Coverage
-from osc2tx.ir.expression_text import show, show_arguments
-from osc2tx.ir.expressions import (
-    Expression,
-)
-from osc2tx.ir.nodes import (
+from osc2tx.ir.declarations import (
     Actor,
     Declaration,
     Event,
     FieldValue,
     Method,
-    Module,
     Parameter,
+    Struct,
+    Variable,
+)
+from osc2tx.ir.expression_text import show, show_arguments
+from osc2tx.ir.expressions import (
+    Expression,
+)
+from osc2tx.ir.nodes import (
+    Module,
     Placement,
     Scenario,
-    Struct,
+)
+from osc2tx.ir.user_types import (
     UserAction,
     UserEnum,
     UserType,
-    Variable,
 )
 
 INDENT = "  "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from osc2tx.ir.nodes import UserType
+from osc2tx.ir.user_types import UserType
 
 
 def lineage(type_: str, own: Mapping[str, UserType]) -> tuple[str, ...]:

@@ -27,15 +27,17 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
-from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef
-from osc2tx.ir.nodes import (
+from osc2tx.ir.declarations import (
     Actor,
     Event,
-    Module,
     Parameter,
-    Scenario,
     Struct,
     Variable,
+)
+from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef
+from osc2tx.ir.nodes import (
+    Module,
+    Scenario,
 )
 from osc2tx.ir.traversal import walk
 from osc2tx.ir.values import Kind

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field, replace
-from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
@@ -23,36 +22,11 @@ from osc2tx.lowering.equations import solve_for
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, reads_map
 from osc2tx.lowering.parameter_domains import DomainWriter, all_values, as_type, written_domain
+from osc2tx.lowering.parameter_settings import Instance, Setting, is_known_here, is_last
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
-
-Instance: TypeAlias = ast.Invocation | ast.Composition
-
-
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """What is known of one parameter.
-
-    Attributes:
-        value: Its value (`is_fixed`) or default.
-        domain: What it may be.
-        is_fixed: Nothing can change the value.
-        comments: Comment lines of the constraints that say so.
-        constraints: The constraints that say so.
-    """
-
-    value: ir.Expression | None
-    domain: ir.Domain | None
-    is_fixed: bool
-    comments: tuple[str, ...]
-    constraints: tuple[Constraint, ...]
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is known."""
-        return self.value is None and self.domain is None
 
 
 @dataclass(slots=True)
@@ -89,7 +63,7 @@ class ConstraintLowering:
 
     def setting(self, key: Key, type_: types.Type) -> Setting:
         """Return what is known of a parameter; its constraints count as written from now on."""
-        mentioned = tuple(c for c in self.found.by_key.get(key, ()) if _is_known_here(c, key))
+        mentioned = tuple(c for c in self.found.by_key.get(key, ()) if is_known_here(c, key))
         own = [c for c in mentioned if c.subject == key and c.value is not None]
         if isinstance(type_, types.ListType | types.RangeType):
             own = [c for c in own if not c.is_range]  # what is in it is left to a check
@@ -216,7 +190,7 @@ class ConstraintLowering:
         found = []
         for constraint in self.found.by_key.get(key, ()):
             others = [k for k in constraint.operations.keys if k != key]
-            after = isinstance(key[0], ast.Node) or _is_last(key, others)
+            after = isinstance(key[0], ast.Node) or is_last(key, others)
             if others and after and not constraint.is_default:
                 found.append(constraint)
         return found
@@ -249,7 +223,7 @@ class ConstraintLowering:
             others = [k for k in constraint.operations.keys if k != key]
             if constraint in self._used or constraint.is_default or not others:
                 continue
-            if not isinstance(node, ast.KeepConstraint) or not _is_last(key, others):
+            if not isinstance(node, ast.KeepConstraint) or not is_last(key, others):
                 continue
             solved = solve_for(self.ctx.at(constraint.place), node.expression, constraint, key)
             if solved is not None:
@@ -340,24 +314,3 @@ class ConstraintLowering:
             return ()
         self._with_comments.add(node)
         return statement_comments(node)
-
-
-def _is_known_here(constraint: Constraint, key: Key) -> bool:
-    """Whether a constraint can be written here: one of an invoked scenario only if it is alone.
-
-    It sets an object that is handed in; what else it speaks of is only known inside.
-    """
-    prefix = constraint.place.prefix
-    is_inside = bool(prefix) and isinstance(prefix[0], ast.Node)
-    return not is_inside or isinstance(key[0], ast.Node) or constraint.operations.keys == {key}
-
-
-def _is_last(key: Key, others: list[Key]) -> bool:
-    """Whether a plain parameter stands below others in the same text."""
-    last = key[0]
-    return isinstance(last, sym.FieldSymbol) and all(
-        isinstance(first, sym.FieldSymbol)
-        and first.span.source == last.span.source
-        and first.span.start < last.span.start
-        for first, *_ in others
-    )

@@ -10,13 +10,14 @@ from osc2tx.ir.source_text import statement_name
 from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.carla_paths import start_on_path
 from osc2tx.lowering.composed_behaviors import Composed, has_behavior, is_composed
-from osc2tx.lowering.constraints import ConstraintLowering, Instance, Setting
+from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.modifiers import draw_ranges, is_override
 from osc2tx.lowering.node_names import invocation_name
 from osc2tx.lowering.objects import ObjectLowering
 from osc2tx.lowering.open_durations import with_open_duration
+from osc2tx.lowering.parameter_settings import Instance, Setting
 from osc2tx.lowering.triggers import lower_until
 from osc2tx.lowering.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.user_modifiers import ModifierLowering

@@ -8,7 +8,6 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.lowering.behaviors import BehaviorLowering, boundary_of
 from osc2tx.lowering.carla_paths import is_path_member
 from osc2tx.lowering.combined_types import lineage
 from osc2tx.lowering.composed_behaviors import Composed, is_composed, lineage_of
@@ -17,6 +16,7 @@ from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.coverage import lower_coverage
 from osc2tx.lowering.declaration_order import in_order_of_use
 from osc2tx.lowering.declarations import DeclarationLowering
+from osc2tx.lowering.do_directives import labelled_once, lower_body, nothing_left
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.global_parameters import GlobalLowering
 from osc2tx.lowering.initial_placement import (
@@ -152,12 +152,12 @@ def _lower_scenario(
     declarations = lowering.lower()
     shared = GlobalLowering(ctx, scenario, constraints)
     methods = lowering.lower_methods()
-    tree = _lower_body(ctx, scenario, statements, constraints)
+    tree = lower_body(ctx, scenario, statements, constraints)
     if tree is None:
         return None
-    placements, body = PlacementLowering(ctx).split(_labelled_once(tree, set()))
+    placements, body = PlacementLowering(ctx).split(labelled_once(tree, set()))
     if body is None:
-        body = _nothing_left(scenario)
+        body = nothing_left(scenario)
     left_over = constraints.left_over()
     coverage = lower_coverage(ctx, scenario)
     type_methods = lowering.lower_type_methods()
@@ -211,88 +211,6 @@ def _statements(scenario: Composed) -> tuple[ast.Statement, ...]:
     return tuple(statement for symbol in reversed(chain) for statement in symbol.statements)
 
 
-def _lower_body(
-    ctx: LoweringContext,
-    scenario: Composed,
-    statements: tuple[ast.Statement, ...],
-    constraints: ConstraintLowering,
-) -> ir.Behavior | None:
-    """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
-    directives = [s for s in statements if isinstance(s, ast.DoDirective)]
-    if not directives:
-        if not any(other.base is scenario for other in ctx.model.scenarios):
-            ctx.sink.report(
-                "OSC510",
-                scenario.node.name.span,
-                f"scenario `{scenario.name}` has no `do`",
-            )
-        return None
-    lowering = BehaviorLowering(ctx, constraints)
-    body = _lower_directives(lowering, scenario, directives)
-    on = [s for s in statements if isinstance(s, ast.OnDirective)]
-    reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s) is None])
-    if body is None:
-        return None
-    before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))
-    body = _framed(scenario, before, body, after)
-    if not reactions:
-        return body
-    return ir.Parallel(
-        span=body.span,
-        label=None,
-        name=scenario.name,
-        members=(_named_as_do(body), *reactions),
-    )
-
-
-def _framed(
-    scenario: Composed,
-    before: tuple[ir.Behavior, ...],
-    body: ir.Behavior,
-    after: tuple[ir.Behavior, ...],
-) -> ir.Behavior:
-    """Return the body with what happens at its start and at its end."""
-    if not before and not after:
-        return body
-    is_bare = isinstance(body, ir.Serial) and not body.until and body.duration is None
-    if is_bare and isinstance(body, ir.Serial) and body.label is None:
-        return replace(body, members=(*before, *body.members, *after))
-    return ir.Serial(
-        span=body.span,
-        label=None,
-        name=scenario.name,
-        members=(*before, _named_as_do(body), *after),
-    )
-
-
-def _lower_directives(
-    lowering: BehaviorLowering, scenario: Composed, directives: list[ast.DoDirective]
-) -> ir.Behavior | None:
-    several = len(directives) > 1
-    lowered = [lowering.lower_do(do, is_phase=several) for do in directives]
-    bodies: tuple[ir.Behavior, ...] = present(lowered)
-    if not bodies:
-        return None
-    if several:
-        span = directives[0].span.to(directives[-1].span)
-        members = tuple(_named_as_do(body) for body in bodies)
-        return ir.Serial(span=span, label=None, name=scenario.name, members=members)
-    body = bodies[0]
-    if isinstance(body, ir.Serial | ir.Parallel | ir.OneOf):
-        return replace(body, name=scenario.name, is_phase=False)
-    return body
-
-
-def _named_as_do(body: ir.Behavior) -> ir.Behavior:
-    """Name one of several `do` after its operator: it is a phase of its own."""
-    match body:
-        case ir.Serial() | ir.Parallel() | ir.OneOf():
-            name = f"do {type(body).__name__.lower()}"
-            return replace(body, name=name, is_phase=True)
-        case _:
-            return body
-
-
 def _member_placements(
     ctx: LoweringContext,
     statements: tuple[ast.Statement, ...],
@@ -329,24 +247,3 @@ def _member_placements(
                 )
             )
     return tuple(placements)
-
-
-def _nothing_left(scenario: Composed) -> ir.Behavior:
-    """Return a tree for a scenario that only places its actors: it ends at once."""
-    zero = ir.Literal(
-        span=scenario.node.name.span, type=ir.ValueType(ir.Kind.FLOAT, "float"), value=0.0
-    )
-    elapsed = ir.Elapsed(span=zero.span, duration=zero)
-    trigger = ir.Trigger(span=zero.span, event=None, condition=elapsed)
-    return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)
-
-
-def _labelled_once(node: ir.Behavior, seen: set[str]) -> ir.Behavior:
-    """Return the tree without labels that stand there before: a dialect lets them."""
-    if node.label in seen:
-        node = replace(node, label=None)
-    elif node.label is not None:
-        seen.add(node.label)
-    if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
-        return node
-    return replace(node, members=tuple(_labelled_once(member, seen) for member in node.members))

@@ -1,4 +1,4 @@
-"""Modules of imported files: imported where they are the same, copied where they are not."""
+"""What a module imports of those of imported files, and builds of such files."""
 
 from __future__ import annotations
 
@@ -14,90 +14,21 @@ from osc2tx.backends.py_trees.emitter import draft
 from osc2tx.building.build import BuildOptions, build
 from osc2tx.building.jobs import compile_all
 from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
-from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
-from osc2tx.testing import run_scenario as measure
-from osc2tx_runtime import RunSettings, Scenario, run_scenario
+from osc2tx_runtime import RunSettings, run_scenario
 from tests.end_to_end.harness import REPOSITORY
+from tests.end_to_end.importing_files import (
+    LIBRARY,
+    MAIN,
+    classes_in,
+    compiled,
+    imports_in,
+    module_of,
+    trace_of,
+    write,
+)
 from tests.processes import HANGING
-
-LIBRARY = """\
-import osc.standard
-
-struct limits:
-    low: speed = 20kph
-    high: speed = 50kph
-    def middle() -> speed is expression (it.low + it.high) / 2
-
-# Drives for a while.
-scenario approach:
-    car: vehicle
-    bounds: limits
-    pause: time with:
-        keep(it in [1s..3s])
-    do serial:
-        car.drive(duration: 1s) with:
-            speed(bounds.middle())
-        wait elapsed(pause)
-"""
-
-MAIN = """\
-import osc.standard
-import "LIBRARY"
-
-scenario top:
-    road: map with:
-        keep(it.map_file == "highway.xodr")
-    hero: vehicle
-    mine: limits with:
-        keep(it.low == 30kph)
-    do serial:
-        approach(car: hero, bounds: mine)
-        hero.drive(duration: 1s) with:
-            speed(mine.high)
-"""
-
-
-def write(folder: Path, **texts: str) -> None:
-    """Write files; `lib__b` is `lib/b.osc`."""
-    (folder / "osc2tx.toml").touch()
-    for name, text in texts.items():
-        path = folder / f"{name.replace('__', '/')}.osc"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-
-
-def compiled(path: Path) -> Compilation:
-    (compilation,) = compile_all([path], GivenOptions())
-    assert compilation.module is not None, compilation.diagnostics
-    return compilation
-
-
-def module_of(path: Path) -> str:
-    """Return the module of a file as a draft: black takes its time."""
-    (compilation,) = compile_all([path], GivenOptions())
-    assert compilation.has_module and compilation.ir is not None, compilation.diagnostics
-    return draft(compilation.ir, compilation.sharing).python
-
-
-def imports_in(text: str) -> dict[str, list[str]]:
-    """Return what a module imports of others than the runtime and the standard library."""
-    statements = [each for each in ast.parse(text).body if isinstance(each, ast.ImportFrom)]
-    return {
-        str(each.module): [alias.name for alias in each.names]
-        for each in statements
-        if str(each.module).partition(".")[0] not in {"osc2tx_runtime", *sys.stdlib_module_names}
-    }
-
-
-def classes_in(text: str) -> list[str]:
-    return [each.name for each in ast.parse(text).body if isinstance(each, ast.ClassDef)]
-
-
-def trace_of(scenario: type[Scenario]) -> list[str]:
-    return list(run_scenario(scenario, RunSettings(seed=3)).trace_lines)
-
 
 # --- what is imported ---
 
@@ -313,67 +244,6 @@ def test_a_package_keeps_its_name(tmp_path: Path) -> None:
     assert compile_all([tmp_path / "kinds.osc"], GivenOptions())[0].module is None
     reason = "that file makes no module by itself"
     assert f"# A copy from kinds.osc: {reason}\n" in module_of(tmp_path / "a.osc")
-
-
-# --- what is copied, and why ---
-
-
-@pytest.mark.parametrize(
-    ("main", "copied"),
-    [
-        pytest.param("\nextend limits:\n    extra: speed = 1kph\n", ["Limits", "Approach"]),
-        pytest.param("\nextend approach:\n    more: time = 1s\n", ["Approach"]),
-    ],
-    ids=["type", "scenario"],
-)
-def test_what_the_importing_file_extends_is_its_own(
-    tmp_path: Path, main: str, copied: list[str]
-) -> None:
-    write(tmp_path, a=MAIN.replace("LIBRARY", "b.osc") + main, b=LIBRARY)
-    text = module_of(tmp_path / "a.osc")
-    assert [name for name in classes_in(text) if name != "Top"] == copied
-    assert text.count("# A copy from b.osc: here it is not as in that file alone\n") == len(copied)
-
-
-def test_files_that_import_each_other_have_copies(tmp_path: Path) -> None:
-    write(tmp_path, a=MAIN.replace("LIBRARY", "b.osc"), b=f'import "a.osc"\n{LIBRARY}')
-    text = module_of(tmp_path / "a.osc")
-    assert imports_in(text) == {}
-    assert text.count("# A copy from b.osc: it imports this file as well\n") == 2
-    assert imports_in(module_of(tmp_path / "b.osc")) == {}
-
-
-def test_other_settings_make_copies(tmp_path: Path) -> None:
-    write(tmp_path, a=MAIN.replace("LIBRARY", "b.osc"), b=LIBRARY)
-    settings = tmp_path / "osc2tx.toml"
-    settings.write_text('[scenarios.b]\none_of = "first"\n', encoding="utf-8")
-    assert "# A copy from b.osc: it has other settings\n" in module_of(tmp_path / "a.osc")
-    settings.write_text('[scenarios.b]\none_of = "race"\n', encoding="utf-8")
-    assert imports_in(module_of(tmp_path / "a.osc")) != {}
-
-
-def test_what_lies_outside_of_the_outputs_is_copied(tmp_path: Path) -> None:
-    write(tmp_path, urban__a=MAIN.replace("LIBRARY", "../b.osc"), b=LIBRARY)
-    reason = "its module lies where this one cannot import it from"
-    assert f"# A copy from ../b.osc: {reason}\n" in module_of(tmp_path / "urban/a.osc")
-
-
-def test_a_module_in_the_way_of_a_folder(tmp_path: Path) -> None:
-    """Python would take `lib.py` for the package `lib`."""
-    write(tmp_path, a=MAIN.replace("LIBRARY", "lib/b.osc"), lib__b=LIBRARY)
-    assert imports_in(module_of(tmp_path / "a.osc")) == {"lib.b": ["Approach", "Limits"]}
-    write(tmp_path, lib="import osc.standard\n")
-    assert imports_in(module_of(tmp_path / "a.osc")) == {}
-
-
-def test_a_scenario_is_tested_as_a_file_and_as_a_module(tmp_path: Path) -> None:
-    write(tmp_path, urban__a=MAIN.replace("LIBRARY", "../lib/b.osc"), lib__b=LIBRARY)
-    build([tmp_path], tmp_path / "out", GivenOptions(target="py"))
-    source, module = (
-        measure(tmp_path / path, seed=3) for path in ("urban/a.osc", "out/urban/a.py")
-    )
-    assert (source.status, source.time) == (module.status, module.time)
-    assert source.states("hero") == module.states("hero")
 
 
 # --- builds ---

@@ -90,7 +90,7 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     action_views = write_actions(actions, names, table, uses)
     writers = [
         ScenarioWriter(
-            *(scenario, module.one_of, module.dialect == "carla", names, table, type_methods, uses)
+            scenario, module.one_of, module.dialect == "carla", names, table, type_methods, uses
         )
         for scenario in scenarios
     ]

@@ -15,6 +15,7 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
+from osc2tx.backends.py_trees.list_operations import element_name, list_operation
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -37,11 +38,6 @@ PLAIN_METHODS = {
     ("range", "lower"): ("{object}.low", Level.ATOM),
     ("range", "upper"): ("{object}.high", Level.ATOM),
 }
-
-
-def element_name(depth: int) -> PyName:
-    """Name the element that an operator of a list looks at."""
-    return PyName("it" if depth == 0 else f"it_{depth + 1}")
 
 
 class ExpressionWriter:
@@ -152,7 +148,7 @@ class ExpressionWriter:
             case ir.Element(depth=depth):
                 return name_expression(element_name(depth))
             case ir.ListOperation():
-                return self._list_operation(expression)
+                return list_operation(expression, self.write)
             case ir.Index(base=base, index=index):
                 return PyExpr(f"{self._atom(base)}[{self.write(index)}]", Level.ATOM)
             case ir.Conversion(operand=operand):
@@ -238,42 +234,6 @@ class ExpressionWriter:
         text = form.format(object=self._atom(call.base), first=first, second=second)
         return PyExpr(text, level)
 
-    def _list_operation(self, node: ir.ListOperation) -> PyExpr:
-        """Write an operator of a list as a comprehension (§7.4.2.7)."""
-        name = element_name(node.depth)
-        values = self.write(node.base).within(Level.OR)
-        if node.argument is None:
-            return PyExpr(f"len({self.write(node.base)})", Level.ATOM)
-        argument = self.write(node.argument)
-        inner, test = argument.within(Level.CONDITIONAL), argument.within(Level.OR)
-        match node.operator:
-            case ir.ListOperator.FILTER:
-                text = f"[{name} for {name} in {values} if {test}]"
-            case ir.ListOperator.MAP:
-                text = f"[{inner} {self._elements(node)}]"
-            case ir.ListOperator.HAS:
-                text = f"any({inner} {self._elements(node)})"
-            case ir.ListOperator.COUNT:
-                text = f"sum({inner} {self._elements(node)})"
-            case _:  # the first index
-                found = f"index for index, {name} in enumerate({values}) if {test}"
-                text = f"next(({found}), -1)"
-        return PyExpr(text, Level.ATOM)
-
-    def _elements(self, node: ir.ListOperation) -> str:
-        """Write `for it in values`; a filter below needs no list of its own."""
-        base = node.base
-        name = element_name(node.depth)
-        if (
-            isinstance(base, ir.ListOperation)
-            and base.operator is ir.ListOperator.FILTER
-            and base.argument is not None
-            and base.depth == node.depth
-        ):
-            test = self.write(base.argument).within(Level.OR)
-            return f"for {name} in {self.write(base.base).within(Level.OR)} if {test}"
-        return f"for {name} in {self.write(base).within(Level.OR)}"
-
     def _argument(self, argument: ir.Argument, own: bool) -> str:
         value = self.write(argument.value).within(Level.CONDITIONAL)
         if argument.is_positional:
@@ -309,7 +269,11 @@ class ExpressionWriter:
         if operator == "in" and node.left.type.kind is ir.Kind.LIST:
             every = f"all(it in {self.write(node.right).within(Level.SUM)} for it in {left})"
             return PyExpr(every, Level.ATOM)
+        if operator in INVERSES and _is_truth_value(node.right):
+            return self._as_told(node.left, left, holds=_is_true(node.right) == (operator == "=="))
         right = self.write(node.right)
+        if operator in INVERSES and _is_truth_value(node.left):
+            return self._as_told(node.right, right, holds=_is_true(node.left) == (operator == "=="))
         if operator in COMPARISONS or operator == "in":
             # Python would read a chain `a < b < c` differently: both sides bind tighter.
             text = f"{left.within(Level.SUM)} {operator} {right.within(Level.SUM)}"
@@ -331,6 +295,10 @@ class ExpressionWriter:
             return self._binary(replace(operand, operator=inverse))
         return PyExpr(f"not {written.within(Level.NOT)}", Level.NOT)
 
+    def _as_told(self, operand: ir.Expression, written: PyExpr, *, holds: bool) -> PyExpr:
+        """Write a truth value that is compared with `true` or `false`."""
+        return written if holds else self._negated(operand, written)
+
     def _in_range(self, left: PyExpr, bounds: ir.RangeValue) -> PyExpr:
         if None in (ir.constant(bounds.lower), ir.constant(bounds.upper)):
             # Only the run tells which of them is the lower one.
@@ -345,6 +313,14 @@ class ExpressionWriter:
         when_true = self.write(node.when_true).within(Level.OR)
         when_false = self.write(node.when_false).within(Level.CONDITIONAL)
         return PyExpr(f"{when_true} if {condition} else {when_false}", Level.CONDITIONAL)
+
+
+def _is_truth_value(node: ir.Expression) -> bool:
+    return isinstance(node, ir.Literal) and isinstance(node.value, bool)
+
+
+def _is_true(node: ir.Expression) -> bool:
+    return isinstance(node, ir.Literal) and node.value is True
 
 
 def _is_integer_division(node: ir.Binary) -> bool:

@@ -12,7 +12,7 @@ from typing import Any, get_args, get_type_hints
 
 from osc2tx_rules import Rule
 from osc2tx_runtime import enums
-from osc2tx_runtime.domain.actions.modifiable import ShapedAction
+from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
@@ -73,7 +73,7 @@ def _action(method: RegisteredMethod) -> dict[str, Any]:
         "arguments": _arguments(method.factory.__init__),
         "required": _required(method.factory.__init__),
         "modifiers": sorted(accepted),
-        "moves": issubclass(method.factory, ShapedAction) and not method.factory.stands,
+        "moves": issubclass(method.factory, ModifiableAction) and not method.factory.stands,
         "physical": method.factory.physical,
         "slots": list(method.slots),
         "ends": method.ends,

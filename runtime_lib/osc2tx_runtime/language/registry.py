@@ -127,7 +127,10 @@ class MethodRegistry:
                 )
             claimed = tuple(slots)
             method = RegisteredMethod(
-                *(kind, name, claimed, ends),
+                kind,
+                name,
+                claimed,
+                ends,
                 places=places,
                 paces=LONGITUDINAL in claimed if paces is None else paces,
                 needs=tuple(needs),

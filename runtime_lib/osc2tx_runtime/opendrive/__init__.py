@@ -7,9 +7,9 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
 * `polynomials`, `geometry`, `model`: what a road is made of.
 * `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
 * `lane_advance`: moving along lanes; `lane_distances`: distances over the lane graph.
-* `poses`: from a lane to (x, y, z); `projection`: back to a lane; `geodesy`: from the globe.
-* `outlines`: drawing and default start places; `signal_places`: where signals hold;
-  `signals`, `errors`: value types.
+* `poses`: from a lane to (x, y, z); `road_index`, `projection`: back to a lane.
+* `geodesy`: from the globe to the map; `outlines`: drawing and default start places;
+  `signal_places`: where signals hold; `signals`, `errors`: value types.
 
 Invariants: SI units, right-handed coordinates, headings in (-pi, pi]. Results do not depend on
 set order, platform hash seeds or the order of queries. Distances are measured on the xy plane.

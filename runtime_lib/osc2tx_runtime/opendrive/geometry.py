@@ -47,6 +47,11 @@ class Segment(Protocol):
 
     length: float
 
+    @property
+    def stretch(self) -> float:
+        """Metres of the curve per metre of s, at most."""
+        ...
+
     def at(self, u: float) -> Point:
         """Point at distance `u` (m) from the start of the piece."""
         ...
@@ -60,6 +65,7 @@ class Line:
     """Straight piece."""
 
     __slots__ = ("c", "h", "length", "s", "x", "y")
+    stretch = 1.0
 
     def __init__(self, x: float, y: float, h: float, length: float) -> None:
         self.x, self.y, self.h, self.length = x, y, h, length
@@ -78,6 +84,7 @@ class Arc:
     """Circular piece; the chord form has no cancellation for tiny curvatures."""
 
     __slots__ = ("h", "k", "length", "x", "y")
+    stretch = 1.0
 
     def __init__(self, x: float, y: float, h: float, length: float, curvature: float) -> None:
         self.x, self.y, self.h, self.length, self.k = x, y, h, length, curvature
@@ -103,6 +110,7 @@ class Spiral:
     """Clothoid; integrated by Gauss-Legendre from the start of the panel that holds the point."""
 
     __slots__ = ("h", "k", "length", "panels", "rate", "starts")
+    stretch = 1.0
 
     def __init__(
         self, x: float, y: float, h: float, length: float, k_start: float, k_end: float
@@ -161,7 +169,7 @@ class ParamPoly:
     exactly even if the declared length is rounded); without, it gives plain arc length (poly3).
     """
 
-    __slots__ = ("c", "h", "inverse", "length", "s", "starts", "u", "v", "x", "y")
+    __slots__ = ("c", "h", "inverse", "length", "s", "starts", "stretch", "u", "v", "x", "y")
 
     def __init__(
         self,
@@ -185,18 +193,20 @@ class ParamPoly:
             span = sum(w * self._speed(begin + n * step) for n, w in GAUSS) * step
             arcs.append(arcs[-1] + max(span, 1e-12))
         scale = length / arcs[-1] if scaled else 1.0
+        self.stretch = max(1.0, 1.0 / scale)
         self.starts = [arc * scale for arc in arcs]
-        self.inverse = [
-            hermite(
-                self.starts[i + 1] - self.starts[i],
-                (nodes[i], nodes[i + 1]),
-                (
-                    1.0 / (scale * max(self._speed(nodes[i]), 1e-9)),
-                    1.0 / (scale * max(self._speed(nodes[i + 1]), 1e-9)),
-                ),
-            )
-            for i in range(count)
-        ]
+        self.inverse = [self._inverse(step, i, nodes, scale) for i in range(count)]
+
+    def _inverse(
+        self, step: float, i: int, nodes: list[float], scale: float
+    ) -> tuple[float, float, float, float]:
+        """P over the distance in an interval of the table. Slopes stay where p cannot turn back."""
+        span = self.starts[i + 1] - self.starts[i]
+        steepest = 3.0 * step / span
+        first, last = (
+            min(1.0 / (scale * max(self._speed(p), 1e-9)), steepest) for p in nodes[i : i + 2]
+        )
+        return hermite(span, (nodes[i], nodes[i + 1]), (first, last))
 
     def _speed(self, p: float) -> float:
         _, bu, cu, du = self.u

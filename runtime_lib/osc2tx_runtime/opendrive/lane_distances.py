@@ -12,7 +12,7 @@ import heapq
 import math
 from collections.abc import Callable, Iterable
 
-from .lane_line import lane_line
+from .lane_line import lane_length, lane_line
 from .model import DRIVING, Lane, LanePosition, LaneSection, Road
 from .network import lane_order
 
@@ -31,16 +31,19 @@ class RouteField:
 
     Attributes:
         goal: The goal group.
-        gap: Metres from the end of a group to the begin of the goal; infinite if not connected.
+        gap: Metres from the end of a group to the begin of the goal; infinite if not connected,
+            or not searched yet.
         following: Next group on the way, -1 if none.
+        open: What to search next: distance (m), group, and the group after it.
     """
 
-    __slots__ = ("following", "gap", "goal")
+    __slots__ = ("following", "gap", "goal", "open")
 
     def __init__(self, goal: int, count: int) -> None:
         self.goal = goal
         self.gap = [math.inf] * count
         self.following = [-1] * count
+        self.open: list[tuple[float, int, int]] = []
 
 
 class LaneGroups:
@@ -51,7 +54,8 @@ class LaneGroups:
         for road in roads:
             for section in road.sections:
                 self._add_section(section)
-        self.previous: list[tuple[int, ...]] = [self._leading(group) for group in self.groups]
+        self._leading: list[tuple[int, ...] | None] = [None] * len(self.groups)
+        self._lengths: list[float] = [-1.0] * len(self.groups)
         self._fields: dict[int, RouteField] = {}
         self._gaps: dict[tuple[Lane, Lane], tuple[float, Lane] | None] = {}
 
@@ -75,37 +79,47 @@ class LaneGroups:
             lane.group = len(self.groups)
         self.groups.append(tuple(group))
 
-    def _leading(self, group: tuple[Lane, ...]) -> tuple[int, ...]:
-        found = {before.group for lane in group for before in lane.predecessors}
-        return tuple(sorted(found))
+    def leading(self, group: int) -> tuple[int, ...]:
+        """Groups that lead to a group, sorted."""
+        found = self._leading[group]
+        if found is None:
+            lanes = self.groups[group]
+            unordered = {before.group for lane in lanes for before in lane.predecessors}
+            found = self._leading[group] = tuple(sorted(unordered))
+        return found
 
     def field(self, goal: int) -> RouteField:
-        """Backward Dijkstra from a group over the whole map, cached."""
+        """The field of a goal group, cached; `gap_from` searches it as far as it is asked for."""
         field = self._fields.get(goal)
         if field is None:
-            field = self._fields[goal] = self._search(goal)
+            field = self._fields[goal] = RouteField(goal, len(self.groups))
+            field.open = [(0.0, before, goal) for before in self.leading(goal)]
         return field
 
-    def _search(self, goal: int) -> RouteField:
-        field = RouteField(goal, len(self.groups))
-        gap, following = field.gap, field.following
-        heap: list[tuple[float, int, int]] = [(0.0, before, goal) for before in self.previous[goal]]
-        heapq.heapify(heap)
-        while heap:
-            distance, group, target = heapq.heappop(heap)
-            if distance >= gap[group]:
+    def gap_from(self, group: int, field: RouteField) -> float:
+        """Metres from the end of a group to the begin of the goal; infinite if not connected.
+
+        Backward Dijkstra from the goal, over all groups that are not farther than this one.
+        """
+        gap, following, heap = field.gap, field.following, field.open
+        while heap and heap[0][0] <= gap[group]:
+            distance, nearest, target = heapq.heappop(heap)
+            if distance >= gap[nearest]:
                 continue
-            gap[group], following[group] = distance, target
-            onward = distance + self.length(group)
-            for before in self.previous[group]:
+            gap[nearest], following[nearest] = distance, target
+            onward = distance + self.length(nearest)
+            for before in self.leading(nearest):
                 if onward < gap[before]:
-                    heapq.heappush(heap, (onward, before, group))
-        return field
+                    heapq.heappush(heap, (onward, before, nearest))
+        return gap[group]
 
     def length(self, group: int) -> float:
         """Length (m) of the middle lane of a group, used to compare ways."""
-        lanes = self.groups[group]
-        return lane_line(lanes[len(lanes) // 2]).length
+        length = self._lengths[group]
+        if length < 0.0:
+            lanes = self.groups[group]
+            length = self._lengths[group] = lane_length(lanes[len(lanes) // 2])
+        return length
 
     def gap(self, lane: Lane, goal: Lane) -> tuple[float, Lane] | None:
         """Metres from the end of a lane to the begin of the group of another, cached.
@@ -118,12 +132,13 @@ class LaneGroups:
         return self._gaps[key]
 
     def _walk(self, lane: Lane, goal: Lane) -> tuple[float, Lane] | None:
-        following = self.field(goal.group).following
+        field = self.field(goal.group)
+        following = field.following
+        if self.gap_from(lane.group, field) == math.inf:
+            return None
         total = 0.0
         while True:
             target = following[lane.group]
-            if target < 0:
-                return None
             lane = self._step(lane, target, goal, following)
             if lane.group == goal.group:
                 return total, lane
@@ -223,4 +238,4 @@ class Route:
         """Distance to go (m) from the begin of a lane to the goal group, to compare branches."""
         if lane.group == self._field.goal:
             return 0.0
-        return self._groups.length(lane.group) + self._field.gap[lane.group]
+        return self._groups.length(lane.group) + self._groups.gap_from(lane.group, self._field)

@@ -10,7 +10,7 @@ from .geometry import GAUSS, Segment, hermite
 from .model import Lane
 from .polynomials import Row
 
-__all__ = ["lane_line"]
+__all__ = ["lane_length", "lane_line"]
 
 _STEP = 2.0  # m between nodes where curvature or width change
 _MOST = 10_000  # nodes of one piece: its steps are longer from 20 km on
@@ -22,6 +22,50 @@ def lane_line(lane: Lane) -> LaneLine:
     if line is None:
         line = lane.line = _build(lane)
     return line
+
+
+def lane_length(lane: Lane) -> float:
+    """Arc length of a lane (m), without a table where it is even along lines and arcs."""
+    if lane.line is None and lane.road.superelevation is None:
+        t = _even_centre(lane)
+        turn = None if t is None else _turn(lane, t)
+        if t is not None and turn is not None:
+            return lane.section.end - lane.section.begin - t * turn
+    return lane_line(lane).length
+
+
+def _even_centre(lane: Lane) -> float | None:
+    """The t of the centre if it is the same all along."""
+    t = lane.road.lane_offset.constant()
+    side = lane.section.left if lane.id > 0 else lane.section.right
+    sign = 1.0 if lane.id > 0 else -1.0
+    for each in side:
+        width = None if each.width is None else each.width.constant()
+        if t is None or width is None:
+            return None
+        if each is lane:
+            return t + 0.5 * sign * width
+        t += sign * width
+    return None
+
+
+def _turn(lane: Lane, t: float) -> float | None:
+    """How far the road turns along a lane (rad); None if its curvature is not constant in pieces.
+
+    None as well inside of the centre of an arc, where the length of the lane is not that simple.
+    """
+    reference, begin, end = lane.road.reference, lane.section.begin, lane.section.end
+    total = 0.0
+    for i, segment in enumerate(reference.segments):
+        low = reference.starts[i] if i else begin
+        high = reference.starts[i + 1] if i + 1 < len(reference.starts) else end
+        span = min(high, end) - max(low, begin)
+        if span > 0.0:
+            curvature = segment.constant_curvature()
+            if curvature is None or 1.0 - curvature * t < SLOWEST_RATE:
+                return None
+            total += curvature * span
+    return total
 
 
 def _build(lane: Lane) -> LaneLine:

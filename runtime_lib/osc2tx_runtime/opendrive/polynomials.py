@@ -53,15 +53,29 @@ class Piecewise:
         u = s - self.starts[i]
         return a + u * (b + u * (c + u * d)), b + u * (2.0 * c + u * 3.0 * d)
 
-    def least_at_ends(self, begin: float, end: float) -> float:
-        """Least value at both ends of the pieces that hold between two road coordinates."""
-        least = math.inf
-        for i, (start, (a, b, c, d)) in enumerate(zip(self.starts, self.rows, strict=True)):
-            stop = self.starts[i + 1] if i + 1 < len(self.starts) else end
-            if stop >= begin and start <= end:
-                u = min(stop, end) - start
-                least = min(least, a, a + u * (b + u * (c + u * d)))
-        return least
+    def extremes(self, begin: float, end: float) -> tuple[float, float]:
+        """Least and greatest value between two road coordinates (m)."""
+        least, greatest = math.inf, -math.inf
+        last = len(self.starts) - 1
+        for i in range(self.index(begin), self.index(end) + 1):
+            a, b, c, d = self.rows[i]
+            start = self.starts[i]
+            low = begin - start if i == 0 else max(begin - start, 0.0)
+            high = end - start if i == last else min(end, self.starts[i + 1]) - start
+            values = [a + u * (b + u * (c + u * d)) for u in (low, high)]
+            if c or d:
+                values += [
+                    a + u * (b + u * (c + u * d))
+                    for u in _roots(b, 2.0 * c, 3.0 * d)
+                    if low < u < high
+                ]
+            least, greatest = min(least, *values), max(greatest, *values)
+        return least, greatest
+
+    def constant(self) -> float | None:
+        """The value if it is the same everywhere and said once, else None."""
+        a, b, c, d = self.rows[0]
+        return None if len(self.rows) > 1 or b or c or d else a
 
     def is_zero(self) -> bool:
         """True if every coefficient is zero."""
@@ -78,6 +92,15 @@ class Piecewise:
             c + 3.0 * d * u,
             d,
         )
+
+
+def _roots(a: float, b: float, c: float) -> tuple[float, ...]:
+    """Where a + b u + c u^2 is zero; the form without cancellation."""
+    below = b * b - 4.0 * a * c
+    if below < 0.0:
+        return ()
+    q = -0.5 * (b + math.copysign(math.sqrt(below), b))
+    return tuple(up / down for up, down in ((q, c), (a, q)) if down)
 
 
 ZERO = Piecewise([0.0], [(0.0, 0.0, 0.0, 0.0)])

@@ -225,7 +225,7 @@ def _lane(element: etree._Element, ends: tuple[float, float], attributes: Attrib
             lane.previous_ids = _linked_ids(child, "predecessor", attributes)
             lane.next_ids = _linked_ids(child, "successor", attributes)
     lane.width = Piecewise.from_records(widths)
-    if lane.width is not None and (narrowest := lane.width.least_at_ends(begin, end)) < NARROWEST:
+    if lane.width is not None and (narrowest := lane.width.extremes(begin, end)[0]) < NARROWEST:
         raise attributes.error(element, f"is {narrowest:g} m wide at one place; give a width")
     lane.border = Piecewise.from_records(borders)
     return lane

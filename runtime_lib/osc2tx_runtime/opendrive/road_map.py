@@ -29,8 +29,9 @@ from .model import (
 from .network import connect_lanes, linked_ends
 from .outlines import lane_outlines, spawn_points
 from .poses import lane_pose, surface_pose
-from .projection import Projection, RoadIndex, lane_at, place_score, position_of, project
+from .projection import Projection, best_place, lane_at, place_score, position_of, project
 from .reader import MapContent, read_content, read_content_text
+from .road_index import RoadIndex
 from .signals import Controller, Signal
 
 __all__ = ["RoadMap", "read_map", "read_map_text"]
@@ -94,7 +95,7 @@ class RoadMap:
             found = self._track(x, y, hint, lane_types, z, heading)
             if found is not None:
                 return position_of(*found)
-        best = self._index.best((x, y), lane_types, max_distance, z, heading)
+        best = best_place(self._index, (x, y), lane_types, max_distance, z, heading)
         return None if best is None else position_of(*best)
 
     def _track(
@@ -263,15 +264,17 @@ class RoadMap:
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Box around all lanes: xmin, ymin, xmax, ymax (m)."""
-        edges = self._index.outline
-        low, high = edges.min(axis=0), edges.max(axis=0)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        return self._bounds
 
     # --- internals ----------------------------------------------------------------------------
 
     @cached_property
     def _index(self) -> RoadIndex:
-        return RoadIndex(self._roads)
+        return RoadIndex(self._roads.values())
+
+    @cached_property
+    def _bounds(self) -> tuple[float, float, float, float]:
+        return self._index.bounds()
 
     @cached_property
     def _groups(self) -> LaneGroups:

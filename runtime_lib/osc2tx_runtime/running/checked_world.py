@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
 
-from osc2tx_runtime.errors import OwnCode, ScenarioError, name_of
+from osc2tx_runtime.world.checked_calls import CheckedCalls
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_runtime.world.kinematics import Kinematics
 from osc2tx_runtime.world.protocol import LightState, Progress, World
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.value_checks import problem_of
 
 __all__ = ["checked_world"]
 
@@ -50,30 +49,21 @@ class _CheckedWorld:
 
     def __init__(self, world: object) -> None:
         self._world = world
-        self._told = f"the world {name_of(type(world))}"
+        self._calls = CheckedCalls("world", world)
 
     def __getattr__(self, name: str) -> Any:
         """Return an attribute of the world; methods check what they return."""
         if name.startswith("_"):
             raise AttributeError(name)
-        with OwnCode(f"{self._told} raised"):
-            found = getattr(self._world, name)
+        found = self._calls.ask(name, lambda: getattr(self._world, name), Any)
         wanted = ANSWERS.get(name, Any)
         if callable(found):
             return self._method(name, found, wanted)
-        return self._sound(name, found, wanted)
+        return self._calls.ask(name, lambda: found, wanted)
 
     def _method(self, name: str, function: Callable[..., Any], wanted: Any) -> Callable[..., Any]:
         def call(*arguments: Any, **more: Any) -> Any:
-            with OwnCode(f"{self._told} raised"):
-                found = function(*arguments, **more)
-            return self._sound(name, found, wanted)
+            return self._calls.ask(name, lambda: function(*arguments, **more), wanted)
 
         self.__dict__[name] = call  # looked up once
         return call
-
-    def _sound(self, name: str, found: Any, wanted: Any) -> Any:
-        problem = problem_of(found, wanted)
-        if problem:
-            raise ScenarioError(f"{self._told}: {name}: {problem}")
-        return found

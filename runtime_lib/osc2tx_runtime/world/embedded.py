@@ -79,7 +79,7 @@ class EmbeddedWorld:
         self._friction = FrictionWatch(dt)
         self._plant: Plant = Identity() if plant is None else CheckedPlant(plant)
         self._scene = Scene(
-            *(road_map, dt, self.signals, self._lights, self._surroundings, self._couplings)
+            road_map, dt, self.signals, self._lights, self._surroundings, self._couplings
         )
 
     # --- life ---------------------------------------------------------------------------------
@@ -320,9 +320,7 @@ class EmbeddedWorld:
         self._changes.clear()
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = arrive(
-            *(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
-        )
+        states = arrive(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
         self._track.add(before, frozenset(jumped))
         self._contacts.step(before, states, jumped, self._couplings.pairs())
         self._friction.step(members, put | jumped, self._surroundings.road)

@@ -51,7 +51,8 @@ def _check_for(wanted: Hashable) -> Check:
     if wanted is int:
         return lambda value: _unless(
             isinstance(value, int) and not isinstance(value, bool) and abs(value) <= LARGEST,
-            *(value, "whole number"),
+            value,
+            "whole number",
         )
     kind: Any = get_origin(wanted) or wanted
     if getattr(kind, "_is_protocol", False):

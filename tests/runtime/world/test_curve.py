@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from osc2tx_runtime.domain.paths.path_curves import PathError, stretch
+from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_offsets
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose
 
@@ -81,8 +81,8 @@ def test_trajectories_that_are_none(count: int, times: tuple[float, ...], messag
 
 def test_offsets_leave_something() -> None:
     curve = Path((Pose(0, 0), Pose(10, 0))).curve
-    assert stretch(curve, 2.0, 3.0) == (2.0, 7.0)
+    assert interval_between_offsets(curve, 2.0, 3.0) == (2.0, 7.0)
     with pytest.raises(PathError, match=r"leave nothing of a path of 10\.00 m"):
-        stretch(curve, 6.0, 4.0)
+        interval_between_offsets(curve, 6.0, 4.0)
     with pytest.raises(PathError, match="not negative"):
-        stretch(curve, -1.0, 0.0)
+        interval_between_offsets(curve, -1.0, 0.0)

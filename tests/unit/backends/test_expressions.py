@@ -54,6 +54,7 @@ def evaluate(expression: ir.Expression) -> object:
                 "<": lambda: a < b,  # type: ignore[operator]
                 ">=": lambda: a >= b,  # type: ignore[operator]
                 "==": lambda: a == b,
+                "!=": lambda: a != b,
             }
             return table[operator]()
     raise AssertionError(expression)
@@ -68,9 +69,10 @@ numbers = st.recursive(
     max_leaves=12,
 )
 truths = st.recursive(
-    st.builds(binary, st.sampled_from(["<", ">=", "=="]), numbers, numbers),
+    st.builds(binary, st.sampled_from(["<", ">=", "=="]), numbers, numbers)
+    | st.booleans().map(literal),
     lambda inner: st.one_of(
-        st.builds(binary, st.sampled_from(["and", "or", "=>", "=="]), inner, inner),
+        st.builds(binary, st.sampled_from(["and", "or", "=>", "==", "!="]), inner, inner),
         st.builds(lambda e: ir.Unary(span=SPAN, type=BOOL, operator="not", operand=e), inner),
         st.builds(
             lambda c, t, f: ir.Conditional(
@@ -162,3 +164,19 @@ def test_a_filter_below_another_operator_needs_no_list(
     text = writer().write(outer).text
     assert eval(text) == expected
     assert text.count(" for ") == 1
+
+
+def test_truth_values_are_not_compared_with_true_and_false() -> None:
+    flag = ir.FieldRef(span=SPAN, type=BOOL, name="v")
+    less = binary("<", literal(1), literal(2))
+    written = {
+        (operator, value, side): writer().write(binary(operator, *sides)).text
+        for operator in ("==", "!=")
+        for value in (True, False)
+        for side, sides in enumerate([(flag, literal(value)), (literal(value), flag)])
+    }
+    assert written == {
+        (operator, value, side): "self.v" if (operator == "==") is value else "not self.v"
+        for operator, value, side in written
+    }
+    assert writer().write(binary("==", less, literal(False))).text == "not 1 < 2"

@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Literal, NamedTuple
 
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.paths.path_curves import PathError, stretch
+from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_offsets
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
@@ -66,7 +66,7 @@ def sample_curve(
             curve = Trajectory(poses, [p.time for p in points], joined).curve
         else:
             curve = Way(poses, joined).curve
-        low, high = stretch(curve, *offsets)
+        low, high = interval_between_offsets(curve, *offsets)
     except PathError as error:
         raise Inexpressible(error.message) from None
     begin, end = curve.begin, curve.end

@@ -17,7 +17,7 @@ from osc2tx_runtime.world.acceleration import acceleration_profile
 from osc2tx_runtime.world.commands import Accelerate, AccelerationChange
 from osc2tx_runtime.world.longitudinal import excessive_acceleration
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 from .profiled_change import RatedChange
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class AssignAcceleration(Assignment):
 
 
 @action("movable_object", "keep_acceleration", slots=(LONGITUDINAL,), ends="open")
-class KeepAcceleration(ShapedAction):
+class KeepAcceleration(ModifiableAction):
     """Hold the present acceleration; an actor that comes to a stand stays there."""
 
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE

@@ -19,7 +19,7 @@ from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Beside, KeepGap
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
@@ -39,7 +39,7 @@ __all__ = [
 _DIRECTIONS: tuple[GapDirection, ...] = get_args(GapDirection)
 
 
-class _OneAxis(ShapedAction):
+class _OneAxis(ModifiableAction):
     """Controls the speed or the lane; modifiers may speak of the other one.
 
     Attributes:

@@ -26,7 +26,7 @@ from osc2tx_runtime.world.lane_neighbours import (
 )
 from osc2tx_runtime.world.lateral import shift_profile
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 from .profiled_change import check_profile, peak_of
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ __all__ = ["SIDES", "ChangeLane", "FollowLane"]
 SIDES: tuple[LaneChangeSide, ...] = get_args(LaneChangeSide)
 
 
-class _OnLane(ShapedAction):
+class _OnLane(ModifiableAction):
     """Goes to a place across the road."""
 
     accepts: ClassVar[tuple[type, ...]] = SPEED_FREE

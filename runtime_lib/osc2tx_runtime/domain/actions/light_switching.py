@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.signals.traffic_light_cycles import check_cycle, moment_of, time_of
-from osc2tx_runtime.domain.signals.traffic_lights import known_cycles, states_of
+from osc2tx_runtime.domain.signals.traffic_lights import declared_cycles, states_of
 from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import Action, ActionOptions
@@ -167,7 +167,7 @@ class Switch(SignalAction):
         self.note(signal, self.signals.states(signal), str(self.shown.state))
 
     def _cycles(self) -> tuple[TrafficLightCycle, ...]:
-        cycles = known_cycles(self.context)
+        cycles = declared_cycles(self.context)
         if not cycles:
             raise ScenarioError(
                 "sync needs to know which lights keep in step: keep(it.traffic_light_control =="

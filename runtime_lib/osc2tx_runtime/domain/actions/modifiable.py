@@ -42,12 +42,12 @@ from osc2tx_runtime.world.commands import Careful, Command
 
 from .modifier_checks import check_modifiers, check_options
 
-__all__ = ["ShapedAction"]
+__all__ = ["ModifiableAction"]
 
 CARE = AvoidCollisions()
 
 
-class ShapedAction(ModifiedMotion):
+class ModifiableAction(ModifiedMotion):
     """Moves by itself in its own slots, and as the modifiers say in those they speak of.
 
     It claims the speed if a modifier speaks of it, and the lane likewise, so that

@@ -22,13 +22,13 @@ from osc2tx_runtime.domain.modifiers.groups import (
 )
 from osc2tx_runtime.language.registry import action
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 
 __all__ = ["Drive", "Move", "Walk"]
 
 
 @action("movable_object", "move", ends="open")
-class Move(ShapedAction):
+class Move(ModifiableAction):
     """Move as the modifiers say."""
 
     accepts: ClassVar[tuple[type, ...]] = (
@@ -41,7 +41,7 @@ class Move(ShapedAction):
 
 
 @action("vehicle", "drive", ends="open")
-class Drive(ShapedAction):
+class Drive(ModifiableAction):
     """Drive as the modifiers say; without any, on in the lane at the present speed."""
 
     accepts: ClassVar[tuple[type, ...]] = Move.accepts
@@ -54,7 +54,7 @@ class Drive(ShapedAction):
     undeclared="the text of §8.8.4.1 lets animals walk, its types do not",
 )
 @action("person", "walk", ends="open")
-class Walk(ShapedAction):
+class Walk(ModifiableAction):
     """Walk as the modifiers say, straight on or along a path."""
 
     accepts: ClassVar[tuple[type, ...]] = (

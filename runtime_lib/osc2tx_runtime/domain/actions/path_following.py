@@ -28,7 +28,7 @@ from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Command
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
 
 
-class CourseAction(ShapedAction):
+class CourseAction(ModifiableAction):
     """An action on a course that may turn out to be impossible when it starts."""
 
     def on_start(self) -> None:

@@ -13,7 +13,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.world.profiles import PROFILES
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
@@ -38,7 +38,7 @@ def peak_of(value: Value | None, unit: str) -> float | None:
     return peak
 
 
-class RatedChange(ShapedAction):
+class RatedChange(ModifiableAction):
     """Reaches a target in the speed slot.
 
     Args:

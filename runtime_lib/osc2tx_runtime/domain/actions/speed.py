@@ -14,7 +14,7 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import SpeedChange, Standstill
 from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
 
-from .modifiable import ShapedAction
+from .modifiable import ModifiableAction
 from .profiled_change import RatedChange
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ class ChangeSpeed(RatedChange):
 
 
 @action("movable_object", "keep_speed", slots=(LONGITUDINAL,), ends="open")
-class KeepSpeed(ShapedAction):
+class KeepSpeed(ModifiableAction):
     """Hold the present speed: what a released slot does by itself."""
 
     commands_speed = False
@@ -108,7 +108,7 @@ class AssignSpeed(Assignment):
 
 
 @action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
-class RemainStationary(ShapedAction):
+class RemainStationary(ModifiableAction):
     """Stand; an actor that moves brakes as hard as it can first.
 
     Where it has to stand it has to be at the start: what holds then goes on to hold.

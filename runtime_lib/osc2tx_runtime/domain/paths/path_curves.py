@@ -11,7 +11,7 @@ from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.curve import Curve, Knot
 
-__all__ = ["PathError", "path_curve", "stretch", "trajectory_curve"]
+__all__ = ["PathError", "interval_between_offsets", "path_curve", "trajectory_curve"]
 
 _SAME = 1e-6  # m: points so near are one
 
@@ -60,7 +60,9 @@ def trajectory_curve(
     return Curve(knots, interpolation == "smooth")
 
 
-def stretch(curve: Curve, start_offset: float, end_offset: float) -> tuple[float, float]:
+def interval_between_offsets(
+    curve: Curve, start_offset: float, end_offset: float
+) -> tuple[float, float]:
     """Arc lengths (m) between which a curve is used.
 
     Raises:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from osc2tx_runtime.domain.paths.path_curves import PathError, stretch
+from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_offsets
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
@@ -35,7 +35,7 @@ def path_command(
         PathError: The path is empty, too far away, or cannot be driven as it says.
     """
     curve = path_in_world(road_map, path).curve
-    begin, end = stretch(curve, *offsets)
+    begin, end = interval_between_offsets(curve, *offsets)
     if exact:
         return ReplayCourse(curve, begin, end)
     _check_yaw(curve, curve.knots)
@@ -71,7 +71,9 @@ def trajectory_commands(
     begin, end = curve.begin, curve.end
     if any(offsets):
         start_offset, end_offset = offsets
-        low, high = stretch(curve, lead + start_offset if start_offset else 0.0, end_offset)
+        low, high = interval_between_offsets(
+            curve, lead + start_offset if start_offset else 0.0, end_offset
+        )
         begin, end = curve.at_length(low), curve.at_length(high) if end_offset else curve.end
     if exact:
         replay = ReplayTrajectory(curve, begin, end)

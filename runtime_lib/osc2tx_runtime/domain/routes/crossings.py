@@ -157,12 +157,12 @@ class Crossing(Route):
         Raises:
             ScenarioError: Nothing says it.
         """
-        if self.known_width is None:
+        if self.stated_width is None:
             raise ScenarioError(f"nothing says the width of {self.found}", self.source)
-        return self.known_width
+        return self.stated_width
 
     @property
-    def known_width(self) -> float | None:
+    def stated_width(self) -> float | None:
         """Its width (m); None if nothing says it."""
         if self.line.width is not None:
             return self.line.width

@@ -65,7 +65,7 @@ def _on_path(curve: Curve, state: ActorState) -> tuple[float, float]:
 def _on_crossing(crossing: Crossing, state: ActorState) -> tuple[float, float]:
     line = crossing.line
     along, aside = line.place_of(state.x, state.y)
-    half = _BESIDE if crossing.known_width is None else 0.5 * crossing.known_width
+    half = _BESIDE if crossing.stated_width is None else 0.5 * crossing.stated_width
     if abs(aside) > half or not -_EDGE <= along <= line.length + _EDGE:
         raise ScenarioError(f"the actor is not on {crossing.found}")
     return along, line.length

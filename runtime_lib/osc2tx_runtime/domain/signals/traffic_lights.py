@@ -32,7 +32,7 @@ __all__ = [
     "TrafficLightCycle",
     "TrafficLightGroup",
     "TrafficLightPhase",
-    "known_cycles",
+    "declared_cycles",
     "states_of",
 ]
 
@@ -229,7 +229,7 @@ class TrafficLightGroup(MapObject):
         """
         signals = self._signals
         own = set(self.lights(signals))
-        for cycle in known_cycles(self.context):
+        for cycle in declared_cycles(self.context):
             if cycle.phases and own & set(cycle.phases[0].group.lights(signals)):
                 return cycle
         raise ScenarioError(f"{self.name} has no cycle in the traffic_light_control of the map")
@@ -285,7 +285,7 @@ class TrafficLightControl:
     traffic_light_control: list[TrafficLightCycle]
 
 
-def known_cycles(context: ExecutionContext) -> tuple[TrafficLightCycle, ...]:
+def declared_cycles(context: ExecutionContext) -> tuple[TrafficLightCycle, ...]:
     """The cycles that the map of a run has in its `traffic_light_control`."""
     actors = context.actors.values()
     maps = (each for each in actors if isinstance(each, TrafficLightControl))

@@ -1,0 +1,94 @@
+"""Types and actions that the files of a program declare."""
+
+from __future__ import annotations
+
+from osc2tx.diagnostics import Span
+from osc2tx.ir.declarations import Method
+from osc2tx.ir.expressions import Expression
+from osc2tx.ir.values import ValueType
+from osc2tx.support.light_dataclass import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserField:
+    """A field of a type that the scenario's files declare.
+
+    Attributes:
+        name: Its name.
+        type: Its type.
+        default: What it is if nobody says; without it must be given.
+        is_optional: An object may do without: its own file never speaks of it.
+    """
+
+    name: str
+    span: Span
+    type: ValueType
+    default: Expression | None
+    comments: tuple[str, ...] = ()
+    is_optional: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserType:
+    """An actor or struct that the scenario's files declare.
+
+    Attributes:
+        name: As in the source; that of a combination names its types, `tall_and_long`.
+        bases: The type it inherits from; several if it is the combination of conditional types
+            that one object is of.
+        is_actor: Whether it is an actor.
+        fields: Those of its own that have values.
+        unused: Those of its own that no file speaks of.
+        methods: Its own methods, in source order.
+    """
+
+    name: str
+    span: Span
+    bases: tuple[str, ...]
+    is_actor: bool
+    fields: tuple[UserField, ...]
+    comments: tuple[str, ...] = ()
+    unused: tuple[UserField, ...] = ()
+    methods: tuple[Method, ...] = ()
+
+    @property
+    def all_fields(self) -> tuple[UserField, ...]:
+        """Its own fields, in source order."""
+        return tuple(sorted((*self.fields, *self.unused), key=lambda field: field.span.start))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserEnum:
+    """An enum that the scenario's files declare, with all its members."""
+
+    name: str
+    span: Span
+    members: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ActionParameter:
+    """A parameter of a user's own action; one with a default has a value in every invocation."""
+
+    name: str
+    type: ValueType
+    has_default: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserAction:
+    """An action that the scenario's files declare, and a package of the user carries out.
+
+    Attributes:
+        name: Its name.
+        owner: The actor type that it belongs to.
+        parameters: Its own and those of its bases.
+        takes_modifiers: Whether modifiers of movement may be applied to it.
+    """
+
+    name: str
+    owner: str
+    span: Span
+    parameters: tuple[ActionParameter, ...]
+    takes_modifiers: bool
+    comments: tuple[str, ...] = ()

@@ -1,0 +1,240 @@
+"""Which roads are near a point: tiles touched by stretches of roads, and a grid of samples in each.
+
+A tile is sampled when somebody first asks for a place in it, so that a large map costs what is used
+of it. Tiles are chosen by discs that hold a stretch of road whatever its shape: no point of a
+stretch is farther from its middle than half its length, and half the road's width.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from .model import LaneSection, Road
+
+__all__ = ["RoadIndex"]
+
+_SAMPLE = 4.0  # m between samples along a road
+_ACROSS = 8.0  # m between points of the cross-section of a sample
+_CELL = 16.0  # m, edge of a grid cell
+_TILE = 16  # cells along the edge of a tile
+_REACH = 4.5  # m: a point registers in every cell within this reach
+_HALF_ROAD = 500.0  # m: an absurd width must not fill the memory
+_WIDE = 2.0  # m beyond the outermost lanes
+_MOST = 64  # samples of a stretch
+
+_Cell = tuple[int, int]
+_Near = list[tuple[Road, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class _Stretch:
+    """Samples of a road within one piece of its reference line, and a disc around them."""
+
+    number: int
+    first: int
+    last: int
+    x: float
+    y: float
+    radius: float
+
+
+class RoadIndex:
+    """Tiles and cells over all roads.
+
+    Args:
+        roads: The roads, in their numeric order.
+    """
+
+    __slots__ = ("_cells", "_roads", "_stretches", "_tiles")
+
+    def __init__(self, roads: Iterable[Road]) -> None:
+        self._roads = tuple(roads)
+        self._stretches = [
+            stretch
+            for number, road in enumerate(self._roads)
+            for stretch in _stretches(number, road)
+        ]
+        self._tiles: dict[_Cell, list[_Stretch]] = {}
+        for stretch in self._stretches:
+            for tile in _touched(stretch):
+                self._tiles.setdefault(tile, []).append(stretch)
+        self._cells: dict[_Cell, dict[_Cell, _Near]] = {}
+
+    def candidates(self, x: float, y: float, reach: float) -> _Near:
+        """Roads near a point, each with an s to start from; empty if none within `reach` (m)."""
+        cx, cy = math.floor(x / _CELL), math.floor(y / _CELL)
+        found = self._cell(cx, cy)
+        if found:
+            return found
+        for ring in range(1, math.ceil(reach / _CELL) + 1):
+            hits = self._ring(cx, cy, ring)
+            if hits:  # a corner of this ring may be farther away than the next ring
+                return hits + self._ring(cx, cy, ring + 1)
+        return []
+
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Box around the edges of all roads: xmin, ymin, xmax, ymax (m)."""
+        return (
+            -self._farthest(-1.0, 0.0),
+            -self._farthest(0.0, -1.0),
+            self._farthest(1.0, 0.0),
+            self._farthest(0.0, 1.0),
+        )
+
+    def _farthest(self, dx: float, dy: float) -> float:
+        """How far (m) edges reach in a direction; what cannot reach farther is not sampled."""
+
+        def most(stretch: _Stretch) -> float:
+            return stretch.x * dx + stretch.y * dy + stretch.radius
+
+        best = -math.inf
+        for stretch in sorted(self._stretches, key=most, reverse=True):
+            if most(stretch) < best:
+                break
+            road = self._roads[stretch.number]
+            for i in range(stretch.first, stretch.last + 1):
+                for x, y in _across(road, _place(road, i), 0.0, math.inf):
+                    best = max(best, x * dx + y * dy)
+        return best
+
+    def _ring(self, cx: int, cy: int, ring: int) -> _Near:
+        hits: _Near = []
+        for i in range(-ring, ring + 1):
+            inner = abs(i) < ring
+            for j in (-ring, ring) if inner else range(-ring, ring + 1):
+                hits.extend(self._cell(cx + i, cy + j))
+        return hits
+
+    def _cell(self, cx: int, cy: int) -> _Near:
+        tile = (cx // _TILE, cy // _TILE)
+        cells = self._cells.get(tile)
+        if cells is None:
+            stretches = self._tiles.get(tile)
+            if stretches is None:
+                return []
+            cells = self._cells[tile] = self._sampled(tile, stretches)
+        return cells.get((cx, cy), [])
+
+    def _sampled(self, tile: _Cell, stretches: Iterable[_Stretch]) -> dict[_Cell, _Near]:
+        """Cells of a tile; in a cell each run of consecutive samples of a road is one entry."""
+        samples = dict.fromkeys(
+            (stretch.number, i)
+            for stretch in stretches
+            for i in range(stretch.first, stretch.last + 1)
+        )
+        points: list[tuple[float, float]] = []
+        owners: list[tuple[int, int]] = []
+        for number, i in samples:
+            road = self._roads[number]
+            for point in _across(road, _place(road, i), _WIDE, _ACROSS):
+                points.append(point)
+                owners.append((number, i))
+        table: dict[_Cell, _Near] = {}
+        for cx, cy, number, first, last in _runs(tile, points, owners):
+            road = self._roads[number]
+            middle = 0.5 * (_place(road, first) + _place(road, last))
+            table.setdefault((cx, cy), []).append((road, middle))
+        return table
+
+
+def _samples(road: Road) -> int:
+    """Samples of a road after that at its begin."""
+    return max(1, math.ceil(road.length / _SAMPLE))
+
+
+def _place(road: Road, i: int) -> float:
+    """The s of a sample."""
+    return road.length * i / _samples(road)
+
+
+def _stretches(number: int, road: Road) -> Iterator[_Stretch]:
+    """Stretches that hold all samples of a road; those at joints are in both."""
+    count = _samples(road)
+    step = road.length / count
+    width = min(max(map(_half_width, road.sections)), _HALF_ROAD) + _offset(road) + _WIDE
+    reference = road.reference
+    for k, segment in enumerate(reference.segments):
+        own = reference.starts[k]
+        begin = own if k > 0 else 0.0
+        end = reference.starts[k + 1] if k + 1 < len(reference.starts) else road.length
+        first = math.floor(begin / step) if step > 0.0 else 0
+        last = min(math.ceil(end / step), count) if step > 0.0 else count
+        for low in range(first, max(last, first + 1), _MOST):
+            high = min(low + _MOST, last)
+            a, b = max(low * step, begin), min(high * step, end)
+            x, y, _, _ = segment.at(0.5 * (a + b) - own)
+            # One step more, as the speed along a polynomial is even only nearly.
+            radius = 0.5 * abs(b - a) * segment.stretch + step + width
+            yield _Stretch(number, low, high, x, y, radius)
+
+
+def _offset(road: Road) -> float:
+    low, high = road.lane_offset.extremes(0.0, road.length)
+    return min(max(abs(low), abs(high)), _HALF_ROAD)
+
+
+def _half_width(section: LaneSection) -> float:
+    """At least the distance (m) of the outermost edge from lane 0."""
+    total = 0.0
+    for lane in section.lanes.values():
+        edge = lane.width if lane.width is not None else lane.border
+        if edge is not None:
+            low, high = edge.extremes(section.begin, section.end)
+            total += max(abs(low), abs(high))
+    return total
+
+
+def _touched(stretch: _Stretch) -> Iterator[_Cell]:
+    edge = _CELL * _TILE
+    reach = stretch.radius + _REACH
+    for i in range(_floor(stretch.x - reach, edge), _floor(stretch.x + reach, edge) + 1):
+        for j in range(_floor(stretch.y - reach, edge), _floor(stretch.y + reach, edge) + 1):
+            yield i, j
+
+
+def _floor(value: float, edge: float) -> int:
+    return math.floor(value / edge)
+
+
+def _across(road: Road, s: float, beside: float, step: float) -> Iterator[tuple[float, float]]:
+    """Points of a cross-section, from `beside` metres outside of its right edge to the left one."""
+    section = road.section_at(s)
+    low = high = road.lane_offset.value(s)
+    if section.left:
+        high = max(high, section.left[-1].outer.value(s))
+    if section.right:
+        low = min(low, section.right[-1].outer.value(s))
+    low, high = max(low, -_HALF_ROAD) - beside, min(high, _HALF_ROAD) + beside
+    x, y, h, _ = road.reference.at(s)
+    c, n = math.cos(h), math.sin(h)
+    count = max(1, math.ceil((high - low) / step))
+    for j in range(count + 1):
+        t = low + (high - low) * j / count
+        yield x - t * n, y + t * c
+
+
+def _runs(
+    tile: _Cell, points: list[tuple[float, float]], owners: list[tuple[int, int]]
+) -> list[tuple[int, int, int, int, int]]:
+    """Cell, road, first and last sample of each run of samples in a cell of the tile."""
+    corners = [(dx, dy) for dx in (-_REACH, _REACH) for dy in (-_REACH, _REACH)]
+    cells = np.concatenate([np.floor((np.array(points) + corner) / _CELL) for corner in corners])
+    rows = np.concatenate(
+        [cells.astype(np.int64), np.tile(np.array(owners), (len(corners), 1))], axis=1
+    )
+    rows = rows[np.all(rows[:, :2] // _TILE == tile, axis=1)]
+    rows = rows[np.lexsort((rows[:, 3], rows[:, 2], rows[:, 1], rows[:, 0]))]
+    same = np.all(rows[1:, :3] == rows[:-1, :3], axis=1)
+    new = np.append(True, ~(same & (rows[1:, 3] - rows[:-1, 3] <= 1)))[: len(rows)]
+    firsts = np.flatnonzero(new)
+    lasts = np.append(firsts[1:] - 1, len(rows) - 1)[: len(firsts)]
+    return [
+        (cx, cy, number, first, last)
+        for (cx, cy, number, first), last in zip(
+            rows[firsts].tolist(), rows[lasts, 3].tolist(), strict=True
+        )
+    ]

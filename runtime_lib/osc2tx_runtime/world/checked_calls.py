@@ -1,0 +1,51 @@
+"""Calls of code of the user's own, whose answers a run computes with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NoReturn, TypeVar
+
+from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, name_of
+
+from .value_checks import problem_of
+
+__all__ = ["CheckedCalls"]
+
+T = TypeVar("T")
+
+
+class CheckedCalls:
+    """Calls an object, and names it when it fails or answers what is not of the type it should be.
+
+    Args:
+        part: What it is for the run: `plant`, `world`.
+        object_: The object; what one of this package raises is passed on as it is.
+    """
+
+    def __init__(self, part: str, object_: object) -> None:
+        self._told = f"the {part} {name_of(type(object_))}"
+        self._is_own = is_own(type(object_))
+
+    def ask(self, name: str, call: Callable[[], T], wanted: Any) -> T:
+        """Return the answer to a call.
+
+        Args:
+            name: Of the method, for messages.
+            call: Calls it.
+            wanted: Type of the answer, as in annotations.
+
+        Raises:
+            ScenarioError: It is no such thing, or code of the user's own raised something.
+        """
+        if not self._is_own:
+            found = call()
+        else:
+            with OwnCode(f"{self._told} raised"):
+                found = call()
+        if problem := problem_of(found, wanted):
+            self.refuse(name, problem)
+        return found
+
+    def refuse(self, name: str, problem: str) -> NoReturn:
+        """Raises what is wrong with the answer of a method, as a `ScenarioError`."""
+        raise ScenarioError(f"{self._told}: {name}: {problem}")
