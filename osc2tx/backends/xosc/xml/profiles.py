@@ -23,6 +23,7 @@ class ToolProfile:
         has_act_stop: It ends acts by their stop triggers.
         has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
         has_shapes: It looks at the shape of the dynamics.
+        has_booleans: It compares variables with `true` and `false`, not only with numbers.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
             needs none.
         signal_name: What it calls a traffic light, `{}` being its id in the map.
@@ -37,6 +38,7 @@ class ToolProfile:
     has_act_stop: bool = True
     has_stop: bool = True
     has_shapes: bool = True
+    has_booleans: bool = True
     ego_property: str = ""
     signal_name: str = "{}"
     knows_towns: bool = False
@@ -81,6 +83,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         has_act_stop=False,
         has_stop=False,
         has_shapes=False,
+        has_booleans=False,
         ego_property="ego_vehicle",
         signal_name="id={}",
         knows_towns=True,
