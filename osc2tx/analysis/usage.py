@@ -9,9 +9,12 @@ from osc2tx.analysis.tree_walk import children_of, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
-from osc2tx.semantics.scope import is_subtype
+from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+
+Declared = tuple[sym.TypeSymbol, sym.EventSymbol]
+"""A type and an event that it declares."""
 
 
 @dataclass(slots=True, eq=False)
@@ -27,6 +30,8 @@ class Usage:
         emits: `emit`s of the root file.
         settings: What gives values to fields and parameters: declarations, calls, invocations.
         divisions: Divisions and remainders.
+        declared: Events and the types that declare them, by the type at the top of the inheritance
+            and their name.
     """
 
     emitted: set[sym.Symbol] = field(default_factory=set)
@@ -37,11 +42,17 @@ class Usage:
     emits: list[ast.EmitDirective] = field(default_factory=list)
     settings: list[ast.Node] = field(default_factory=list)
     divisions: list[ast.Binary] = field(default_factory=list)
+    declared: dict[tuple[sym.TypeSymbol, str], list[Declared]] = field(default_factory=dict)
 
 
 def find_usage(model: SemanticModel) -> Usage:
     """Look through all of the user's files."""
     usage = Usage()
+    for owner in model.symbols:
+        if isinstance(owner, sym.TypeSymbol):
+            for name, member in owner.members.items():
+                if isinstance(member, sym.EventSymbol):
+                    usage.declared.setdefault((_ancestor(owner), name), []).append((owner, member))
     for file in model.files:
         is_root = file is model.root
         stack: list[ast.Node] = [file]
@@ -138,25 +149,29 @@ def _report_waits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
 def _comes_from_somewhere(model: SemanticModel, usage: Usage, symbol: sym.EventSymbol) -> bool:
     if symbol.origin != "user" or symbol.is_implicit or symbol.node is None:
         return True  # of the library, of a dialect, or of every behavior
-    family = [symbol, *_redeclared(model, symbol)]
+    family = [symbol, *_redeclared(usage, symbol)]
     return any(
         event in usage.emitted or (event.node is not None and event.node.specification is not None)
         for event in family
     )
 
 
-def _redeclared(model: SemanticModel, symbol: sym.EventSymbol) -> list[sym.EventSymbol]:
+def _redeclared(usage: Usage, symbol: sym.EventSymbol) -> list[sym.EventSymbol]:
     """Return the events that types above and below declare again under the same name."""
-    if symbol.owner is None:
+    own = symbol.owner
+    if own is None:
         return []
     return [
         event
-        for owner in model.symbols
-        if isinstance(owner, sym.TypeSymbol)
-        and owner is not symbol.owner
-        and (is_subtype(owner, symbol.owner) or is_subtype(symbol.owner, owner))
-        and isinstance(event := owner.members.get(symbol.name), sym.EventSymbol)
+        for owner, event in usage.declared.get((_ancestor(own), symbol.name), ())
+        if owner is not own and (is_subtype(owner, own) or is_subtype(own, owner))
     ]
+
+
+def _ancestor(symbol: sym.TypeSymbol) -> sym.TypeSymbol:
+    """Return the type at the top of an inheritance."""
+    *_, top = supertypes(symbol)
+    return top
 
 
 def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
@@ -164,7 +179,7 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
         symbol = model.symbol_of(emit.event)
         if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
             continue
-        if symbol in usage.awaited or set(_redeclared(model, symbol)) & usage.awaited:
+        if symbol in usage.awaited or set(_redeclared(usage, symbol)) & usage.awaited:
             continue
         sink.report(
             "OSC431",

@@ -35,7 +35,7 @@ class GlobalLowering:
         self._own = constraints
         self._lowered: dict[str, ir.Actor | ir.Struct | ir.Parameter | None] = {}
         self.constraints: tuple[ir.Constraint, ...] = ()
-        is_invoked = any(b.callee is scenario for b in ctx.model.bindings.values())
+        is_invoked = scenario in ctx.model.callees
         for symbol in ctx.model.global_parameters:
             is_cast = isinstance(symbol.type, types.ActorType) and not is_invoked
             if is_cast or self._is_constrained(symbol):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
+from functools import cached_property
 
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -33,7 +34,7 @@ class Binding:
     arguments: tuple[tuple[FieldSymbol | ParameterSymbol, ast.Expression], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SemanticModel:
     """A checked program: symbols, and side tables over its syntax trees.
 
@@ -62,10 +63,15 @@ class SemanticModel:
     symbols: tuple[Symbol, ...] = ()
     known_units: tuple[UnitSymbol, ...] = ()
 
-    @property
+    @cached_property
     def global_parameters(self) -> tuple[FieldSymbol, ...]:
         """The global parameters of the program (§7.3.14), in the order of `symbols`."""
         return tuple(s for s in self.symbols if isinstance(s, FieldSymbol))
+
+    @cached_property
+    def callees(self) -> frozenset[Symbol]:
+        """What is called, invoked or applied anywhere."""
+        return frozenset(binding.callee for binding in self.bindings.values())
 
     def type_of(self, expression: ast.Expression) -> Type:
         """Return the type of an expression; the error type if it has none."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from decimal import Decimal
 
 from lxml import etree
 
 from own_maps.shapes import corners, step
 from own_maps.specs import JunctionSpec, LaneSpec, MapSpec, RoadSpec
+
+COEFFICIENTS = ("b", "c", "d")
 
 
 def number(value: float) -> str:
@@ -16,11 +19,18 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
+def coefficient(value: float) -> str:
+    """Fifteen digits, since coefficients of cubics are small and multiply cubes of metres."""
+    text = format(Decimal(f"{value:.15g}"), "f")
+    return "0" if text == "-0" else text
+
+
 def add(parent: etree._Element, tag: str, **attributes: str | float | int) -> etree._Element:
     """Adds an element; a trailing underscore in an attribute name is dropped."""
     element = etree.SubElement(parent, tag)
     for name, value in attributes.items():
-        text = value if isinstance(value, str) else number(float(value))
+        write = coefficient if name in COEFFICIENTS else number
+        text = value if isinstance(value, str) else write(float(value))
         element.set(name.rstrip("_"), text)
     return element
 

@@ -10,6 +10,8 @@ from .state import ActorState
 
 __all__ = ["Box", "box_of", "contact_interval", "overlapping", "swept_contacts"]
 
+_NEAR = 1e-4  # m to which contacts of turning boxes are found
+
 
 class Box(NamedTuple):
     """An upright box on the ground.
@@ -60,10 +62,13 @@ def box_of(state: ActorState) -> Box:
     )
 
 
-def contact_interval(a: Box, b: Box, dx: float, dy: float) -> tuple[float, float] | None:
+def contact_interval(
+    a: Box, b: Box, dx: float, dy: float, slack: float = 0.0
+) -> tuple[float, float] | None:
     """Times between which b, moving by (dx, dy) per unit of time against a, touches a.
 
-    Exact for boxes that do not turn. None if they never touch; heights are not looked at.
+    Exact for boxes that do not turn. None if they never touch, or come as near as `slack` (m);
+    heights are not looked at.
     """
     px, py = b.x - a.x, b.y - a.y
     cross = abs(a.cos * b.sin - a.sin * b.cos)
@@ -75,10 +80,10 @@ def contact_interval(a: Box, b: Box, dx: float, dy: float) -> tuple[float, float
     broad_b = a.half_length * cross + a.half_width * along
     entry, leave = -math.inf, math.inf
     for ux, uy, reach in (
-        (a.cos, a.sin, a.half_length + reach_a),
-        (-a.sin, a.cos, a.half_width + broad_a),
-        (b.cos, b.sin, b.half_length + reach_b),
-        (-b.sin, b.cos, b.half_width + broad_b),
+        (a.cos, a.sin, a.half_length + reach_a + slack),
+        (-a.sin, a.cos, a.half_width + broad_a + slack),
+        (b.cos, b.sin, b.half_length + reach_b + slack),
+        (-b.sin, b.cos, b.half_width + broad_b + slack),
     ):
         p = px * ux + py * uy
         q = dx * ux + dy * uy
@@ -109,13 +114,68 @@ def _touch(a: Box, a_end: Box, b: Box, b_end: Box) -> bool:
         return False
     if min(b.low, b_end.low) > max(a.high, a_end.high):
         return False
-    dx = b_end.x - b.x - a_end.x + a.x
-    dy = b_end.y - b.y - a_end.y + a.y
-    moving = contact_interval(a, b, dx, dy)
-    if moving is not None and moving[0] <= 1.0 and moving[1] >= 0.0:
-        return True
-    # Turning is not part of the sweep, so the end is looked at by itself.
-    return contact_interval(a_end, b_end, 0.0, 0.0) is not None
+    turns = _turn(a, a_end), _turn(b, b_end)
+    if not any(turns):
+        return _meet(a, a_end, b, b_end, 0.0)
+    return _meet_turning((a, a_end, turns[0]), (b, b_end, turns[1]), 0.0, 1.0)
+
+
+def _meet(a: Box, a_end: Box, b: Box, b_end: Box, slack: float) -> bool:
+    """True if two boxes that do not turn come nearer than `slack` (m) on their way."""
+    moving = contact_interval(
+        a, b, b_end.x - b.x - a_end.x + a.x, b_end.y - b.y - a_end.y + a.y, slack
+    )
+    return moving is not None and moving[0] <= 1.0 and moving[1] >= 0.0
+
+
+_Sweep = tuple[Box, Box, float]
+"""A box at begin and end of a step, and how much it turns (rad)."""
+
+
+def _meet_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
+    """True if two boxes touch within a part of a step.
+
+    Within the part they are taken as they stand in the middle of it. Their corners are then off by
+    at most half of the turn times their distance from the centre: who stays farther apart does not
+    touch, else the halves of the part are looked at, until that is less than `_NEAR`.
+    """
+    middle = 0.5 * (begin + end)
+    a, a_end = _part(one, begin, end)
+    b, b_end = _part(other, begin, end)
+    slack = (end - begin) * (_swing(one) + _swing(other))
+    if not _meet(a, a_end, b, b_end, slack):
+        return False
+    if slack < _NEAR:
+        return _meet(a, a_end, b, b_end, 0.0)
+    return _meet_turning(one, other, begin, middle) or _meet_turning(one, other, middle, end)
+
+
+def _swing(sweep: _Sweep) -> float:
+    """Metres by which the corners of a box turn in half a step."""
+    box, _, turn = sweep
+    return 0.5 * abs(turn) * math.hypot(box.half_length, box.half_width)
+
+
+def _part(sweep: _Sweep, begin: float, end: float) -> tuple[Box, Box]:
+    """A box at both ends of a part of a step, turned as in the middle of it."""
+    box, goal, turn = sweep
+    heading = math.atan2(box.sin, box.cos) + 0.5 * (begin + end) * turn
+    turned = box._replace(cos=math.cos(heading), sin=math.sin(heading))
+    return _moved(turned, goal, begin), _moved(turned, goal, end)
+
+
+def _moved(box: Box, goal: Box, share: float) -> Box:
+    """A box on its way, without turning."""
+    x, y = box.x + share * (goal.x - box.x), box.y + share * (goal.y - box.y)
+    return box._replace(x=x, y=y)
+
+
+def _turn(begin: Box, end: Box) -> float:
+    """How much a box turns in a step (rad)."""
+    if begin.cos == end.cos and begin.sin == end.sin:
+        return 0.0
+    sin = begin.cos * end.sin - begin.sin * end.cos
+    return math.atan2(sin, begin.cos * end.cos + begin.sin * end.sin)
 
 
 def swept_contacts(begin: Sequence[Box], end: Sequence[Box]) -> list[tuple[int, int]]:
@@ -152,6 +212,12 @@ _Span = tuple[float, float, float, float, int]
 def _span(b: Box, e: Box, index: int) -> _Span:
     x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
     y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
+    if (
+        b.cos != e.cos or b.sin != e.sin
+    ):  # in between it reaches farther, but not beyond its corners
+        turn = abs(_turn(b, e))
+        bulge = math.hypot(b.half_length, b.half_width) * (1.0 - math.cos(min(0.5 * turn, 1.6)))
+        x, y = x + bulge, y + bulge
     left, right = (b.x, e.x) if b.x < e.x else (e.x, b.x)
     low, high = (b.y, e.y) if b.y < e.y else (e.y, b.y)
     return left - x, right + x, low - y, high + y, index

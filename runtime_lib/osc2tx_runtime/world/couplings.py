@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from osc2tx_runtime.opendrive import RoadMap
 
 from .actor_motion import CommandedActor
+from .curve import turn_between
 from .state import ActorState
-from .towing import drawn
+from .towing import JACK_KNIFE, drawn
 
 __all__ = ["Couplings"]
 
@@ -18,10 +19,13 @@ class Couplings:
 
     def __init__(self) -> None:
         self._towed: dict[str, str] = {}  # towing vehicle to trailer
+        self._folded: set[str] = set()  # trailers that stand across their tow
+        self._news: list[tuple[str, str, float]] = []
 
     def attach(self, tow: str, trailer: str | None) -> str | None:
         """Couple a trailer, or None; return the one that is uncoupled for that."""
         before = self._towed.pop(tow, None)
+        self._folded.discard(before or "")
         if trailer is not None:
             self._towed[tow] = trailer
         return before
@@ -63,5 +67,19 @@ class Couplings:
             pose, speed = drawn(member.state, new, members[tow].state, dt)
             a = (speed - member.state.v) / dt
             states[place[trailer]] = member.free_state(pose, speed, a, road_map)
+            self._look(tow, trailer, turn_between(new.h, pose.h))
             if trailer in self._towed:
                 waiting.append(trailer)
+
+    def _look(self, tow: str, trailer: str, angle: float) -> None:
+        """Note when a trailer folds against its tow (rad)."""
+        if abs(angle) <= JACK_KNIFE:
+            self._folded.discard(trailer)
+        elif trailer not in self._folded:
+            self._folded.add(trailer)
+            self._news.append((tow, trailer, angle))
+
+    def take_folded(self) -> list[tuple[str, str, float]]:
+        """Hands over the jack-knives since the last call: tow, trailer, angle (rad)."""
+        news, self._news = self._news, []
+        return news

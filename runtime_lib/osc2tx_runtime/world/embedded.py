@@ -321,6 +321,8 @@ class EmbeddedWorld:
         found = self._plant.moved(self._scene)
         self._scene.step += 1
         states = arrive(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
+        for tow, trailer, angle in self._couplings.take_folded():
+            self._scene.note_jack_knife(tow, trailer, angle)
         self._track.add(before, frozenset(jumped))
         self._contacts.step(before, states, jumped, self._couplings.pairs())
         self._friction.step(members, put | jumped, self._surroundings.road)

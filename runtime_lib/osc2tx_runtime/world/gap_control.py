@@ -21,7 +21,7 @@ __all__ = ["ArrivalRun", "GapRun", "allowed_gap"]
 
 _SPEED_TOLERANCE = 0.2  # m/s between the speeds at which a gap can count as reached
 _GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
-_GAP_STEPS = 4  # steps for which it must stay so
+_HELD = 0.2  # s for which it must stay so
 _UNCORRECTED = 1.0  # s before the end
 _STIFFNESS = 0.4  # of the spring that closes a gap, in units of the limit that counts at the end
 
@@ -34,13 +34,13 @@ class GapRun:
     actor can always still brake. It does not reverse.
     """
 
-    __slots__ = ("_command", "_failed", "_limits", "_other", "_settled")
+    __slots__ = ("_command", "_failed", "_held", "_limits", "_other")
 
     def __init__(self, command: KeepGap, limits: Limits) -> None:
         self._command = command
         self._limits = limits
         self._other = Tracked(command.reference, command.projected)
-        self._settled = 0
+        self._held = 0.0  # s for which the gap has been as it should
         self._failed: str | None = None
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
@@ -64,12 +64,12 @@ class GapRun:
         speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, inputs.dt)
         close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
         near = abs(error) < _GAP_TOLERANCE and close
-        self._settled = self._settled + 1 if near else 0
+        self._held = self._held + inputs.dt if near else 0.0
         return speed
 
     def progress(self) -> Progress:
-        """Done when the gap has been held for some steps."""
-        return Progress(self._settled >= _GAP_STEPS, self._failed)
+        """Done when the gap has been held for a while."""
+        return Progress(self._held >= _HELD - 1e-9, self._failed)
 
 
 class ArrivalRun:

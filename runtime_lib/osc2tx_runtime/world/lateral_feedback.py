@@ -22,7 +22,7 @@ __all__ = ["BesideRun", "SidewaysRun"]
 _RATE = 1.0  # 1/s: how fast small errors decay
 _NEAR = 0.05  # m at which a distance counts as reached
 _RATE_NEAR = 0.02  # m/s at which a lateral speed counts as reached
-_STEPS = 4  # steps for which it must stay so
+_HELD = 0.2  # s for which it must stay so
 
 
 class SidewaysRun:
@@ -73,7 +73,7 @@ class BesideRun:
         self._limits = limits
         self._speed = rate
         self._other = Tracked(command.reference, command.projected)
-        self._settled = 0
+        self._held = 0.0  # s for which it has been where it should
         self._steps: int | None = None  # to go, where there is a time
         self._elapsed = 0
         self._failed: str | None = None
@@ -94,7 +94,7 @@ class BesideRun:
         if command.left is None:
             gap = side_gap(to_left, me.shape, other.shape)
             wanted = other.lateral_speed - gap / (command.time or dt)
-            self._note(abs(self._speed - wanted) < _RATE_NEAR)
+            self._note(abs(self._speed - wanted) < _RATE_NEAR, dt)
         elif command.course is not None:
             return self._on_course(command.course, offset, -to_left, path, other, dt)
         else:
@@ -129,8 +129,8 @@ class BesideRun:
         room = abs(path) * SIDEWAYS
         moved = min(max(wanted, -room), room)
         self._speed = course.rate(time) + moving if moved == wanted else moved / dt
-        if self._settled < _STEPS and time >= course.duration - 1e-9:
-            self._settled = _STEPS
+        if self._held < _HELD and time >= course.duration - 1e-9:
+            self._held = _HELD
             self._miss(wanted - moved)
         return offset + moved, self._speed
 
@@ -143,16 +143,16 @@ class BesideRun:
         rate = min(_RATE * abs(error), math.sqrt(2.0 * COMFORT * self._limits.lateral * abs(error)))
         wanted = moving + math.copysign(rate, error)
         if self._steps is None:
-            self._note(abs(error) < _NEAR and abs(self._speed - wanted) < 4.0 * _RATE_NEAR)
+            self._note(abs(error) < _NEAR and abs(self._speed - wanted) < 4.0 * _RATE_NEAR, dt)
         return wanted
 
-    def _note(self, near: bool) -> None:
-        self._settled = self._settled + 1 if near else 0
+    def _note(self, near: bool, dt: float) -> None:
+        self._held = self._held + dt if near else 0.0
 
     def _judge(self, missed: float) -> None:
         """Whether it is there when its time is over."""
         if self._steps == 0:
-            self._settled = _STEPS
+            self._held = _HELD
             self._miss(missed)
 
     def _miss(self, missed: float) -> None:
@@ -163,5 +163,5 @@ class BesideRun:
             )
 
     def progress(self) -> Progress:
-        """Done when the distance has been held for some steps, or at its time."""
-        return Progress(self._settled >= _STEPS, self._failed)
+        """Done when the distance has been held for a while, or at its time."""
+        return Progress(self._held >= _HELD - 1e-9, self._failed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -147,6 +148,12 @@ class Scene:
     def note(self, kind: str, **values: Any) -> None:
         """Writes a line into the trace at the end of this step."""
         self._notes.append((kind, values))
+
+    def note_jack_knife(self, tow: str, trailer: str, angle: float) -> None:
+        """Says that a trailer stands across its towing vehicle (rad), as no bar can."""
+        degrees, time = round(math.degrees(angle), 1), self.step * self.dt
+        self.note("jack_knife", actor=trailer, tow=tow, angle=degrees)
+        self.warn(f"{trailer} jack-knifes at {time:.2f} s: it stands at {degrees:g}° to {tow}")
 
     def warn(self, text: str) -> None:
         """Says once what cannot be as the scenario wants it, in a run that goes on all the same."""

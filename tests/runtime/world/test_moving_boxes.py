@@ -187,3 +187,64 @@ def test_behind_and_ahead_have_opposite_signs_for_gap_and_headway(highway: RoadM
     # It closes in with 4 m/s; the other one is never reached from the front.
     assert trail.time_to_collision(lead) == pytest.approx(rear_to_front / 4.0)
     assert lead.time_to_collision(trail) == pytest.approx(rear_to_front / 4.0)
+
+
+def turning(seed: int) -> tuple[tuple[ActorState, ActorState], ...]:
+    """Two boxes at begin and end of a step in which they move, and turn by up to 0.3 rad."""
+    draw = random.Random(9000 + seed)
+    found = []
+    for _ in range(2):
+        length, width = draw.uniform(2.0, 12.0), draw.uniform(0.5, 2.5)
+        shape = Shape(length, width, 1.5, 0.5 * length)  # the reference point is the centre
+        x, y, h = draw.uniform(-6.0, 6.0), draw.uniform(-4.0, 4.0), draw.uniform(-3.0, 3.0)
+        begin = ActorState(x, y, 0.0, h, 0.0, 0.0, None, 0.0, shape)
+        x, y, h = x + draw.uniform(-1.0, 1.0), y + draw.uniform(-1.0, 1.0), draw.uniform(-0.3, 0.3)
+        found.append((begin, begin._replace(x=x, y=y, h=begin.h + h)))
+    return tuple(found)
+
+
+def share_area(pairs: tuple[tuple[ActorState, ActorState], ...], parts: int) -> bool:
+    """Whether two boxes have common points at some of so many instants of a step."""
+    for k in range(parts + 1):
+        one, other = (
+            corners(
+                begin._replace(
+                    **{
+                        name: getattr(begin, name)
+                        + k / parts * (getattr(end, name) - getattr(begin, name))
+                        for name in ("x", "y", "h")
+                    }
+                )
+            )
+            for begin, end in pairs
+        )
+        if common_area(one, other) > 0.0:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("first", range(0, 300, 50))
+def test_contacts_of_boxes_that_turn_in_a_step(first: int) -> None:
+    """As polygons at many instants of it have them."""
+    hits = misses = 0
+    for seed in range(first, first + 50):
+        pairs = turning(seed)
+        found = swept_contacts([box_of(b) for b, _ in pairs], [box_of(e) for _, e in pairs])
+        if found:
+            assert share_area(pairs, 40) or share_area(pairs, 4000)
+            hits += 1
+        else:
+            assert not share_area(pairs, 200)
+            misses += 1
+    assert hits and misses
+
+
+def test_a_tip_that_passes_between_two_instants() -> None:
+    """The tip of a bar of 12 m passes a post; at begin and end of the step it is 0.9 m beside."""
+    bar = ActorState(0.0, 0.0, 0.0, -0.15, 0.0, 0.0, None, 0.0, Shape(12.0, 0.2, 1.5, 6.0))
+    post = ActorState(6.05, 0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0, Shape(0.2, 0.2, 1.5, 0.1))
+    for away, touches in ((0.0, True), (0.06, False)):
+        there = post._replace(x=post.x + away)
+        begin, end = [box_of(bar), box_of(there)], [box_of(bar._replace(h=0.15)), box_of(there)]
+        assert bool(swept_contacts(begin, end)) == touches
+        assert not share_area(((bar, bar._replace(h=0.15)), (there, there)), 1)

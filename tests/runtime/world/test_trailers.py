@@ -23,6 +23,11 @@ from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.modifiers import lane, position, speed, tow_trailer
+from osc2tx_runtime.opendrive import Pose as WorldPose
+from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
+from osc2tx_runtime.world.actor_dimensions import Shape
+from osc2tx_runtime.world.towing import drawn
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]
@@ -95,6 +100,61 @@ def test_on_a_circle_it_cuts_the_corner(run: Run) -> None:
     steady = math.sqrt(hitch * hitch - BAR * BAR)
     assert math.hypot(t["x"] - 50.0, t["y"] + 8.75 - radius) == pytest.approx(steady, abs=0.1)
     assert t["v"] == pytest.approx(10.0 * steady / radius, rel=0.02)
+
+
+def follower(angle: float) -> ActorState:
+    """A trailer whose bar of 4 m ends at the origin, at an angle to the x axis."""
+    shape = Shape(5.0, 2.0, 2.0, 1.0, drawbar=4.0)
+    x, y = -4.0 * math.cos(angle), -4.0 * math.sin(angle)
+    return ActorState(x, y, 0.0, angle, 0.0, 0.0, None, 0.0, shape)
+
+
+def tow_at(x: float, v: float = 5.0) -> ActorState:
+    """A towing vehicle on the x axis with its hitch at x."""
+    return ActorState(x, 0.0, 0.0, 0.0, v, 0.0, None, 0.0, Shape(4.0, 2.0, 1.5, 1.0, hitch=0.0))
+
+
+@pytest.mark.parametrize("angle", [0.01, 0.5, -1.2, 3.0])
+def test_a_straight_pull_is_a_tractrix(angle: float) -> None:
+    """Where the axle is: x = hitch - sqrt(l^2 - y^2), and its way is l ln(y0 / y), y falling."""
+    trailer, way = follower(angle), 6.0
+    pose, _ = drawn(trailer, tow_at(way), tow_at(0.0), 1.0)
+    assert way - pose.x == pytest.approx(
+        math.copysign(math.sqrt(16.0 - pose.y * pose.y), math.cos(pose.h)), abs=1e-9
+    )
+    half = math.tan(0.5 * angle) * math.exp(-way / 4.0)
+    assert pose.y == pytest.approx(-4.0 * 2.0 * half / (1.0 + half * half), abs=1e-9)
+
+
+def test_a_straight_pull_in_one_step_or_in_many() -> None:
+    once, _ = drawn(follower(0.8), tow_at(3.0), tow_at(0.0), 0.1)
+    state = follower(0.8)
+    for k in range(100):
+        pose, _ = drawn(state, tow_at(0.03 * (k + 1)), tow_at(0.03 * k), 0.001)
+        state = state._replace(x=pose.x, y=pose.y, h=pose.h)
+    assert (state.x, state.y, state.h) == pytest.approx((once.x, once.y, once.h), abs=1e-12)
+
+
+def test_a_trailer_that_is_pushed_folds(highway: RoadMap) -> None:
+    """Going back it leaves the line by itself; beyond a right angle that is said, once."""
+    world = EmbeddedWorld(highway, 0.05)
+    for name, shape in (("a", tow_at(0.0).shape), ("t", follower(0.0).shape)):
+        world.add(ActorSpec(name, "movable_object", shape, limits=None))  # type: ignore[arg-type]
+    world.place("a", WorldPose(0.0, 100.0, 0.0, 0.0), -5.0)
+    world.place("t", WorldPose(-4.0 * math.cos(0.1), 100.0 - 4.0 * math.sin(0.1), 0.0, 0.1))
+    world.attach("a", "t")
+    notes = []
+    for _ in range(100):
+        world.step()
+        notes += world.take_notes()
+    ((kind, values),) = notes
+    assert kind == "jack_knife" and (values["actor"], values["tow"]) == ("t", "a")
+    # The tangent of half the angle grows by e every 4 m.
+    expected = 4.0 * math.log(1.0 / math.tan(0.05)) / 5.0
+    (warning,) = world.warnings()
+    said = float(warning.partition(" at ")[2].partition(" s:")[0])
+    assert said == pytest.approx(expected, abs=0.051)
+    assert warning.startswith("t jack-knifes at ")
 
 
 def test_couple_and_uncouple(run: Run) -> None:
