@@ -21,7 +21,6 @@ from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
 
-
 _NUMBERS = {"false": "0", "true": "1"}
 
 
