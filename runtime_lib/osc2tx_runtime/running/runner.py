@@ -181,6 +181,10 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
     }
     if context.settings.conduct != "as_told":
         header["conduct"] = context.settings.conduct
+    if context.settings.physics != "warn":
+        header["physics"] = context.settings.physics
+    if context.settings.fail_on:
+        header["fail_on"] = list(context.settings.fail_on)
     if world.name != "embedded":
         header["world"] = world.name
     controls = {actor: world.control(actor) for actor in context.cast()}

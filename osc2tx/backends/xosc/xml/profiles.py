@@ -24,6 +24,8 @@ class ToolProfile:
         has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
         has_shapes: It looks at the shape of the dynamics.
         has_booleans: It compares variables with `true` and `false`, not only with numbers.
+        carries_acceleration: A profile of speeds begins with the present acceleration; by the
+            standard it begins without any.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
             needs none.
         signal_name: What it calls a traffic light, `{}` being its id in the map.
@@ -39,6 +41,7 @@ class ToolProfile:
     has_stop: bool = True
     has_shapes: bool = True
     has_booleans: bool = True
+    carries_acceleration: bool = False
     ego_property: str = ""
     signal_name: str = "{}"
     knows_towns: bool = False
@@ -72,7 +75,10 @@ _SCENARIO_RUNNER_IGNORES = {
 PROFILES: Mapping[XmlProfile, ToolProfile] = {
     "generic": ToolProfile(name="generic", unsupported={}),
     "esmini": ToolProfile(
-        name="esmini", versions=("1.0", "1.1", "1.2", "1.3"), unsupported=_ESMINI_IGNORES
+        name="esmini",
+        versions=("1.0", "1.1", "1.2", "1.3"),
+        unsupported=_ESMINI_IGNORES,
+        carries_acceleration=True,
     ),
     "scenario_runner": ToolProfile(
         name="scenario_runner",

@@ -47,6 +47,7 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C32_motion_readings": ("1.2", "1.3", "1.4"),  # an acceleration across
     "C33_custom_action": NOTHING,  # an action of its own without a known end
     "C35_semantic_validation": ("1.1", "1.2", "1.3", "1.4"),  # a range
+    "C36_one_of": NOTHING,  # an acceleration that is taken over
     "C38_fall": ("1.2", "1.3", "1.4"),
 }
 """Versions that say a scenario exactly; all of them where it is not named."""
