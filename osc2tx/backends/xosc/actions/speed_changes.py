@@ -111,7 +111,9 @@ def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
     """
     speed, tool = leaf.state.speed, leaf.ctx.profile.name
     if speed is None:
-        raise Inexpressible(f"{tool} knows no rates, and nothing is known of the speed", None, GENERIC)
+        raise Inexpressible(
+            f"{tool} knows no rates, and nothing is known of the speed", None, GENERIC
+        )
     farthest = max(speed.low, speed.high, key=lambda each: abs(target - each))
     duration = course_of_speed(farthest, target, profile, rate, None, leaf.limits).duration
     reason = f"{tool} knows no rates, and the speed at the start is only known in the run"

@@ -69,7 +69,9 @@ def _check(ctx: Context, event: Event, node: Element) -> None:
         ctx.report.cannot(construct, span, reason, GENERIC)
     elif node.get("dynamicsShape") in CURVED and not profile.has_shapes:
         reason = f"{profile.name} does not look at the shape of a change"
-        bound = "start, end and length of the change are exact; between them it is even"
+        bound = (
+            "start and length of the change are exact; the new speed is its aim from the start on"
+        )
         ctx.report.approximate(construct, span, reason, bound, GENERIC)
 
 
