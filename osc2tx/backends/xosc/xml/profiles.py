@@ -17,11 +17,12 @@ class ToolProfile:
         versions: What it reads.
         unsupported: Names of actions, conditions and other elements that it does not carry out,
             with what it does instead.
-        has_edges: It looks at `conditionEdge`.
+        has_edges: It looks at `conditionEdge`, and starts events again.
         has_delays: `delay` counts from when the condition came true, as in the standard, and a
             condition that is no longer true does not count.
         has_act_stop: It ends acts by their stop triggers.
-        has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
+        stop_name: What the condition is called by which the storyboard stops, if the tool wants it
+            to be one condition with a name of its own, on the state of an element.
         has_shapes: It looks at the shape of the dynamics.
         has_booleans: It compares variables with `true` and `false`, not only with numbers.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
@@ -38,7 +39,7 @@ class ToolProfile:
     has_edges: bool = True
     has_delays: bool = True
     has_act_stop: bool = True
-    has_stop: bool = True
+    stop_name: str = ""
     has_shapes: bool = True
     has_booleans: bool = True
     carries_acceleration: bool = False
@@ -87,7 +88,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         has_edges=False,
         has_delays=False,
         has_act_stop=False,
-        has_stop=False,
+        stop_name="criteria_end",
         has_shapes=False,
         has_booleans=False,
         ego_property="ego_vehicle",
