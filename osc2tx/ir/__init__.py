@@ -104,7 +104,7 @@ from osc2tx.ir.user_types import (
     UserModifier,
     UserType,
 )
-from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType
+from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -201,6 +201,7 @@ __all__ = [
     "lineage",
     "means_same",
     "merged",
+    "qualified",
     "rewrite",
     "same",
     "setting_name",

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx.ir.expressions import Argument, Expression
+from osc2tx.ir.values import qualified
 from osc2tx.support.light_dataclass import dataclass
 
 
@@ -183,11 +184,11 @@ class ModifierCall:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Invoke(BehaviorBase):
-    """An action of an actor.
+    """An action.
 
     Attributes:
-        actor: Who acts.
-        owner: The actor type that the action belongs to.
+        actor: Who acts; nobody does in an action that has no actor.
+        owner: The actor type that the action belongs to, if it has an actor.
         action: Its name.
         arguments: In source order, without `duration`.
         modifiers: Those that act during the invocation.
@@ -196,14 +197,19 @@ class Invoke(BehaviorBase):
         is_own: The scenario's own files declare it, and a package of the user carries it out.
     """
 
-    actor: Expression
-    owner: str
+    actor: Expression | None
+    owner: str | None
     action: str
     arguments: tuple[Argument, ...]
     modifiers: tuple[ModifierCall, ...]
     duration: Expression | None = None
     until: tuple[Trigger, ...] = ()
     is_own: bool = False
+
+    @property
+    def qualified_name(self) -> str:
+        """`vehicle.drive`; the name alone if there is no actor."""
+        return qualified(self.owner, self.action)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -105,7 +105,7 @@ def _method(method: Method) -> str:
 
 def _user_action(action: UserAction) -> str:
     parameters = ", ".join(f"{p.name}: {p.type}" for p in action.parameters)
-    return f"declared action {action.owner}.{action.name}({parameters}) @{action.span.line}"
+    return f"declared action {action.qualified_name}({parameters}) @{action.span.line}"
 
 
 def _user_modifier(modifier: UserModifier) -> Iterator[str]:
@@ -212,9 +212,10 @@ def _behavior(node: Behavior) -> Iterator[str]:
             for member in node.members:
                 yield from _indented(_behavior(member))
         case Invoke(action=action, arguments=arguments):
-            called = f"{show(node.actor)}.{action}({show_arguments(arguments)})"
+            who = f"{show(node.actor)}." if node.actor is not None else ""
             own = "own " if node.is_own else ""
-            yield f"Invoke {own}{node.owner}.{action}: {called}{place}"
+            called = f"{who}{action}({show_arguments(arguments)})"
+            yield f"Invoke {own}{node.qualified_name}: {called}{place}"
             yield from _indented(_modifier(modifier) for modifier in node.modifiers)
             yield from _indented(_limits(node.duration, node.until))
         case InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):

@@ -6,7 +6,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import ModifierCall
 from osc2tx.ir.declarations import Method, MethodParameter
 from osc2tx.ir.expressions import Expression
-from osc2tx.ir.values import ValueType
+from osc2tx.ir.values import ValueType, qualified
 from osc2tx.support.light_dataclass import dataclass
 
 
@@ -82,17 +82,22 @@ class UserAction:
 
     Attributes:
         name: Its name.
-        owner: The actor type that it belongs to.
+        owner: The actor type that it belongs to, if any.
         parameters: Its own and those of its bases.
         takes_modifiers: Whether modifiers of movement may be applied to it.
     """
 
     name: str
-    owner: str
+    owner: str | None
     span: Span
     parameters: tuple[ActionParameter, ...]
     takes_modifiers: bool
     comments: tuple[str, ...] = ()
+
+    @property
+    def qualified_name(self) -> str:
+        """`vehicle.creep`; the name alone if it belongs to no actor."""
+        return qualified(self.owner, self.name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

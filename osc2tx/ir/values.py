@@ -60,3 +60,8 @@ class ExpressionBase:
 
     span: Span
     type: ValueType
+
+
+def qualified(owner: str | None, name: str) -> str:
+    """Return the name of an action: `vehicle.creep`, or `log` if it belongs to no actor."""
+    return name if owner is None else f"{owner}.{name}"

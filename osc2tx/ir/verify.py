@@ -157,8 +157,12 @@ class _ScenarioVerifier:
                 self.require(bool(node.members), f"empty composition {node.name!r}")
                 self.check_limits(node.duration, node.until)
             case Invoke():
-                self.require(node.actor.type.kind is Kind.ACTOR, f"actor of {node.name!r}")
-                self.check_expression(node.actor)
+                self.require(
+                    (node.actor is None) is (node.owner is None), f"owner of {node.name!r}"
+                )
+                if node.actor is not None:
+                    self.require(node.actor.type.kind is Kind.ACTOR, f"actor of {node.name!r}")
+                    self.check_expression(node.actor)
                 for argument in node.arguments:
                     self.check_expression(argument.value)
                 for modifier in node.modifiers:

@@ -210,8 +210,7 @@ def is_instant(node: ir.Behavior) -> bool:
             return all(is_instant(member) for member in node.members)
         case ir.OneOf():
             return any(is_instant(member) for member in node.members)
-        case ir.Invoke(owner=owner, action=action):
-            name = f"{owner}.{action}"
+        case ir.Invoke(qualified_name=name):
             entry = catalogue().actions.get(name)
             return name in catalogue().lowered or (entry is not None and entry.is_momentary)
         case ir.Emit() | ir.Finish() | ir.Call():

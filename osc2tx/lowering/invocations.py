@@ -46,15 +46,7 @@ class InvocationLowering:
         actor = self._actor(node, binding)
         if is_composed(callee):
             return self._scenario(node, callee, actor, comments)
-        if not isinstance(callee, sym.ActionSymbol) or callee.actor is None or actor is None:
-            self._ctx.unsupported(
-                "OSC504",
-                node.span,
-                f"action `{node.behavior}` has no actor that could carry it out",
-                help="say what it does with a `do`, or declare it for an actor, "
-                f"`action vehicle.{node.behavior}`",
-            )
-            return None
+        assert isinstance(callee, sym.ActionSymbol)
         self._ctx.actions.append(callee)
         arguments = self._arguments(node, actor)
         if is_user_defined(callee):
@@ -64,13 +56,13 @@ class InvocationLowering:
             span=node.span,
             label=label_of(node),
             name=invocation_name(
-                actor.name if isinstance(actor, ir.FieldRef) else actor.span.text,
+                _written(actor),
                 callee.name,
                 [*(a.span.text for a in node.arguments), *(m.span.text for m in written)],
             ),
             comments=comments,
             actor=actor,
-            owner=callee.actor.name,
+            owner=None if callee.actor is None else callee.actor.name,
             action=callee.name,
             arguments=tuple(a for a in arguments if a.parameter != "duration"),
             modifiers=self._modifiers(node, actor),
@@ -254,6 +246,12 @@ class InvocationLowering:
                 name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
                 if name == actor.name:
                     yield statement
+
+
+def _written(actor: ir.Expression | None) -> str | None:
+    if actor is None:
+        return None
+    return actor.name if isinstance(actor, ir.FieldRef) else actor.span.text
 
 
 def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:

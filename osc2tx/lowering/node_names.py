@@ -14,10 +14,11 @@ from osc2tx.ir.source_text import condensed, shorten
 MAX_VERBS = 3
 
 
-def invocation_name(actor: str, action: str, details: Iterable[str]) -> str:
+def invocation_name(actor: str | None, action: str, details: Iterable[str]) -> str:
     """Return `hero.drive: speed(v_hero)`, the details being arguments and modifiers."""
     text = ", ".join(condensed(detail) for detail in details)
-    return shorten(f"{actor}.{action}: {text}" if text else f"{actor}.{action}")
+    name = ir.qualified(actor, action)
+    return shorten(f"{name}: {text}" if text else name)
 
 
 def composition_name(word: str, members: tuple[ir.Behavior, ...], *, is_phase: bool) -> str:

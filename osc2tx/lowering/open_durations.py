@@ -65,7 +65,7 @@ def _is_instant(node: ir.Behavior) -> bool:
 
 
 def _ends(node: ir.Invoke) -> str:
-    entry = catalogue().actions.get(f"{node.owner}.{node.action}")
+    entry = catalogue().actions.get(node.qualified_name)
     return "" if entry is None else entry.ends
 
 

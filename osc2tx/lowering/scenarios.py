@@ -124,7 +124,7 @@ def _own_actions(model: SemanticModel) -> Iterator[sym.ActionSymbol]:
     actions = (each for each in model.symbols if isinstance(each, sym.ActionSymbol))
     for action in actions:
         is_own = action.span.source is model.root.span.source
-        if is_own and action.actor is not None and not is_composed(action):
+        if is_own and not is_composed(action):
             yield action
 
 

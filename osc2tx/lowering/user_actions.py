@@ -35,13 +35,12 @@ def lower_actions(actions: Iterable[sym.ActionSymbol]) -> tuple[ir.UserAction, .
 
 
 def _lower_action(action: sym.ActionSymbol) -> ir.UserAction:
-    assert action.actor is not None  # others are refused where they are invoked
     bases = [action]
     while (base := bases[-1].base) is not None:
         bases.append(base)
     return ir.UserAction(
         name=action.name,
-        owner=action.actor.name,
+        owner=None if action.actor is None else action.actor.name,
         span=action.span,
         comments=statement_comments(action.node),
         parameters=tuple(
@@ -59,7 +58,7 @@ def default_arguments(
     ctx: LoweringContext,
     action: sym.ActionSymbol,
     given: tuple[ir.Argument, ...],
-    actor: ir.Expression,
+    actor: ir.Expression | None,
     node: ast.Invocation,
 ) -> tuple[ir.Argument, ...]:
     """Return what an invocation leaves to the defaults of the declaration, bases first.
@@ -68,7 +67,7 @@ def default_arguments(
         ctx: The checked program.
         action: What is invoked.
         given: Its arguments.
-        actor: Who acts: a default may be `actor`.
+        actor: Who acts, if somebody does: a default may be `actor`.
         node: The invocation; its constraints may speak of the defaults from now on.
     """
     names = {argument.parameter for argument in given}

@@ -100,10 +100,17 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLightPhase,
 )
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.action import Action, GlobalAction
 from osc2tx_runtime.language.casts import as_type
 from osc2tx_runtime.language.declared import not_given
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL, action, methods, user_action
+from osc2tx_runtime.language.registry import (
+    LATERAL,
+    LONGITUDINAL,
+    action,
+    global_action,
+    methods,
+    user_action,
+)
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -289,9 +296,11 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "Action",
     "Actor",
     "Duration",
+    "GlobalAction",
     "Late",
     "Modifier",
     "action",
+    "global_action",
     "methods",
     "user_action",
     "value_of",

@@ -30,12 +30,12 @@ def project(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def build(project: Path) -> Path:
-    """Build slow.osc; return its module."""
-    compilation = Compilation(project / "slow.osc", "slow.osc", CompileOptions())
+def build(project: Path, name: str = "slow") -> Path:
+    """Build a scenario of the document; return its module."""
+    compilation = Compilation(project / f"{name}.osc", f"{name}.osc", CompileOptions())
     generated = compilation.module
     assert generated is not None, compilation.diagnostics
-    module = project / "slow.py"
+    module = project / f"{name}.py"
     module.write_text(generated.python, encoding="utf-8")
     module.with_suffix(".map.json").write_text(generated.source_map, encoding="utf-8")
     return module
@@ -79,6 +79,30 @@ def test_the_example_of_the_document_runs(
     assert ends == [(2.0, "slow.osc:16"), (5.0, "slow.osc:17")]
     speeds = {line["t"]: line["v"] for line in lines if line["kind"] == "state"}
     assert (speeds[2.0], speeds[4.0], speeds[5.0]) == pytest.approx((1.5, 0.5, 0.0), abs=1e-6)
+
+
+def test_an_action_without_an_actor(
+    project: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    packages = tmp_path_factory.mktemp("site")
+    install(packages)
+    module = build(project, "captured")
+    assert 'capture(channel="can0"),' in module.read_text(encoding="utf-8")
+    done = run_module(module, project / "t.jsonl", packages)
+    assert done.code == 0, done.err
+    lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
+    found = [line for line in lines if line.get("name") == "capture"]
+    assert [(line["t"], line["status"]) for line in found] == [(0.0, "start"), (2.0, "end")]
+    assert not any("actor" in line for line in found)
+
+
+def test_an_action_without_an_actor_is_refused_where_nobody_brings_it(project: Path) -> None:
+    done = run_module(build(project, "captured"), project / "t.jsonl")
+    assert done.code == 5
+    assert done.err == (
+        "captured.osc:14: error: there is no global action `capture`, and no installed package"
+        " brings one by the entry point group osc2tx.methods\n"
+    )
 
 
 def test_without_the_package_the_run_is_refused_at_its_line(project: Path) -> None:

@@ -162,13 +162,14 @@ class BehaviorTreeBuilder:
         return arguments
 
     def _invocation(self, node: ir.Invoke) -> CallView:
-        actor = self._calls.expressions.write(node.actor)
+        written = () if node.actor is None else (self._calls.expressions.write(node.actor),)
         first: tuple[ArgumentView, ...] = ()
         if is_function(node):
-            action = name_expression(self._classes[action_key(node.owner, node.action)])
-            first = (code(actor),)
+            action = name_expression(self._classes[action_key(node.qualified_name)])
+            first = tuple(map(code, written))
         else:
-            action = PyExpr(f"{actor.within(Level.ATOM)}.{identifier(node.action)}", Level.ATOM)
+            path = (*(actor.within(Level.ATOM) for actor in written), identifier(node.action))
+            action = PyExpr(".".join(path), Level.ATOM)
         arguments = (
             *first,
             *self._label(node.label),

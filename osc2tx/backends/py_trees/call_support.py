@@ -60,7 +60,7 @@ class CallCheck:
 
     def invocation(self, node: ir.Invoke) -> None:
         """Check an action with its modifiers."""
-        key = f"{node.owner}.{node.action}"
+        key = node.qualified_name
         entry = self._library.actions.get(key)
         if entry is None and node.is_own:
             self._user_action(node, key)
@@ -73,7 +73,7 @@ class CallCheck:
                 help="call one of these, such as `drive`",
             )
             return
-        self._expressions((node.actor,))
+        self._acting(node)
         self._arguments(node.arguments, entry.arguments, f"action `{key}`")
         self._required(node, key, entry.required)
         others = {"with": None} if node.modifiers else {}
@@ -91,8 +91,13 @@ class CallCheck:
                     argument.span,
                     f"`{argument.parameter}` is a word of the runtime's own here; rename it",
                 )
-        self._expressions((node.actor, *(argument.value for argument in node.arguments)))
+        self._acting(node)
+        self._expressions(argument.value for argument in node.arguments)
         self._modifiers(node, key, frozenset(self._library.modifiers))
+
+    def _acting(self, node: ir.Invoke) -> None:
+        if node.actor is not None:
+            self._expressions((node.actor,))
 
     def _modifiers(self, node: ir.Invoke, key: str, accepted: frozenset[str]) -> None:
         for modifier in node.modifiers:

@@ -52,7 +52,7 @@ def key_of(declared: Declared) -> str:
         case ir.UserEnum():
             return enum_key(declared.name, declared.members)
         case ir.UserAction():
-            return action_key(declared.owner, declared.name)
+            return action_key(declared.qualified_name)
 
 
 def is_own(declared: Declared, module: ir.Module) -> bool:
@@ -62,7 +62,7 @@ def is_own(declared: Declared, module: ir.Module) -> bool:
 
 def declarations(module: ir.Module) -> tuple[Declared, ...]:
     """Return all that a module has a name for."""
-    actions = (each for each in module.actions if has_function(each.owner, each.name))
+    actions = (each for each in module.actions if has_function(each.qualified_name))
     return (*module.scenarios, *module.types, *module.enums, *actions, *module.modifiers)
 
 

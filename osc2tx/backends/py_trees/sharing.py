@@ -169,4 +169,4 @@ def _mention(part: Declared) -> set[str]:
         case ir.UserType() | ir.UserEnum():
             return {part.name}
         case ir.UserAction():
-            return {part.owner, part.name}
+            return {part.name} if part.owner is None else {part.owner, part.name}

@@ -17,9 +17,9 @@ from osc2tx.backends.py_trees.view import UserActionView
 from osc2tx.catalogue import catalogue
 
 
-def action_key(owner: str, action: str) -> str:
+def action_key(action: str) -> str:
     """Return the key of the function of an action in the table of the module's names."""
-    return f"action {owner}.{action}"
+    return f"action {action}"
 
 
 def protocol_key(action: str) -> str:
@@ -29,12 +29,12 @@ def protocol_key(action: str) -> str:
 
 def is_function(node: ir.Invoke) -> bool:
     """Return whether an action is no method of the runtime's actors."""
-    return node.is_own and has_function(node.owner, node.action)
+    return node.is_own and has_function(node.qualified_name)
 
 
-def has_function(owner: str, action: str) -> bool:
+def has_function(action: str) -> bool:
     """Return whether a module needs a function for an action of the user's own."""
-    return f"{owner}.{action}" not in catalogue().actions
+    return action not in catalogue().actions
 
 
 def write_actions(
@@ -52,30 +52,30 @@ def write_actions(
 
 
 def _write(action: ir.UserAction, names: NameTable, types: TypeTable, uses: Uses) -> UserActionView:
-    key = action_key(action.owner, action.name)
+    key = action_key(action.qualified_name)
     uses.standard("typing", "Protocol")
     uses.name("Behaviour")
-    about = [f"Action `{action.owner}.{action.name}`.", *action.comments]
+    about = [f"Action `{action.qualified_name}`.", *action.comments]
     if action.comments:
         about.insert(1, "")
     return UserActionView(
         function=names[key],
         protocol=names[protocol_key(key)],
         action=literal(identifier(action.name)),
-        binder=uses.name("user_action"),
+        binder=uses.name("global_action" if action.owner is None else "user_action"),
         docstring=tuple(PyDocLine.of(line) for line in about),
         parameters=tuple(_parameters(action, types, uses)),
     )
 
 
 def _parameters(action: ir.UserAction, types: TypeTable, uses: Uses) -> Iterable[PyExpr]:
-    owner = types.class_or_object(action.owner)
     if action.takes_modifiers:
         modifier = uses.name("Modifier")
         label = (f"label: str | {modifier} | None = None", "/", f"*modifiers: {modifier}")
     else:
         label = ("label: str | None = None", "/", "*")
-    written = [f"actor: {owner}", *label]
+    actor = () if action.owner is None else (f"actor: {types.class_or_object(action.owner)}",)
+    written = [*actor, *label]
     for parameter in action.parameters:
         annotation = str(types.annotation(parameter.type))
         if parameter.type.kind is not ir.Kind.ACTOR:

@@ -16,13 +16,14 @@ from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
+from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.registry import RegisteredMethod, methods
 
 __all__ = ["actions", "modifiers", "objects"]
 
 
 def actions() -> dict[str, dict[str, Any]]:
-    """List the registered actions, `vehicle.drive`, in sorted order.
+    """List the registered actions of actors, `vehicle.drive`, in sorted order.
 
     Returns:
         For each its `arguments`, which of them are `required`, the `modifiers` that it takes, its
@@ -30,7 +31,11 @@ def actions() -> dict[str, dict[str, Any]]:
         `physical`, whether it `places` and `paces`, what it `needs` of a world, the `rules` of its
         arguments and why it is `undeclared`.
     """
-    return {f"{method.kind}.{method.name}": _action(method) for method in methods.all()}
+    return {
+        method.qualified_name: _action(method, method.factory)
+        for method in methods.all()
+        if issubclass(method.factory, Action)
+    }
 
 
 def modifiers() -> dict[str, dict[str, Any]]:
@@ -67,20 +72,20 @@ def objects() -> dict[str, Any]:
     }
 
 
-def _action(method: RegisteredMethod) -> dict[str, Any]:
-    accepted = [kind.name for kind in method.factory.accepts if issubclass(kind, Modifier)]
+def _action(method: RegisteredMethod, factory: type[Action]) -> dict[str, Any]:
+    accepted = [kind.name for kind in factory.accepts if issubclass(kind, Modifier)]
     return {
-        "arguments": _arguments(method.factory.__init__),
-        "required": _required(method.factory.__init__),
+        "arguments": _arguments(factory.__init__),
+        "required": _required(factory.__init__),
         "modifiers": sorted(accepted),
-        "moves": issubclass(method.factory, ModifiableAction) and not method.factory.stands,
-        "physical": method.factory.physical,
+        "moves": issubclass(factory, ModifiableAction) and not factory.stands,
+        "physical": factory.physical,
         "slots": list(method.slots),
         "ends": method.ends,
         "places": method.places,
         "paces": method.paces,
         "needs": list(method.needs),
-        "rules": _rules(method.factory.rules),
+        "rules": _rules(factory.rules),
         "undeclared": method.undeclared,
     }
 

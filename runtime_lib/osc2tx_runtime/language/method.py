@@ -20,7 +20,7 @@ class Method:
     """One action.
 
     Attributes:
-        kind: Actor kind of the DSL (`vehicle`).
+        kind: Actor kind of the DSL (`vehicle`); None for an action that has no actor.
         name: Method name (`change_lane`).
         slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
             moves as its modifiers say controls nothing itself.
@@ -33,7 +33,7 @@ class Method:
         undeclared: Why the library does not declare it, if it does not.
     """
 
-    kind: str
+    kind: str | None
     name: str
     slots: tuple[str, ...]
     ends: Ends
@@ -41,6 +41,11 @@ class Method:
     paces: bool = False
     needs: tuple[Feature, ...] = ()
     undeclared: str = ""
+
+    @property
+    def qualified_name(self) -> str:
+        """`vehicle.change_lane`; the name alone if there is no actor."""
+        return self.name if self.kind is None else f"{self.kind}.{self.name}"
 
     @property
     def is_momentary(self) -> bool:

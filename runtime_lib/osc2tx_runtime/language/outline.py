@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Wait
 from osc2tx_runtime.language.tree.events import describe
 
@@ -46,14 +46,14 @@ def _kind(node: Behaviour) -> str:
     for kind, name in ((Serial, "serial"), (Parallel, "parallel"), (OneOf, "one_of")):
         if isinstance(node, kind):
             return name
-    return "action" if isinstance(node, Action) else type(node).__name__.lower()
+    return "action" if isinstance(node, BaseAction) else type(node).__name__.lower()
 
 
 def _text(node: Behaviour) -> str:
     """The name, without what the kind says already; a label with what is done under it."""
     kind = _kind(node)
     label = getattr(node, "label", None)
-    if isinstance(node, Action) and label is not None:
+    if isinstance(node, BaseAction) and label is not None:
         return f"{label}: {node.action_name}"
     if isinstance(node, Wait) and label is not None:
         return f"{label}: {describe(node.trigger, node.condition)}"

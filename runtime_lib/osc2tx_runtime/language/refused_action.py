@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.action import Action
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.language.declared import BaseActor
+from osc2tx_runtime.language.base_action import BaseAction
 
 __all__ = ["RefusedAction"]
 
 
-class RefusedAction(Action):
+class RefusedAction(BaseAction):
     """Stands for an action that nobody carries out, or whose arguments are wrong.
 
     When it is made nobody knows its place in the scenario; at setup, before the first step, it
     does, and refuses the run. Until then the tree can be shown and counted like any other.
 
     Args:
-        actor: Who was to act.
-        name: Name of the action.
+        name: Of the action, with its actor if there is one.
         error: Why it cannot.
         label: Label of the node.
     """
 
-    def __init__(
-        self, actor: BaseActor, name: str, error: ScenarioError, label: str | None = None
-    ) -> None:
-        super().__init__(actor, label=label)
-        self.action_name = f"{actor.id} {name}"
+    def __init__(self, name: str, error: ScenarioError, label: str | None = None) -> None:
+        super().__init__(label=label)
+        self.action_name = name
         self.name = label or self.action_name
         self.error = error
 

@@ -17,8 +17,8 @@ from osc2tx_runtime.errors import (
     is_own,
     name_of,
 )
-from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.argument_rules import check_arguments
+from osc2tx_runtime.language.base_action import BaseAction, full_name
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.method import LATERAL, LONGITUDINAL, Ends, Method
 from osc2tx_runtime.language.refused_action import RefusedAction
@@ -34,6 +34,7 @@ __all__ = [
     "RegisteredMethod",
     "action",
     "carried_out",
+    "global_action",
     "methods",
     "user_action",
 ]
@@ -43,7 +44,7 @@ ENTRY_POINTS = "osc2tx.methods"
 
 _OPTIONS = ("duration",)  # what every action takes
 
-ActionT = TypeVar("ActionT", bound="type[Action]")
+ActionT = TypeVar("ActionT", bound="type[BaseAction]")
 ClassT = TypeVar("ClassT")
 
 
@@ -55,19 +56,20 @@ class RegisteredMethod(Method):
         factory: The class.
     """
 
-    factory: type[Action]
+    factory: type[BaseAction]
 
     def signature(self) -> str:
         """Return the call as one writes it: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
-        parameters = list(inspect.signature(self.factory).parameters.values())[1:]  # not `actor`
-        return f"{self.name}({', '.join(str(parameter) for parameter in parameters)})"
+        parameters = list(inspect.signature(self.factory).parameters.values())
+        written = parameters if self.kind is None else parameters[1:]  # not `actor`
+        return f"{self.name}({', '.join(str(parameter) for parameter in written)})"
 
 
 class MethodRegistry:
     """Finds action classes by actor kind and method name."""
 
     def __init__(self) -> None:
-        self._methods: dict[tuple[str, str], RegisteredMethod] = {}
+        self._methods: dict[tuple[str | None, str], RegisteredMethod] = {}
         self._extended = False
 
     def extend(self) -> None:
@@ -90,7 +92,7 @@ class MethodRegistry:
 
     def action(
         self,
-        kind: str,
+        kind: str | None,
         name: str,
         *,
         slots: Iterable[str] = (),
@@ -101,10 +103,11 @@ class MethodRegistry:
         undeclared: str = "",
         replace: bool = False,
     ) -> Callable[[ActionT], ActionT]:
-        """Register the decorated `Action` class as method `name` of actors of `kind`.
+        """Register the decorated class as method `name` of actors of `kind`.
 
         Args:
-            kind: BaseActor kind of the DSL, such as `vehicle`.
+            kind: Actor kind of the DSL, such as `vehicle`, for an `Action`; None for a
+                `GlobalAction`.
             name: Method name.
             slots: Slots the action claims for as long as it runs.
             ends: When it ends.
@@ -122,8 +125,8 @@ class MethodRegistry:
             known = self._methods.get((kind, name))
             if known is not None and not replace:
                 raise ValueError(
-                    f"{kind}.{name} is registered already, by {known.factory.__qualname__};"
-                    " pass replace=True to take its place"
+                    f"{known.qualified_name} is registered already, by"
+                    f" {known.factory.__qualname__}; pass replace=True to take its place"
                 )
             claimed = tuple(slots)
             method = RegisteredMethod(
@@ -144,7 +147,7 @@ class MethodRegistry:
 
         return register
 
-    def find(self, kinds: Iterable[str], name: str) -> RegisteredMethod | None:
+    def find(self, kinds: Iterable[str | None], name: str) -> RegisteredMethod | None:
         """Return the method of the first of `kinds` (most derived first) that has it."""
         for kind in kinds:
             method = self._methods.get((kind, name))
@@ -152,47 +155,50 @@ class MethodRegistry:
                 return method
         return None
 
-    def names(self, kinds: Iterable[str]) -> tuple[str, ...]:
+    def names(self, kinds: Iterable[str | None]) -> tuple[str, ...]:
         """Return the sorted method names of an actor with these kinds."""
         wanted = tuple(kinds)
         return tuple(sorted({name for kind, name in self._methods if kind in wanted}))
 
-    def near(self, kinds: Iterable[str], name: str) -> tuple[str, ...]:
+    def near(self, kinds: Iterable[str | None], name: str) -> tuple[str, ...]:
         """Return up to three method names that look like `name`."""
         return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
 
-    def bind(self, actor: BaseActor, name: str) -> Callable[..., Action]:
-        """Return the constructor of the action `name` for one actor.
+    def bind(self, actor: BaseActor | None, name: str) -> Callable[..., BaseAction]:
+        """Return the constructor of the action `name`, for one actor or without one.
 
         What it cannot make refuses the run at its line, before the first step: an action that
         nobody registered, and arguments that it does not take.
         """
-        kinds = type(actor).kinds
+        kinds: tuple[str | None, ...] = (None,) if actor is None else type(actor).kinds
+        actor_id, acting = (None, ()) if actor is None else (actor.id, (actor,))
         if self.find(kinds, name) is None:
             self.extend()
         found = self.find(kinds, name)
 
-        def create(*args: Any, **kwargs: Any) -> Action:
+        def create(*args: Any, **kwargs: Any) -> BaseAction:
             label, modifiers = split_label(args)
             try:
                 if found is None:
                     raise self._missing(kinds, name)
-                _check_arguments(found, actor, modifiers, kwargs)
+                positional = (*acting, *modifiers)
+                _check_arguments(found, full_name(actor_id, name), positional, kwargs)
                 labelled = kwargs if label is None else {**kwargs, "label": label}
-                node = make(found, actor, modifiers, labelled)
+                node = make(found, full_name(actor_id, name), positional, labelled)
             except ScenarioError as error:
-                return RefusedAction(actor, name, error, label)
+                return RefusedAction(full_name(actor_id, name), error, label)
             node.become(found)
-            node.name = label or f"{actor.id}.{name}{call_arguments()}"
+            node.name = label or called(actor_id, name, call_arguments())
             return node
 
         return create
 
-    def _missing(self, kinds: tuple[str, ...], name: str) -> UnsupportedError:
+    def _missing(self, kinds: tuple[str | None, ...], name: str) -> UnsupportedError:
         near = self.near(kinds, name)
         hint = f"; did you mean {' or '.join(near)}?" if near else ""
+        what = f"{kinds[0]} has no action" if kinds[0] else "there is no global action"
         return UnsupportedError(
-            f"{kinds[0]} has no action `{name}`, and no installed package brings one by the entry"
+            f"{what} `{name}`, and no installed package brings one by the entry"
             f" point group {ENTRY_POINTS}{hint}"
         )
 
@@ -202,29 +208,34 @@ class MethodRegistry:
 
     def all(self) -> tuple[RegisteredMethod, ...]:
         """Return every method, sorted by kind and name."""
-        return tuple(self._methods[key] for key in sorted(self._methods))
+        return tuple(sorted(self._methods.values(), key=lambda each: (each.kind or "", each.name)))
+
+
+def called(actor_id: str | None, name: str, arguments: str) -> str:
+    """Return a call as the scenario has it, `ego.drive(...)`, to name its node."""
+    return f"{name}{arguments}" if actor_id is None else f"{actor_id}.{name}{arguments}"
 
 
 def make(
-    method: RegisteredMethod, actor: BaseActor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
-) -> Action:
+    method: RegisteredMethod, what: str, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+) -> BaseAction:
     """Make an action.
 
     Raises:
         ScenarioError: If a class of the user's own raises something.
     """
     if not is_own(method.factory):
-        return method.factory(actor, *args, **kwargs)
-    with OwnCode(f"{actor.id} {method.name}: {name_of(method.factory)} raised"):
-        made: object = method.factory(actor, *args, **kwargs)
-    if not isinstance(made, Action):
+        return method.factory(*args, **kwargs)
+    with OwnCode(f"{what}: {name_of(method.factory)} raised"):
+        made: object = method.factory(*args, **kwargs)
+    if not isinstance(made, BaseAction):
         kind = type(made).__name__
         raise ScenarioError(f"{name_of(method.factory)} makes a {kind}, no Action")
     return made
 
 
 def _check_arguments(
-    method: RegisteredMethod, actor: BaseActor, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+    method: RegisteredMethod, what: str, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> None:
     """Compare a call with the signature and the rules of the class.
 
@@ -236,14 +247,13 @@ def _check_arguments(
     try:
         if unknown:  # `**options` would hand them on
             raise TypeError(f"unknown argument '{unknown[0]}'")
-        signature.bind(actor, *args, **kwargs)
+        signature.bind(*args, **kwargs)
     except TypeError as error:
-        raise ScenarioError(
-            f"{actor.id} {method.name}: {error}; it is {method.signature()}"
-        ) from error
+        raise ScenarioError(f"{what}: {error}; it is {method.signature()}") from error
     given = {name: value for name, value in kwargs.items() if value is not None}
-    given.update({"with": args} if args else {})
-    check_arguments(f"{actor.id} {method.name}", method.factory.rules, given)
+    modifiers = args if method.kind is None else args[1:]  # the actor stands before them
+    given.update({"with": modifiers} if modifiers else {})
+    check_arguments(what, method.factory.rules, given)
 
 
 methods = MethodRegistry()
@@ -270,17 +280,29 @@ def user_action(name: str) -> Any:
     A generated module gives it the type that the scenario declares.
     """
 
-    def call(actor: BaseActor, *args: Any, **kwargs: Any) -> Action:
+    def call(actor: BaseActor, *args: Any, **kwargs: Any) -> BaseAction:
         node = methods.bind(actor, name)(*args, **kwargs)
         written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor stands before it
-        node.name = node.label or f"{actor.id}.{name}{written}"
+        node.name = node.label or called(actor.id, name, written)
         return node
 
     return call
 
 
-def _caller(name: str) -> Callable[..., Action]:
-    def call(actor: BaseActor, *args: Any, **kwargs: Any) -> Action:
+def global_action(name: str) -> Any:
+    """Return the function `name(...)` of an action without an actor, which a package registers.
+
+    A generated module gives it the type that the scenario declares.
+    """
+
+    def call(*args: Any, **kwargs: Any) -> BaseAction:
+        return methods.bind(None, name)(*args, **kwargs)
+
+    return call
+
+
+def _caller(name: str) -> Callable[..., BaseAction]:
+    def call(actor: BaseActor, *args: Any, **kwargs: Any) -> BaseAction:
         return methods.bind(actor, name)(*args, **kwargs)
 
     return call

@@ -51,12 +51,6 @@ def to_json(value: Any) -> str:
     return json.dumps(str(getattr(value, "id", value)))
 
 
-class TracedActor(Protocol):
-    """What the trace says of an actor."""
-
-    id: str
-
-
 class TracedAction(Protocol):
     """What the trace says of an action."""
 
@@ -65,8 +59,8 @@ class TracedAction(Protocol):
     position: int
 
     @property
-    def actor(self) -> TracedActor:
-        """Who acts."""
+    def actor_id(self) -> str | None:
+        """Who acts, if somebody does."""
         ...
 
 
@@ -119,10 +113,10 @@ class TraceWriter:
         """
         if not self.enabled:
             return
-        text = (
-            f'"kind":"action","status":"{status}","name":{json.dumps(action.action_name)},'
-            f'"actor":{json.dumps(action.actor.id)},"source":{json.dumps(action.source)}'
-        )
+        text = f'"kind":"action","status":"{status}","name":{json.dumps(action.action_name)}'
+        if action.actor_id is not None:
+            text += f',"actor":{json.dumps(action.actor_id)}'
+        text += f',"source":{json.dumps(action.source)}'
         if reason is not None:
             text += f',"reason":{json.dumps(reason)}'
         if deviation is not None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import CapabilityError
 from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.world.protocol import EXTERNAL
 
@@ -22,7 +23,7 @@ def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
     Raises:
         CapabilityError: With all that cannot be, and where.
     """
-    actions = [node for node in root.iterate() if isinstance(node, Action)]
+    actions = [node for node in root.iterate() if isinstance(node, BaseAction)]
     problems = {
         (action.source, problem): None
         for action in sorted(actions, key=lambda action: action.position)
@@ -34,17 +35,18 @@ def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
         raise CapabilityError("\n  ".join(lines))
 
 
-def problems_of(action: Action, context: ExecutionContext) -> Iterator[str]:
+def problems_of(action: BaseAction, context: ExecutionContext) -> Iterator[str]:
     """Yield why the world of a run does not carry out an action."""
     needed = {need: action.action_name for need in action.registered.needs}
-    for modifier in action.modifiers:
-        for need in modifier.facts.needs:
-            needed.setdefault(need, f"{action.action_name} with {modifier.name}")
+    if isinstance(action, Action):
+        for modifier in action.modifiers:
+            for need in modifier.facts.needs:
+                needed.setdefault(need, f"{action.action_name} with {modifier.name}")
     able = context.world.capabilities()
     for need in sorted(needed):
         if need not in able:
             yield f"{needed[need]} needs {need.replace('_', ' ')}, which it does not have"
-    if action.actor.id not in context.cast():
+    if not isinstance(action, Action) or action.actor.id not in context.cast():
         return
     if context.world.control(action.actor.id) not in EXTERNAL:
         return

@@ -116,7 +116,9 @@ def _reached_before(
     before = predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is None or not before.action.startswith(("change_space_", "change_time_")):
         return None
-    if before.until or leaf.ctx.values.actor(before.actor) != leaf.member.actor.name:
+    if before.until or before.actor is None:
+        return None
+    if leaf.ctx.values.actor(before.actor) != leaf.member.actor.name:
         return None
     gap = _asked_for(leaf, before, Arguments(leaf.ctx, before.arguments, before))
     same = (gap.reference.name, gap.is_time, gap.is_lateral)

@@ -196,11 +196,16 @@ class Leaf:
     @property
     def construct(self) -> str:
         """What it is called in reports."""
-        return f"action {self.node.action}"
+        return construct_of_action(self.node)
+
+
+def construct_of_action(node: ir.Invoke) -> str:
+    """Return what an action is called in reports."""
+    return f"action {node.action}"
 
 
 Perform: TypeAlias = Callable[[Leaf], Performance]
 PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Element | Later, ...]]
-"""Returns `GlobalAction` elements."""
+"""Returns `GlobalAction` or `UserDefinedAction` elements."""
 
 Modify: TypeAlias = Callable[[Leaf, ir.ModifierCall, Arguments], tuple[Change, ...]]

@@ -164,7 +164,7 @@ def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
 
 
 def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
-    entry = catalogue().actions.get(f"{node.owner}.{node.action}")
+    entry = catalogue().actions.get(node.qualified_name)
     if entry is None or (entry.paces and node.action != "keep_speed"):
         return False
     for call in node.modifiers:

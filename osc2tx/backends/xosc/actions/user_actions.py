@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import (
+    Arguments,
+    Change,
+    Leaf,
+    Performance,
+    construct_of_action,
+)
+from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import WAY, ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
@@ -14,22 +22,31 @@ from osc2tx.backends.xosc.xml.tree import Element, element, text_of
 
 def user_action(leaf: Leaf) -> Performance:
     """Return the command that a tool carries out for an action of the scenario's own."""
-    leaf.ctx.require_support("CustomCommandAction", leaf.node.span)
-    if leaf.duration is None and not leaf.node.until:
-        raise Inexpressible(
-            "tools do not tell when a command of their own is over: give it a duration or an"
-            " `until`",
-            leaf.node.span,
-        )
-    names = [argument.parameter for argument in leaf.node.arguments]
-    if leaf.node.modifiers:
-        raise Inexpressible("modifiers of an action that only the tool knows", leaf.node.span)
-    command = command_of(leaf.node.action, {name: leaf.arguments.get(name) for name in names})
-    note = f"the tool has to know the command `{leaf.node.action}`"
-    leaf.ctx.report.exact(leaf.construct, leaf.node.span, note)
+    command = _command(leaf.ctx, leaf.node, leaf.arguments)
     after = ActorState(offset=None, rate=None)
     change = Change(WAY, (command,), None, after, after)
     return Performance((change,), "open")
+
+
+def global_command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+    """Return the same for one that has no actor."""
+    return (_command(ctx, node, arguments),)
+
+
+def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Element:
+    ctx.require_support("CustomCommandAction", node.span)
+    if node.duration is None and not node.until:
+        raise Inexpressible(
+            "tools do not tell when a command of their own is over: give it a duration or an"
+            " `until`",
+            node.span,
+        )
+    if node.modifiers:
+        raise Inexpressible("modifiers of an action that only the tool knows", node.span)
+    values = {each.parameter: arguments.get(each.parameter) for each in node.arguments}
+    note = f"the tool has to know the command `{node.action}`"
+    ctx.report.exact(construct_of_action(node), node.span, note)
+    return command_of(node.action, values)
 
 
 def command_of(name: str, arguments: Mapping[str, Constant | None]) -> Element:

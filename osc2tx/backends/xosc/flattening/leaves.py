@@ -8,7 +8,7 @@ from math import inf
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
-from osc2tx.backends.xosc.actions.user_actions import user_action
+from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.flattening.action_endings import record_end_state
@@ -27,10 +27,10 @@ from osc2tx.backends.xosc.xml.tree import Element
 
 def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an invocation that starts with a flow; return when it ends."""
-    if node.action in GLOBAL_ACTIONS:
+    is_known = entry_of(node) is not None
+    if node.actor is None or (is_known and node.action in GLOBAL_ACTIONS):
         return _invoke_global(builder, node, start)
     ctx = builder.ctx
-    is_known = entry_of(node) is not None
     leaf_handler = ACTIONS.get(node.action) if is_known else user_action
     if leaf_handler is None:
         raise Inexpressible(WITHOUT_FORM["action"][node.action])
@@ -128,14 +128,14 @@ def _is_over(change: Change, lasting: float | None) -> bool:
 
 def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
-    ctx = builder.ctx
+    ctx, entry = builder.ctx, entry_of(node)
     actions: tuple[Element | Later, ...] = ()
     with ctx.report_as(construct_of(node), node.span):
         arguments = Arguments(ctx, node.arguments, node)
-        actions = GLOBAL_ACTIONS[node.action](ctx, node, arguments)
+        perform = global_command if entry is None else GLOBAL_ACTIONS[node.action]
+        actions = perform(ctx, node, arguments)
         arguments.finish()
-    entry = entry_of(node)
-    lasts = entry is not None and entry.ends == "open"
+    lasts = entry is None or entry.ends == "open"
     if lasts:
         start = builder.latched(start, builder.name_of(node))
     if node.modifiers or (not lasts and (node.until or node.duration is not None)):

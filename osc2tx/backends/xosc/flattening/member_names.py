@@ -38,8 +38,12 @@ def _is_alike(node: ir.Behavior, other: ir.Invoke) -> bool:
         isinstance(node, ir.Invoke)
         and node.label is None
         and node.action == other.action
-        and node.actor.span.text == other.actor.span.text
+        and _written(node.actor) == _written(other.actor)
     )
+
+
+def _written(actor: ir.Expression | None) -> str:
+    return "" if actor is None else actor.span.text
 
 
 def _values(arguments: tuple[ir.Argument, ...]) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import construct_of_action
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, single, state_of
 from osc2tx.backends.xosc.context import Context
@@ -278,8 +279,8 @@ class StoryboardBuilder:
 def construct_of(node: ir.Behavior) -> str:
     """Return what a member is called in reports."""
     match node:
-        case ir.Invoke(action=action):
-            return f"action {action}"
+        case ir.Invoke():
+            return construct_of_action(node)
         case ir.OneOf():
             return "one_of"
         case ir.InvokeScenario():

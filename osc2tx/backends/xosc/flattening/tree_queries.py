@@ -13,7 +13,7 @@ DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 
 def entry_of(node: ir.Invoke) -> ActionEntry | None:
     """Return what the catalogue says of an action; `None` for one that the scenario brings."""
-    return catalogue().actions.get(f"{node.owner}.{node.action}")
+    return catalogue().actions.get(node.qualified_name)
 
 
 def is_instant(node: ir.Behavior) -> bool:

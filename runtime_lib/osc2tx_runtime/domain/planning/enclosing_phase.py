@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.tree import Parallel, Serial
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["phase_of"]
 
 
-def phase_of(action: Action) -> Limits | None:
+def phase_of(action: BaseAction) -> Limits | None:
     """The duration with which an open-ended action ends; None if nobody can tell before."""
     if action.registered.ends != "open" or action.duration is not None:
         return None
@@ -43,7 +43,7 @@ def _all_open(parallel: Parallel) -> bool:
 
 
 def _is_open(node: Behaviour) -> bool:
-    if isinstance(node, Action):
+    if isinstance(node, BaseAction):
         ends = node.registered.ends
         goes_on = node.duration is None and not getattr(node, "follows_path", False)
         return ends == "instant" or (ends == "open" and goes_on)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.settings import near
 from osc2tx_runtime.language.source_map import SourceMap
@@ -82,7 +83,7 @@ def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
             continue
         if not isinstance(node, Composition) and node.name != node.label:
             node.name = unique_name(node.name, names)
-        what = node.action_name if isinstance(node, Action) and not node.label else node.name
+        what = node.action_name if isinstance(node, BaseAction) and not node.label else node.name
         node.draws = unique_name(f"{composition_around(node)}/{what}", draws)
         names[node.name] = draws[node.draws] = None
 

@@ -17,6 +17,7 @@ from osc2tx_runtime import (
     Scenario,
     Serial,
     Vehicle,
+    global_action,
     main,
     require_api,
     user_action,
@@ -25,6 +26,26 @@ from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Time, kph, mps, s
 
 require_api(1)
+
+
+class Note(Protocol):
+    """Action `note`.
+
+    Nobody does it.
+    """
+
+    def __call__(
+        self,
+        label: str | None = None,
+        /,
+        *,
+        text: Late[str] = ...,
+        level: Late[int],
+        duration: Duration | None = None,
+    ) -> Behaviour: ...
+
+
+note: Note = global_action("note")
 
 
 class Honk(Protocol):
@@ -82,6 +103,7 @@ class OwnActions(Scenario):
     def behavior(self) -> Behaviour:
         return Serial(
             "own_actions",
+            note(text="honking", level=1),
             honk(self.ego, times=3, loudness=0.5, at_whom=self.ego),
             self.ego_parallel(),
             honk(self.ego, speed(20 * kph), times=2, loudness=0.5, at_whom=self.ego),
