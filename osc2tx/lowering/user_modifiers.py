@@ -29,6 +29,21 @@ EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)
 
 
 @dataclass(frozen=True, slots=True)
+class Applied:
+    """A modifier of the library, where it is applied.
+
+    Attributes:
+        call: What it says.
+        target: The behavior that it is one of; `None` for modifiers of actors.
+        actor: Whose behavior it modifies; `None` if that is the actor of the scenario.
+    """
+
+    call: ir.ModifierCall
+    target: sym.BehaviorSymbol | None
+    actor: ir.Expression | None
+
+
+@dataclass(frozen=True, slots=True)
 class ModifierLowering:
     """Lowers the modifiers of one invocation, or of one actor of a scenario.
 
@@ -40,6 +55,7 @@ class ModifierLowering:
         action: What is invoked; `None` for modifiers of a whole scenario.
         it: What `it` is in the body: what is modified.
         chain: The applications around this one, the outermost first.
+        within: The object of whose type it is a member.
     """
 
     ctx: LoweringContext
@@ -49,15 +65,21 @@ class ModifierLowering:
     action: sym.BehaviorSymbol | None
     it: Key | None = None
     chain: tuple[ast.ModifierApplication, ...] = ()
+    within: Key = ()
 
     def lower(self, node: ast.ModifierApplication) -> tuple[ir.ModifierCall, ...]:
         """Return a modifier of the library, or those that one of the user stands for."""
+        return tuple(applied.call for applied in self.applied(node))
+
+    def applied(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
+        """Return the same, and what each of them is about."""
         callee = self.ctx.model.binding_of(node).callee
         assert isinstance(callee, sym.ModifierSymbol)
         if not self._applies(node, callee):
             return ()
         if callee.origin != "user":
-            return (lower_modifier(self.ctx, node, self.what),)
+            actor = lower_expression(self.ctx, node.actor) if node.actor else self.actor
+            return (Applied(lower_modifier(self.ctx, node, self.what), callee.target, actor),)
         if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
             self._refuse(
                 node,
@@ -70,11 +92,12 @@ class ModifierLowering:
             return ()
         inner = self._inside(node, callee)
         inner.bind(callee)
-        calls = tuple(call for statement in callee.statements for call in inner.part(statement))
-        if not calls:
+        parts = tuple(part for statement in callee.statements for part in inner.part(statement))
+        if not parts:
             return ()
-        first = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
-        return (first, *calls[1:])
+        first = parts[0].call
+        first = replace(first, comments=(*statement_comments(node), *first.comments))
+        return (replace(parts[0], call=first), *parts[1:])
 
     def prepare(self, node: ast.ModifierApplication) -> None:
         """Find out what the parameters of a modifier are: arguments may depend on them."""
@@ -86,10 +109,11 @@ class ModifierLowering:
         self, node: ast.ModifierApplication, callee: sym.ModifierSymbol
     ) -> ModifierLowering:
         chain = (*self.chain, node)
-        place = Place(model=self.ctx.model, owner=callee, prefix=chain, it=self.it)
+        prefix = (*self.within, *chain)
+        place = Place(model=self.ctx.model, owner=callee, prefix=prefix, it=self.it)
         return replace(
             self,
-            ctx=replace(self.ctx.at(place), actor=self.actor),
+            ctx=replace(self.ctx.at(place), actor=self.actor, receiver=None),
             constraints=self.constraints.with_actor(self.actor),
             what=f"{self.what}.{node.modifier.text}",
             chain=chain,
@@ -100,7 +124,7 @@ class ModifierLowering:
         for field in callee.members.values():
             if not isinstance(field, sym.FieldSymbol) or field.is_variable:
                 continue
-            key: Key = (*self.chain, field)
+            key: Key = (*self.within, *self.chain, field)
             if key in self.ctx.given:
                 continue
             setting = self.constraints.setting(key, field.type)
@@ -119,7 +143,7 @@ class ModifierLowering:
                 help="give it as an argument, or a default",
             )
 
-    def part(self, statement: ast.Statement) -> tuple[ir.ModifierCall, ...]:
+    def part(self, statement: ast.Statement) -> tuple[Applied, ...]:
         """Lower one statement of the body."""
         match statement:
             case ast.ParameterDeclaration() | ast.RemoveDefault():
@@ -129,7 +153,7 @@ class ModifierLowering:
             case ast.KeepConstraint():
                 pass  # the constraints of the scenario hold it, for this application
             case ast.ModifierApplication() if self._is_known(statement):
-                return self.lower(statement)
+                return self.applied(statement)
             case ast.ModifierApplication():
                 pass  # one of its parameters has no value, which is reported
             case _:
@@ -145,7 +169,7 @@ class ModifierLowering:
         place = self.ctx.place
         assert place is not None
         used = (place.locate(n) for n in nodes_below(node) if isinstance(n, ast.NameExpression))
-        own = [key for key in used if key and key[:-1] == self.chain]
+        own = [key for key in used if key and key[:-1] == (*self.within, *self.chain)]
         return all(
             key in self.ctx.given or (isinstance(key[-1], sym.Symbol) and key[-1].name == "actor")
             for key in own
