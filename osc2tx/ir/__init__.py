@@ -7,6 +7,7 @@ and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
+    Application,
     Behavior,
     BehaviorBase,
     Call,
@@ -33,7 +34,7 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
-from osc2tx.ir.compare import same, words
+from osc2tx.ir.compare import means_same, same, words
 from osc2tx.ir.constants import constant
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.declarations import (
@@ -93,13 +94,14 @@ from osc2tx.ir.nodes import (
     Placement,
     Scenario,
 )
-from osc2tx.ir.rewrite import rewrite
+from osc2tx.ir.rewrite import applied_with, rewrite
 from osc2tx.ir.traversal import children, is_live, walk
 from osc2tx.ir.user_types import (
     ActionParameter,
     UserAction,
     UserEnum,
     UserField,
+    UserModifier,
     UserType,
 )
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
@@ -109,6 +111,7 @@ __all__ = [
     "GLOBAL_MARK",
     "ActionParameter",
     "Actor",
+    "Application",
     "Argument",
     "Attribute",
     "Behavior",
@@ -183,17 +186,20 @@ __all__ = [
     "UserAction",
     "UserEnum",
     "UserField",
+    "UserModifier",
     "UserShape",
     "UserType",
     "ValueType",
     "Variable",
     "Wait",
+    "applied_with",
     "children",
     "condition_expressions",
     "constant",
     "dump_ir",
     "is_live",
     "lineage",
+    "means_same",
     "merged",
     "qualified",
     "rewrite",

@@ -148,14 +148,38 @@ class OneOf(CompositionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Application:
+    """A modifier of the user's own where it is applied: modifiers of the library stand for it.
+
+    Attributes:
+        key: Of the modifier, see `UserModifier.key`.
+        arguments: What its parameters are there, those that have a value.
+    """
+
+    span: Span
+    key: str
+    arguments: tuple[Argument, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ModifierCall:
-    """A modifier with its arguments; `at` (`start`, `end`, `all`) is taken out of them."""
+    """A modifier of the library with its arguments.
+
+    Attributes:
+        at: When it holds (`start`, `end`, `all`), taken out of the arguments.
+        applied: The applications in whose bodies it stands, the outermost first.
+    """
 
     span: Span
     name: str
     arguments: tuple[Argument, ...]
     at: str = "all"
     comments: tuple[str, ...] = ()
+    applied: tuple[Application, ...] = ()
+
+    def application(self, depth: int) -> Application | None:
+        """Return the application around it that stands in so many others."""
+        return self.applied[depth] if depth < len(self.applied) else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

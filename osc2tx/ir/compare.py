@@ -14,6 +14,15 @@ def same(one: Any, other: Any) -> bool:
 
     The files may have been read twice, for two modules.
     """
+    return _same(one, other, ())
+
+
+def means_same(one: Any, other: Any) -> bool:
+    """Return whether two parts say the same, wherever that stands and whatever explains it."""
+    return _same(one, other, ("span", "comments", "applied"))
+
+
+def _same(one: Any, other: Any, apart_from: tuple[str, ...]) -> bool:
     if one is other:
         return True
     if type(one) is not type(other):
@@ -22,10 +31,11 @@ def same(one: Any, other: Any) -> bool:
         place, where = (one.start, one.end), (other.start, other.end)
         return place == where and one.source.name == other.source.name
     if isinstance(one, tuple):
-        return len(one) == len(other) and all(map(same, one, other))
+        pairs = zip(one, other, strict=False)
+        return len(one) == len(other) and all(_same(a, b, apart_from) for a, b in pairs)
     if is_dataclass(one):
-        names = (field.name for field in fields(one))
-        return all(same(getattr(one, name), getattr(other, name)) for name in names)
+        names = (field.name for field in fields(one) if field.name not in apart_from)
+        return all(_same(getattr(one, n), getattr(other, n), apart_from) for n in names)
     return bool(one == other)
 
 

@@ -52,6 +52,7 @@ from osc2tx.ir.nodes import (
 from osc2tx.ir.user_types import (
     UserAction,
     UserEnum,
+    UserModifier,
     UserType,
 )
 
@@ -68,6 +69,8 @@ def dump_ir(module: Module) -> str:
         lines.extend(_indented(_own_type(own)))
     lines.extend(_indented(map(_enum, module.enums)))
     lines.extend(_indented(map(_user_action, module.actions)))
+    for modifier in module.modifiers:
+        lines.extend(_indented(_user_modifier(modifier)))
     for scenario in module.scenarios:
         lines.extend(_indented(_scenario(scenario)))
     return "\n".join(lines) + "\n"
@@ -103,6 +106,15 @@ def _method(method: Method) -> str:
 def _user_action(action: UserAction) -> str:
     parameters = ", ".join(f"{p.name}: {p.type}" for p in action.parameters)
     return f"declared action {action.qualified_name}({parameters}) @{action.span.line}"
+
+
+def _user_modifier(modifier: UserModifier) -> Iterator[str]:
+    parameters = ", ".join(
+        f"{p.name}: {p.type}" + ("" if p.default is None else f" = {show(p.default)}")
+        for p in modifier.parameters
+    )
+    yield f"modifier {modifier.name}({parameters}) @{modifier.span.line}"
+    yield from _indented(map(_modifier, modifier.calls))
 
 
 def _scenario(scenario: Scenario) -> Iterator[str]:
@@ -186,7 +198,8 @@ def _placement(placement: Placement) -> Iterator[str]:
 
 def _modifier(modifier: ModifierCall) -> str:
     at = "" if modifier.at == "all" else f" at {modifier.at}"
-    return f"{modifier.name}({show_arguments(modifier.arguments)}){at} @{modifier.span.line}"
+    of = "".join(f" of @{application.span.line}" for application in reversed(modifier.applied))
+    return f"{modifier.name}({show_arguments(modifier.arguments)}){at} @{modifier.span.line}{of}"
 
 
 def _behavior(node: Behavior) -> Iterator[str]:

@@ -6,7 +6,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Behavior, ModifierCall
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.declarations import Constraint, Declaration, Method
-from osc2tx.ir.user_types import UserAction, UserEnum, UserType
+from osc2tx.ir.user_types import UserAction, UserEnum, UserModifier, UserType
 from osc2tx.support.light_dataclass import dataclass
 
 
@@ -93,6 +93,8 @@ class Module:
         actions: Actions they invoke that are not the library's, in order of use, then the others
             of the file.
         enums: Enums of the file, and those of imported files that it speaks of.
+        modifiers: Modifiers that are functions of their parameters: those of the file, and those
+            of imported files that it applies.
         comments: The comment lines at the head of the file.
     """
 
@@ -105,3 +107,4 @@ class Module:
     types: tuple[UserType, ...] = ()
     actions: tuple[UserAction, ...] = ()
     enums: tuple[UserEnum, ...] = ()
+    modifiers: tuple[UserModifier, ...] = ()

@@ -1,9 +1,10 @@
-"""Types and actions that the files of a program declare."""
+"""Types, actions and modifiers that the files of a program declare."""
 
 from __future__ import annotations
 
 from osc2tx.diagnostics import Span
-from osc2tx.ir.declarations import Method
+from osc2tx.ir.behaviors import ModifierCall
+from osc2tx.ir.declarations import Method, MethodParameter
 from osc2tx.ir.expressions import Expression
 from osc2tx.ir.values import ValueType, qualified
 from osc2tx.support.light_dataclass import dataclass
@@ -97,3 +98,22 @@ class UserAction:
     def qualified_name(self) -> str:
         """`vehicle.creep`; the name alone if it belongs to no actor."""
         return qualified(self.owner, self.name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserModifier:
+    """A modifier that the scenario's files declare, as a function of its parameters.
+
+    Attributes:
+        name: Its name.
+        key: Tells it apart from others of the same name.
+        parameters: Its parameters, in source order.
+        calls: What it stands for, in terms of them.
+    """
+
+    name: str
+    key: str
+    span: Span
+    parameters: tuple[MethodParameter, ...]
+    calls: tuple[ModifierCall, ...]
+    comments: tuple[str, ...] = ()

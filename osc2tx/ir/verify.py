@@ -27,19 +27,11 @@ from osc2tx.ir.behaviors import (
     Trigger,
     Wait,
 )
-from osc2tx.ir.declarations import (
-    Actor,
-    Event,
-    Parameter,
-    Struct,
-    Variable,
-)
+from osc2tx.ir.declarations import Actor, Event, Parameter, Struct, Variable
 from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef
-from osc2tx.ir.nodes import (
-    Module,
-    Scenario,
-)
+from osc2tx.ir.nodes import Module, Scenario
 from osc2tx.ir.traversal import walk
+from osc2tx.ir.user_types import UserModifier
 from osc2tx.ir.values import Kind
 
 
@@ -51,8 +43,21 @@ def verify(module: Module) -> None:
             its declaration, a composition is empty, a reference dangles.
     """
     _require_unique((s.key for s in module.scenarios), f"scenarios of {module.source}")
+    for modifier in module.modifiers:
+        _verify_modifier(modifier)
     for scenario in module.scenarios:
         _ScenarioVerifier(scenario).run()
+
+
+def _verify_modifier(modifier: UserModifier) -> None:
+    known = {parameter.name for parameter in modifier.parameters}
+    for call in modifier.calls:
+        for argument in call.arguments:
+            for part in walk(argument.value):
+                if isinstance(part, FieldRef):
+                    raise InternalCompilerError(f"{modifier.name}: reads field {part.name!r}")
+                if isinstance(part, ParameterRef) and part.name not in known:
+                    raise InternalCompilerError(f"{modifier.name}: no parameter {part.name!r}")
 
 
 def _require_unique(names: Iterator[str], what: str) -> None:

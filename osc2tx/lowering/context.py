@@ -17,6 +17,7 @@ from osc2tx.semantics.symbols import (
     ActorSymbol,
     FieldSymbol,
     MethodSymbol,
+    ModifierSymbol,
     ScenarioSymbol,
     StructSymbol,
     Symbol,
@@ -56,6 +57,7 @@ class LoweringContext:
         types: Types of declared objects that are not the library's, in order of use.
         combined: Combinations of conditional types that objects are of, by name.
         actions: Actions that are invoked, in order of use.
+        modifiers: Modifiers of the user's own that are applied, in order of use.
         given: Values of parameters of invocations that constraints may speak of.
         receiver: The object whose method an expression is the body of.
         methods: Methods of types that the scenario calls, by name, in order of use.
@@ -82,6 +84,7 @@ class LoweringContext:
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
     combined: dict[str, ir.UserType] = field(default_factory=dict)
     actions: list[ActionSymbol] = field(default_factory=list)
+    modifiers: list[ModifierSymbol] = field(default_factory=list)
     place: Place | None = None
     it: ir.Expression | None = None
     given: dict[Key, ir.Expression] = field(default_factory=dict)

@@ -26,6 +26,7 @@ from osc2tx.lowering.initial_placement import (
     owner_of,
 )
 from osc2tx.lowering.method_overriding import object_types
+from osc2tx.lowering.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.override_modifiers import lower_overrides
 from osc2tx.lowering.standing_modifiers import StandingModifiers, stands
@@ -59,6 +60,7 @@ def lower(
     invoked: set[int] = set()
     used: list[sym.ActorSymbol | sym.StructSymbol] = []
     actions: list[sym.ActionSymbol] = []
+    applied: list[sym.ModifierSymbol] = []
     pending: list[Composed] = list(model.scenarios)
     program = LoweringContext(
         model,
@@ -67,6 +69,7 @@ def lower(
         lower_expression,
         types=used,
         actions=actions,
+        modifiers=applied,
         mentioned=mentioned_fields(model),
         handed_in=frozenset(
             [
@@ -110,6 +113,8 @@ def lower(
         types=lower_types(program, used),
         actions=lower_actions((*actions, *_own_actions(model))),
     )
+    modifiers = dict.fromkeys((*own_modifiers(model), *applied))
+    module = replace(module, modifiers=lower_modifiers(program, modifiers))
     return replace(module, enums=lower_enums(model, module))
 
 

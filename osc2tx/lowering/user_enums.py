@@ -21,7 +21,7 @@ def lower_enums(model: SemanticModel, module: ir.Module) -> tuple[ir.UserEnum, .
     own = {each.span for each in lowered if each.span.source is model.root.span.source}
     if len(own) == len(lowered):
         return lowered
-    words = set(ir.words((module.scenarios, module.types, module.actions)))
+    words = set(ir.words((module.scenarios, module.types, module.actions, module.modifiers)))
     return tuple(each for each in lowered if each.span in own or each.name in words)
 
 

@@ -15,6 +15,7 @@ from osc2tx.analysis.tree_walk import nodes_below
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.expressions import lower_expression
+from osc2tx.lowering.modifier_functions import application_of, parameters_of
 from osc2tx.lowering.modifiers import lower_modifier
 from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.user_fields import is_plain
@@ -95,9 +96,11 @@ class ModifierLowering:
         parts = tuple(part for statement in callee.statements for part in inner.part(statement))
         if not parts:
             return ()
-        first = parts[0].call
-        first = replace(first, comments=(*statement_comments(node), *first.comments))
-        return (replace(parts[0], call=first), *parts[1:])
+        self.ctx.modifiers.append(callee)
+        application = application_of(callee, node, inner.values_of(callee))
+        calls = [replace(p.call, applied=(application, *p.call.applied)) for p in parts]
+        calls[0] = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
+        return tuple(replace(p, call=call) for p, call in zip(parts, calls, strict=True))
 
     def prepare(self, node: ast.ModifierApplication) -> None:
         """Find out what the parameters of a modifier are: arguments may depend on them."""
@@ -119,11 +122,15 @@ class ModifierLowering:
             chain=chain,
         )
 
+    def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
+        """Return what `bind` found."""
+        fields = parameters_of(callee)
+        values = ((field, self.ctx.given.get((*self.within, *self.chain, field))) for field in fields)
+        return {field: value for field, value in values if value is not None}
+
     def bind(self, callee: sym.ModifierSymbol) -> None:
         """Find out what the parameters are here."""
-        for field in callee.members.values():
-            if not isinstance(field, sym.FieldSymbol) or field.is_variable:
-                continue
+        for field in parameters_of(callee):
             key: Key = (*self.within, *self.chain, field)
             if key in self.ctx.given:
                 continue

@@ -9,6 +9,7 @@ import sys
 import textwrap
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -177,9 +178,38 @@ def test_one_makes_the_steps(server: StandInProcess, beside: Any) -> None:
         run("cut_in", in_carla(RunSettings(), server.port))
 
 
-def test_the_steps_of_somebody_else(server: StandInProcess, beside: Any) -> None:
-    ticker = beside(TICKER.format(dt=0.05))
+FOLLOWER = """
+    settings = world.get_settings()
+    settings.synchronous_mode, settings.fixed_delta_seconds = True, 0.05
+    world.apply_settings(settings)
+    print("there", flush=True)
+    for _ in sys.stdin:
+        world.tick()
+"""
+
+
+@pytest.fixture
+def patient(server: StandInProcess, beside: Any) -> Iterator[None]:
+    """Somebody who makes the next step as soon as a batch of commands has come."""
+    ticker = beside(FOLLOWER)
     assert ticker.stdout.readline() == "there\n"
+    over = Event()
+
+    def follow() -> None:
+        while not over.wait(0.005):
+            for name, _ in server.calls():
+                if name == "apply_batch":
+                    ticker.stdin.write("\n")
+                    ticker.stdin.flush()
+
+    thread = Thread(target=follow)
+    thread.start()
+    yield
+    over.set()
+    thread.join()
+
+
+def test_the_steps_of_somebody_else(server: StandInProcess, patient: None) -> None:
     result = run("cut_in", in_carla(RunSettings(max_time=3.0), server.port, no_tick=True))
     assert (result.status, result.steps) == ("timeout", 60)
     assert roles(server) == []

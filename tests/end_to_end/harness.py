@@ -12,6 +12,7 @@ from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.options import CompileOptions
 from osc2tx.testing import Run
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
+from tests.traces import whatever_the_order
 
 REPOSITORY = Path(__file__).parent.parent.parent
 SCENARIOS = REPOSITORY / "scenarios"
@@ -26,6 +27,11 @@ class Trace(Run):
     """
 
     text: str
+
+    @property
+    def ordered(self) -> list[str]:
+        """What does not depend on the order of the members of a `parallel`."""
+        return whatever_the_order(self.text.splitlines())
 
     def action(self, source: str, status: str) -> float:
         """Return when the action of a source line has a status; it has it once."""

@@ -29,6 +29,7 @@ from osc2tx_runtime.errors import ScenarioError
 from tests.capabilities.conftest import Load
 from tests.capabilities.conftest import load as load  # the fixture
 from tests.end_to_end.harness import REPOSITORY, asam, permuted_module, run
+from tests.traces import whatever_the_order
 
 HEAD = """import osc.standard.all
 
@@ -196,7 +197,7 @@ def outcome(scenario: type[Scenario]) -> str:
         result = run_scenario(scenario, RunSettings(max_time=4.0, signal={"c": 1.5}))
     except ScenarioError as error:
         return f"{type(error).__name__}: {error}"
-    return "\n".join(result.trace_lines)
+    return "\n".join(whatever_the_order(result.trace_lines))
 
 
 @pytest.mark.slow

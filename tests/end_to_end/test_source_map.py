@@ -37,7 +37,8 @@ def trace(scenario: type[Scenario]) -> list[dict[str, Any]]:
     except ScenarioError as error:
         return [{"error": without_line(str(error))}]
     lines = [json.loads(line) for line in result.trace_lines]
-    for line in lines:
+    nodes = [node for line in lines if line["kind"] == "tree" for node in line["nodes"]]
+    for line in (*lines, *nodes):
         for key in ("source", "reason"):
             if key in line:
                 line[key] = without_line(line[key])

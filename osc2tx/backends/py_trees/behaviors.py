@@ -173,7 +173,7 @@ class BehaviorTreeBuilder:
         arguments = (
             *first,
             *self._label(node.label),
-            *(self._calls.modifier(modifier) for modifier in node.modifiers),
+            *self._calls.modifiers(node.modifiers),
             *self._calls.keywords(node.arguments),
             *self._calls.duration(node.duration),
         )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from itertools import groupby
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import (
@@ -15,6 +16,7 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
 )
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
+from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
 
@@ -36,6 +38,7 @@ class CallWriter:
         expressions: Writer of the scenario's expressions.
         use_name: Told of each name needed from the runtime library.
         use_modifier: Told of each modifier function needed.
+        functions: Modifiers of the user's own that the module has as functions.
     """
 
     def __init__(
@@ -43,8 +46,10 @@ class CallWriter:
         expressions: ExpressionWriter,
         use_name: Callable[[str], PyName],
         use_modifier: Callable[[str], PyName],
+        functions: ModifierCalls,
     ) -> None:
         """See the class."""
+        self._functions = functions
         self.expressions = expressions
         self.use_name = use_name
         self._use_modifier = use_modifier
@@ -52,6 +57,32 @@ class CallWriter:
     def runtime_call(self, name: str, *arguments: ArgumentView) -> CallView:
         """Return a call of a function or class of the runtime library."""
         return CallView(name_expression(self.use_name(name)), arguments)
+
+    def modifiers(self, calls: Iterable[ir.ModifierCall], depth: int = 0) -> Iterator[ArgumentView]:
+        """Write modifiers; those that one of the user's own stands for as a call of its function.
+
+        Args:
+            calls: The modifiers.
+            depth: In how many applications they stand that are written out.
+        """
+        for application, group in groupby(calls, lambda call: call.application(depth)):
+            parts = tuple(group)
+            if application is None:
+                yield from map(self.modifier, parts)
+            elif (modifier := self._functions.fitting(application, parts)) is not None:
+                yield self._own_modifier(modifier, application, parts[0])
+            else:
+                yield from self.modifiers(parts, depth + 1)
+
+    def _own_modifier(
+        self, modifier: ir.UserModifier, application: ir.Application, first: ir.ModifierCall
+    ) -> ArgumentView:
+        """Write a call of a function; the comments in its body stand there."""
+        arguments = self._functions.arguments(modifier, application)
+        function = PyExpr(f"*{self._functions.name(modifier)}", Level.ATOM)
+        written = tuple(code(self.expressions.write(value), str(name)) for name, value in arguments)
+        above = first.comments[: len(first.comments) - len(modifier.calls[0].comments)]
+        return ArgumentView(call=CallView(function, written), comments=comments(above))
 
     def modifier(self, call: ir.ModifierCall) -> ArgumentView:
         """Write a modifier; its first argument stays positional if the source has it so."""

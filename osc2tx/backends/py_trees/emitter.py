@@ -10,6 +10,8 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
+from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
+from osc2tx.backends.py_trees.modifier_functions import write_modifiers
 from osc2tx.backends.py_trees.naming import NameTable, module_name
 from osc2tx.backends.py_trees.own_names import (
     Declared,
@@ -34,9 +36,10 @@ from osc2tx.backends.py_trees.view import (
     ScenarioView,
     TypeView,
     UserActionView,
+    UserModifierView,
 )
 
-DefinitionT = TypeVar("DefinitionT", TypeView, UserActionView, ScenarioView)
+DefinitionT = TypeVar("DefinitionT", TypeView, UserActionView, UserModifierView, ScenarioView)
 
 ONE_OF_POLICIES = {
     "race": "`one_of` is a race",
@@ -88,9 +91,19 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     type_methods = TypeMethods(module.types, module.scenarios)
     type_views = write_types(types, table, type_methods, uses)
     action_views = write_actions(actions, names, table, uses)
+    modifiers = [each for each in defined if isinstance(each, ir.UserModifier)]
+    functions = ModifierCalls(module.modifiers, names)
+    modifier_views = write_modifiers(modifiers, functions, names, table, type_methods, uses)
     writers = [
         ScenarioWriter(
-            scenario, module.one_of, module.dialect == "carla", names, table, type_methods, uses
+            scenario,
+            module.one_of,
+            module.dialect == "carla",
+            names,
+            table,
+            type_methods,
+            functions,
+            uses,
         )
         for scenario in scenarios
     ]
@@ -114,6 +127,7 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         standard_imports=uses.standard_imports(),
         types=_explained(type_views, types, sharing),
         actions=_explained(action_views, actions, sharing),
+        modifiers=_explained(modifier_views, modifiers, sharing),
     )
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
@@ -179,12 +193,16 @@ def _is_given(declaration: ir.Declaration) -> bool:
 
 
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
-    own: Sequence[ir.Scenario | ir.UserType | ir.UserEnum] = own_scenarios(module)
+    own: Sequence[ir.Scenario | ir.UserType | ir.UserEnum | ir.UserModifier]
+    own = own_scenarios(module)
     words = ("Scenario", "Scenarios")
     if not own:
         own = [t for t in module.types if is_own(t, module)]
         own += [e for e in module.enums if is_own(e, module)]
         words = ("Type", "Types")
+    if not own:
+        own = [each for each in module.modifiers if is_own(each, module)]
+        words = ("Modifier", "Modifiers")
     names = ", ".join(f"`{each.name}`" for each in own)
     about = ("", *module.comments) if module.comments else ()
     lines = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import assert_never
 
@@ -16,6 +16,7 @@ from osc2tx.backends.py_trees.code import (
     self_attribute,
 )
 from osc2tx.backends.py_trees.list_operations import element_name, list_operation
+from osc2tx.backends.py_trees.modifier_calls import parameter_name
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -52,6 +53,7 @@ class ExpressionWriter:
         member: Names a member of an object of some type.
         type_methods: The methods of types that stand in their classes.
         receiver: The parameter that is `self`, in a method of a class.
+        hidden: Names that no parameter of a function may have.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class ExpressionWriter:
         member: Callable[[str, str], PyName] | None = None,
         type_methods: TypeMethods | None = None,
         receiver: str | None = None,
+        hidden: Iterable[str] = (),
     ) -> None:
         """See the class."""
         self._type_methods = type_methods or TypeMethods()
@@ -71,7 +74,7 @@ class ExpressionWriter:
         bodies = (method.expression for method in methods)
         parts = (part for body in bodies if body is not None for part in ir.walk(body))
         units = (part.unit.name for part in parts if isinstance(part, ir.Quantity))
-        self._hidden = {"self", "within", *map(identifier, units)}
+        self._hidden = frozenset({"self", "within", *map(identifier, units), *hidden})
         self._fields = fields
         self._use_unit = use_unit
         self._use_name = use_name
@@ -92,11 +95,8 @@ class ExpressionWriter:
         return self_attribute(self._fields[name])
 
     def parameter(self, name: str) -> PyName:
-        """Name a parameter of a method; one called `m` would hide the unit in `5 * m`."""
-        if name == self._receiver:
-            return PyName("self")
-        wanted = identifier(name)
-        return PyName(f"{wanted}_" if wanted in self._hidden else wanted)
+        """Name a parameter of a method or function."""
+        return PyName("self") if name == self._receiver else parameter_name(name, self._hidden)
 
     def late(self, expression: PyExpr) -> PyExpr:
         """Write `lambda: expression`."""

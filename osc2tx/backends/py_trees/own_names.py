@@ -13,9 +13,9 @@ from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, PHYSICAL_TYPES, STRUCT_CLASSES
 from osc2tx.backends.py_trees.type_table import class_key, enum_key
 from osc2tx.backends.py_trees.user_actions import action_key, has_function, protocol_key
-from osc2tx.catalogue import object_tables
+from osc2tx.catalogue import catalogue, object_tables
 
-Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction
+Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
 
 # Names a module may import of the runtime; none of its own must hide them.
 RUNTIME_CLASSES = frozenset(
@@ -45,7 +45,7 @@ RUNTIME_CLASSES = frozenset(
 def key_of(declared: Declared) -> str:
     """Return what tells a declaration apart from all others of a module."""
     match declared:
-        case ir.Scenario():
+        case ir.Scenario() | ir.UserModifier():
             return declared.key
         case ir.UserType():
             return class_key(declared.name)
@@ -63,7 +63,7 @@ def is_own(declared: Declared, module: ir.Module) -> bool:
 def declarations(module: ir.Module) -> tuple[Declared, ...]:
     """Return all that a module has a name for."""
     actions = (each for each in module.actions if has_function(each.qualified_name))
-    return (*module.scenarios, *module.types, *module.enums, *actions)
+    return (*module.scenarios, *module.types, *module.enums, *actions, *module.modifiers)
 
 
 def has_module(module: ir.Module) -> bool:
@@ -75,14 +75,14 @@ def has_module(module: ir.Module) -> bool:
     own = [each for each in declarations(module) if is_own(each, module)]
     has_scenario = any(isinstance(each, ir.Scenario) for each in own)
     return has_scenario or (
-        any(isinstance(each, ir.UserType | ir.UserEnum) for each in own)
+        any(isinstance(each, ir.UserType | ir.UserEnum | ir.UserModifier) for each in own)
         and not any(isinstance(each, ir.UserAction) for each in own)
     )
 
 
 def own_names(module: ir.Module) -> NameTable:
     """Return the names of what the file of a module declares itself."""
-    names = NameTable(RUNTIME_CLASSES | object_tables().enums)
+    names = NameTable(RUNTIME_CLASSES | object_tables().enums | catalogue().modifiers.keys())
     for declared in declarations(module):
         if is_own(declared, module):
             add_name(names, declared)
@@ -99,6 +99,8 @@ def add_name(names: NameTable, declared: Declared) -> None:
             names.add(key, class_name(declared.name), "Type")
         case ir.UserEnum():
             names.add(key, class_name(declared.name), "Enum")
+        case ir.UserModifier():
+            names.add(key, identifier(declared.name.rpartition(".")[2]), "_modifier")
         case ir.UserAction():
             names.add(key, identifier(declared.name), "_action")
             names.add(protocol_key(key), class_name(declared.name), "Action")

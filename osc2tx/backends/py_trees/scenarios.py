@@ -18,6 +18,7 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.coverage import CoverageWriter
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
+from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.objects import ObjectWriter
 from osc2tx.backends.py_trees.source_map import ScenarioMap
@@ -44,6 +45,7 @@ class ScenarioWriter:
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
         type_methods: The methods of types that stand in their classes.
+        functions: The modifiers of the user's own that the module has as functions.
         uses: What the module has to import.
     """
 
@@ -55,6 +57,7 @@ class ScenarioWriter:
         classes: NameTable,
         types: TypeTable,
         type_methods: TypeMethods,
+        functions: ModifierCalls,
         uses: Uses,
     ) -> None:
         """See the class."""
@@ -76,7 +79,7 @@ class ScenarioWriter:
             types.member,
             type_methods,
         )
-        self._calls = CallWriter(expressions, uses.name, uses.modifier)
+        self._calls = CallWriter(expressions, uses.name, uses.modifier, functions)
         self._objects = ObjectWriter(expressions, types)
         events = (each for each in scenario.declarations if isinstance(each, ir.Event))
         self._first_implicit_event = next((each for each in events if each.is_implicit), None)

@@ -157,14 +157,14 @@ class _Declarations:
             case ir.UserType():
                 methods = tuple(method for _, method in self._methods.of(part.name))
                 return replace(part, fields=part.all_fields, unused=(), methods=methods)
-            case ir.UserEnum() | ir.UserAction():
+            case ir.UserEnum() | ir.UserAction() | ir.UserModifier():
                 return part
 
 
 def _mention(part: Declared) -> set[str]:
     """Return the names that are in every reference to a declaration."""
     match part:
-        case ir.Scenario():
+        case ir.Scenario() | ir.UserModifier():
             return {part.key}
         case ir.UserType() | ir.UserEnum():
             return {part.name}

@@ -162,6 +162,16 @@ class UserActionView:
 
 
 @dataclass(frozen=True, slots=True)
+class UserModifierView:
+    """A modifier of the user's own, as a function; `copied` says why it is a copy, if it is one."""
+
+    signature: PyExpr
+    docstring: tuple[PyDocLine, ...]
+    value: CallView
+    copied: PyComment | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class ScenarioView:
     """A scenario class; `copied` says why it is a copy, if it is one."""
 
@@ -191,6 +201,7 @@ class ModuleView:
         standard_imports: What it takes from Python's standard library.
         types: Classes for the types of its objects.
         actions: Actions of the user's own.
+        modifiers: Modifiers of the user's own.
         scenarios: Its classes.
         mains: The classes that it can run as a script.
         shown: The class whose tree viewers get, if there is any.
@@ -209,3 +220,4 @@ class ModuleView:
     standard_imports: tuple[ImportView, ...] = ()
     types: tuple[TypeView, ...] = ()
     actions: tuple[UserActionView, ...] = ()
+    modifiers: tuple[UserModifierView, ...] = ()

@@ -8,6 +8,8 @@ from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
+from osc2tx_runtime.language.node_runs import NodeRuns
+
 if TYPE_CHECKING:
     from osc2tx_runtime.world.deviation import Deviation
     from osc2tx_runtime.world.state import ActorState
@@ -84,6 +86,7 @@ class TraceWriter:
         self._environment: dict[str, Any] = {}
         self._values: dict[str, Any] = {}  # of sampled variables
         self._written: dict[str, tuple[ActorState, str]] = {}
+        self._runs = NodeRuns()
 
     # --- what happens at the present instant ---
 
@@ -165,6 +168,11 @@ class TraceWriter:
         if self.enabled:
             self._listed(7, kind, values)
 
+    def criterion(self, name: str, what: str) -> None:
+        """Note what is against a criterion of `--fail-on`."""
+        if self.enabled:
+            self._listed(9, "criterion", {"name": name, "what": what})
+
     def _listed(
         self, rank: int, kind: str, values: Mapping[str, Any], source: str | None = None
     ) -> None:
@@ -187,6 +195,16 @@ class TraceWriter:
             subject = to_json(next(iter(values.values()), None))
             text = f'"kind":{json.dumps(kind)},{to_json(values)[1:-1]}'
             self._others[rank, kind, subject] = text
+
+    def node_starts(self, node: object, time: float) -> None:
+        """Note that a node of the tree begins, at `time` (s)."""
+        if self.enabled:
+            self._runs.starts(node, time)
+
+    def node_ends(self, node: object, time: float, status: str) -> None:
+        """Note that a node is left at `time` (s), with a status of py_trees."""
+        if self.enabled:
+            self._runs.ends(node, time, status)
 
     # --- the file ---
 
@@ -220,6 +238,11 @@ class TraceWriter:
         self._events.clear()
         self._actions.clear()
         self._others.clear()
+
+    def tree(self, nodes: Iterable[tuple[object, int, str, str, str]]) -> None:
+        """Write when each node of the tree ran, see `NodeRuns`; after the last instant."""
+        if self.enabled:
+            self.lines.append(f'{{"kind":"tree","nodes":{self._runs.to_json(nodes)}}}')
 
     def result(self, status: str, reason: str, steps: int, warnings: Sequence[str] = ()) -> None:
         """Write the last line."""

@@ -3,7 +3,8 @@
 Input is a file; output is a `RoadMap`, which answers everything and never changes. Begin at
 `road_map`. In order of control flow:
 
-* `xml_reader`, `reader`, `signal_reader`, `crosswalks`: text to roads, checked, or a `MapError`.
+* `xml_reader`, `reader`, `lane_reader`, `signal_reader`, `crosswalks`: text to roads, checked, or
+  a `MapError`; `unread`: what is left out; `seams`: where lanes do not go on as they end.
 * `polynomials`, `geometry`, `model`: what a road is made of.
 * `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
 * `lane_advance`: moving along lanes; `lane_distances`: distances over the lane graph.
@@ -35,8 +36,10 @@ from .model import (
     Road,
 )
 from .road_map import RoadMap, read_map, read_map_text
+from .seams import Seam
 from .signal_places import SignalPlace, signal_places
 from .signals import Controller, Signal, SignalReference
+from .unread import unread_elements
 
 __all__ = [
     "DRIVING",
@@ -57,6 +60,7 @@ __all__ = [
     "Road",
     "RoadMap",
     "Route",
+    "Seam",
     "Signal",
     "SignalPlace",
     "SignalReference",
@@ -64,4 +68,5 @@ __all__ = [
     "read_map",
     "read_map_text",
     "signal_places",
+    "unread_elements",
 ]

@@ -33,6 +33,16 @@ _WIDEST = math.radians(80.0)  # of longitude beside the central meridian
 
 # What a parameter may say of the ellipsoid so that it is that of WGS 84 (GRS 80: 0.1 mm less).
 _ELLIPSOIDS = frozenset({"WGS84", "GRS80"})
+# Parameters that change what others mean, with what they may say.
+_USUAL: Mapping[str, frozenset[str]] = {
+    "a": frozenset({"6378137", "6378137.0"}),
+    "rf": frozenset({"298.257223563", "298.257222101"}),
+    "pm": frozenset({"0", "greenwich"}),
+    "axis": frozenset({"enu"}),
+    "nadgrids": frozenset({"@null"}),
+    "towgs84": frozenset({"0,0,0", "0,0,0,0,0,0,0"}),
+    **dict.fromkeys(("R", "R_A", "R_V", "b", "f", "es", "e", "lon_wrap"), frozenset()),
+}
 _UTM_SCALE, _UTM_EAST, _UTM_NORTH = 0.9996, 500_000.0, 10_000_000.0
 
 
@@ -127,6 +137,11 @@ class GeoReference:
         for word in ("datum", "ellps"):
             if given.get(word, "WGS84") not in _ELLIPSOIDS:
                 raise GeoReferenceError(f"its `geoReference` is not on WGS 84 (+{word})")
+        for word, usual in _USUAL.items():
+            if word in given and given[word] not in usual:
+                raise GeoReferenceError(
+                    f"its `geoReference` has `+{word}={given[word]}`, which is not understood"
+                )
         if given.get("units", "m") != "m" or "to_meter" in given:
             raise GeoReferenceError("its `geoReference` is not in metres")
         return _PROJECTIONS[name](given)

@@ -144,6 +144,8 @@ class Lane:
         predecessors: Lanes that lead here, sorted.
         centre: t of the centre line over road s (m).
         outer: t of the edge away from the reference line (m).
+        heights: Of its surface above the road at the inner and at the outer edge (m); None if
+            it lies on the road.
     """
 
     __slots__ = (
@@ -152,6 +154,7 @@ class Lane:
         "direction",
         "file_line",
         "group",
+        "heights",
         "id",
         "key",
         "line",
@@ -172,6 +175,7 @@ class Lane:
         self.file_line = file_line
         self.width: Piecewise | None = None
         self.border: Piecewise | None = None
+        self.heights: tuple[Piecewise, Piecewise] | None = None
         self.previous_ids: tuple[int, ...] = ()
         self.next_ids: tuple[int, ...] = ()
         self.direction = 1
@@ -190,6 +194,15 @@ class Lane:
         outer = self.outer.value(s)
         inner = 2.0 * self.centre.value(s) - outer
         return (outer, inner) if outer < inner else (inner, outer)
+
+    def height_at(self, s: float, t: float) -> float:
+        """Height (m) of the surface above the road, even from edge to edge."""
+        if self.heights is None:
+            return 0.0
+        inner, outer = (edge.value(s) for edge in self.heights)
+        width = 2.0 * (self.outer.value(s) - self.centre.value(s))
+        share = 1.0 - (self.outer.value(s) - t) / width if width else 0.0
+        return inner + (outer - inner) * min(max(share, 0.0), 1.0)
 
     def width_at(self, s: float) -> float:
         """Width (m) at `s`."""

@@ -16,12 +16,13 @@ def lane_pose(lane: Lane, s: float, offset: float) -> Pose:
     t, slope = lane.centre.value_slope(s)
     t += offset * direction
     if road.elevation is not None or road.superelevation is not None:
-        return surface_pose(road, s, t, slope, direction)
+        pose = surface_pose(road, s, t, slope, direction)
+        return pose if lane.heights is None else pose._replace(z=pose.z + lane.height_at(s, t))
     x, y, h, k = road.reference.at(s)
     heading = h + math.atan2(slope, 1.0 - k * t) if slope else h
     if direction < 0:
         heading += math.pi
-    return Pose(x - t * math.sin(h), y + t * math.cos(h), 0.0, wrap(heading))
+    return Pose(x - t * math.sin(h), y + t * math.cos(h), lane.height_at(s, t), wrap(heading))
 
 
 def surface_pose(

@@ -6,6 +6,7 @@ real maps carry junk there. `geoReference` is kept as it is until somebody asks 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,11 +16,16 @@ from .crosswalks import Crosswalk, read_crosswalks
 from .errors import MapError
 from .geodesy import GeoReference
 from .geometry import Arc, Line, ParamPoly, ReferenceLine, Segment, make_spiral
-from .model import Junction, JunctionConnection, Lane, LaneSection, Link, Road, road_order
+from .lane_reader import read_sections
+from .model import Junction, JunctionConnection, Link, Road, road_order
 from .polynomials import ZERO, Piecewise
 from .signal_reader import read_controllers, read_signals
 from .signals import Controller, Signal
+from .unread import unread
 from .xml_reader import Attributes, parse_bytes, parse_xml, source_line
+
+ROUNDING = 0.01
+"""Metres that numbers of a file may be apart and mean the same."""
 
 LONGEST = 2e7
 """Metres of all roads together: what is made of them has to fit into memory."""
@@ -29,7 +35,11 @@ __all__ = ["MapContent", "read_content", "read_content_text"]
 
 @dataclass(frozen=True, slots=True)
 class MapContent:
-    """All that is read from a file. Roads and junctions are in numeric order of their ids."""
+    """All that is read from a file. Roads and junctions are in numeric order of their ids.
+
+    `header` has the attributes of the element of that name. `remarks` are what is wrong with the
+    file, or matters and is not read, each with its line or its number.
+    """
 
     file: str
     name: str
@@ -39,6 +49,8 @@ class MapContent:
     controllers: tuple[Controller, ...]
     crosswalks: tuple[Crosswalk, ...]
     geo_reference: GeoReference
+    header: Mapping[str, str]
+    remarks: tuple[str, ...]
 
 
 def read_content(path: Path) -> MapContent:
@@ -70,6 +82,7 @@ def _read(root: etree._Element, file: str, name: str) -> MapContent:
     total = sum(road.length for road in roads.values())
     if total > LONGEST:
         raise MapError(file, f"has {total / 1000:.0f} km of roads; at most {LONGEST / 1000:.0f} km")
+    header = root.find("header")
     junctions = [_junction(element, attributes) for element in root.iterchildren("junction")]
     return MapContent(
         file,
@@ -79,7 +92,9 @@ def _read(root: etree._Element, file: str, name: str) -> MapContent:
         read_signals(elements, attributes),
         read_controllers(root, junctions, attributes),
         read_crosswalks(elements, roads, attributes),
-        _geo_reference(root.find("header"), attributes),
+        _geo_reference(header, attributes),
+        {} if header is None else {str(key): str(value) for key, value in header.items()},
+        (*attributes.remarks, *unread(root)),
     )
 
 
@@ -100,6 +115,9 @@ def _road(element: etree._Element, attributes: Attributes) -> Road:
     lanes = element.find("lanes")
     if lanes is None:
         raise attributes.error(element, "has no `lanes`; a road needs at least one lane section")
+    superelevation = _profile(element.find("lateralProfile"), "superelevation", attributes)
+    if superelevation is not None and any(e.get("level") == "true" for e in lanes.iter("lane")):
+        attributes.remark(element, "has lanes that are `level`: they are banked as their road is")
     return Road(
         id=attributes.text(element, "id"),
         name=element.get("name", ""),
@@ -108,9 +126,9 @@ def _road(element: etree._Element, attributes: Attributes) -> Road:
         right_hand_traffic=element.get("rule", "RHT") != "LHT",
         reference=_plan_view(element, attributes),
         elevation=_profile(element.find("elevationProfile"), "elevation", attributes),
-        superelevation=_profile(element.find("lateralProfile"), "superelevation", attributes),
+        superelevation=superelevation,
         lane_offset=_profile(lanes, "laneOffset", attributes) or ZERO,
-        sections=_sections(lanes, length, attributes),
+        sections=read_sections(lanes, length, attributes),
         predecessor=_link(link, "predecessor", attributes),
         successor=_link(link, "successor", attributes),
         file_line=source_line(element),
@@ -129,10 +147,13 @@ def _link(link: etree._Element | None, name: str, attributes: Attributes) -> Lin
 def _profile(parent: etree._Element | None, name: str, attributes: Attributes) -> Piecewise | None:
     if parent is None:
         return None
-    profile = Piecewise.from_records(
+    records = [
         (attributes.number(element, "s"), attributes.cubic(element))
         for element in parent.iterchildren(name)
-    )
+    ]
+    if records and min(records)[0] > ROUNDING:  # zero up to where the first record begins
+        records.append((0.0, (0.0, 0.0, 0.0, 0.0)))
+    profile = Piecewise.from_records(records)
     return None if profile is None or profile.is_zero() else profile
 
 
@@ -144,6 +165,9 @@ def _plan_view(road: etree._Element, attributes: Attributes) -> ReferenceLine:
     pieces = [(attributes.number(g, "s"), _segment(g, attributes)) for g in geometries]
     pieces.sort(key=lambda piece: piece[0])
     kept = [piece for piece in pieces if piece[1].length > 0.0] or pieces[:1]
+    end, length = kept[-1][0] + kept[-1][1].length, attributes.length(road, "length")
+    if abs(end - length) > ROUNDING:
+        attributes.remark(road, f"is {length:g} m long, its geometry {end:g} m")
     return ReferenceLine([piece[0] for piece in kept], [piece[1] for piece in kept])
 
 
@@ -171,68 +195,7 @@ def _segment(geometry: etree._Element, attributes: Attributes) -> Segment:
     return ParamPoly(x, y, h, length, u, v, 1.0 if normalized else length, scaled=True)
 
 
-NARROWEST = -0.05
-"""Metres below nothing that are the rounding of whoever wrote the map."""
-
 _SHAPES = frozenset({"arc", "line", "paramPoly3", "poly3", "spiral"})
-
-
-def _sections(
-    lanes: etree._Element, length: float, attributes: Attributes
-) -> tuple[LaneSection, ...]:
-    elements = [(attributes.number(e, "s"), e) for e in lanes.iterchildren("laneSection")]
-    if not elements:
-        raise attributes.error(lanes, "has no `laneSection`; a road needs at least one")
-    elements.sort(key=lambda item: item[0])
-    begins = [min(max(begin, 0.0), length) for begin, _ in elements]
-    begins[0] = 0.0
-    ends = [*begins[1:], length]
-    return tuple(
-        LaneSection(i, begins[i], ends[i], _lanes(element, (begins[i], ends[i]), attributes))
-        for i, (_, element) in enumerate(elements)
-    )
-
-
-def _lanes(
-    section: etree._Element, ends: tuple[float, float], attributes: Attributes
-) -> list[Lane]:
-    lanes: list[Lane] = []
-    for side in section:
-        if side.tag == "left" or side.tag == "right":
-            lanes.extend(_lane(e, ends, attributes) for e in side.iterchildren("lane"))
-    # Edges are stacked from the centre outwards, so a repeated id would be an overlap.
-    if len({lane.id for lane in lanes}) != len(lanes):
-        raise attributes.error(section, "a lane id is used twice; make lane ids unique")
-    return [lane for lane in lanes if lane.id != 0]
-
-
-def _lane(element: etree._Element, ends: tuple[float, float], attributes: Attributes) -> Lane:
-    begin, end = ends
-    lane = Lane(
-        attributes.integer(element, "id"),
-        element.get("type", "none"),
-        source_line(element),
-    )
-    widths: list[tuple[float, tuple[float, float, float, float]]] = []
-    borders: list[tuple[float, tuple[float, float, float, float]]] = []
-    for child in element:
-        tag = child.tag
-        if tag == "width" or tag == "border":
-            records = widths if tag == "width" else borders
-            start = begin + attributes.number(child, "sOffset")
-            records.append((start, attributes.cubic(child)))
-        elif tag == "link":
-            lane.previous_ids = _linked_ids(child, "predecessor", attributes)
-            lane.next_ids = _linked_ids(child, "successor", attributes)
-    lane.width = Piecewise.from_records(widths)
-    if lane.width is not None and (narrowest := lane.width.extremes(begin, end)[0]) < NARROWEST:
-        raise attributes.error(element, f"is {narrowest:g} m wide at one place; give a width")
-    lane.border = Piecewise.from_records(borders)
-    return lane
-
-
-def _linked_ids(link: etree._Element, name: str, attributes: Attributes) -> tuple[int, ...]:
-    return tuple(attributes.integer(e, "id") for e in link.iterchildren(name))
 
 
 def _junction(element: etree._Element, attributes: Attributes) -> Junction:
@@ -242,6 +205,8 @@ def _junction(element: etree._Element, attributes: Attributes) -> Junction:
         for e in element.iterchildren("connection")
         if e.get("type") != "virtual"
     )
+    if kind == "virtual":
+        attributes.remark(element, "is virtual: ways that leave a road within it are not read")
     controllers = tuple(attributes.text(e, "id") for e in element.iterchildren("controller"))
     return Junction(
         attributes.text(element, "id"), element.get("name", ""), kind, connections, controllers

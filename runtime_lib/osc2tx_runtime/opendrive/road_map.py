@@ -32,6 +32,7 @@ from .poses import lane_pose, surface_pose
 from .projection import Projection, best_place, lane_at, place_score, position_of, project
 from .reader import MapContent, read_content, read_content_text
 from .road_index import RoadIndex
+from .seams import Seam, seams
 from .signals import Controller, Signal
 
 __all__ = ["RoadMap", "read_map", "read_map_text"]
@@ -47,6 +48,8 @@ class RoadMap:
         roads: Roads by id, in numeric order.
         junctions: Junctions by id, in numeric order.
         geo_reference: Where it lies on the globe.
+        header: Attributes of the header of the file.
+        remarks: What is wrong with the file, or matters and is not read.
     """
 
     def __init__(self, content: MapContent) -> None:
@@ -58,6 +61,8 @@ class RoadMap:
         self._controllers = content.controllers
         self._crosswalks = content.crosswalks
         self.geo_reference = content.geo_reference
+        self.header = content.header
+        self.remarks = content.remarks
         self._forks = Forks()
         table = LaneTable(content.roads, content.file)
         self._road, self._lane, self._keyed = table.road, table.at, table.keyed
@@ -261,6 +266,14 @@ class RoadMap:
     ) -> Iterator[LaneOutline]:
         """Edges of all lanes for drawing, optionally only near a box (xmin, ymin, xmax, ymax)."""
         return lane_outlines(self._roads.values(), bounds, step)
+
+    def seams(self) -> tuple[Seam, ...]:
+        """Where lanes go on beside where they end, or in another direction."""
+        return self._seams
+
+    @cached_property
+    def _seams(self) -> tuple[Seam, ...]:
+        return seams(self._roads.values())
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Box around all lanes: xmin, ymin, xmax, ymax (m)."""

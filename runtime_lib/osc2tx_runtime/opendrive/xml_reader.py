@@ -72,12 +72,24 @@ def _strip_namespaces(root: etree._Element) -> None:
 
 
 class Attributes:
-    """Reads attributes of elements of one file."""
+    """Reads attributes of elements of one file.
 
-    __slots__ = ("file",)
+    Attributes:
+        file: Its name, for messages.
+        remarks: What is wrong with the file, but not so that it cannot be used.
+    """
+
+    __slots__ = ("file", "remarks")
 
     def __init__(self, file: str) -> None:
         self.file = file
+        self.remarks: dict[str, None] = {}
+
+    def remark(self, element: etree._Element, message: str) -> None:
+        """Take down what is wrong with an element that can be used all the same."""
+        name = element.get("id")
+        what = f"`{element.tag}`" if name is None else f"`{element.tag}` {name}"
+        self.remarks[f"line {source_line(element)}: {what} {message}"] = None
 
     def error(self, element: etree._Element, message: str) -> MapError:
         """A `MapError` at an element."""

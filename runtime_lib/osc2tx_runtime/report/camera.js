@@ -38,8 +38,9 @@ function extentOf(points) {
   return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[0] - low[0], high[1] - low[1]];
 }
 
+const group = () => MOVABLE.filter(isShown);
 const groupExtent = (time) =>
-  extentOf(MOVABLE.map((actor) => poseAt(actor, time)).map(({ x, y }) => [x, y]));
+  extentOf((group().length ? group() : MOVABLE).map((actor) => poseAt(actor, time)).map(({ x, y }) => [x, y]));
 
 /** The largest extent of the group of movable actors over the run (m). */
 function groupSpread() {

@@ -1,187 +1,223 @@
-// Line charts over time: speed or acceleration of the actors, distances between them.
+// Line charts over time, drawn by uPlot: what the actors do, and what is between them.
 
-const MAX_PAIRS = 6; // more curves than this are not readable: pairs of one actor instead
+const MAX_PAIRS = 8; // more curves than this are not readable: the nearest ones
+
+/** Times at which all curves have values: those of the longest track of each run. */
+const TIMES = [...new Set(RUNS.flatMap((run) => MOVABLE.filter((actor) => actor.run === run)
+  .reduce((longest, { track }) => (track.t.length > longest.length ? track.t : longest), [])))].sort((a, b) => a - b);
+
+const within = (actor, time) =>
+  time >= actor.track.t[0] - 1e-6 && time <= actor.track.t[actor.track.t.length - 1] + 1e-6;
+
+/** A column of an actor at `TIMES`; null outside of its samples. */
+const sampled = (actor, column, factor) => TIMES.map((time) => {
+  const value = within(actor, time) ? columnAt(actor.track, column, time) : null;
+  return value === null ? null : value * factor;
+});
+
+// ---- one chart ---------------------------------------------------------------------------------
 
 /**
- * A chart in an <svg> with a legend. `show({unit, digits, series})` draws; a series is
- * {name, color, t, y} with y null where there is no value.
+ * A chart below the element `id` with its legend. `show({title, unit, digits, series})` draws; a
+ * series is {name, color, dash, y}, with null in y where there is no value.
  */
-function makeChart(host, legend) {
-  const chart = { host, legend, series: [], unit: "", digits: 1, hidden: new Set(), axis: null };
+function makeChart(id) {
+  const chart = { id, host: byId(id), legend: byId(id + "-legend"), series: [], hidden: new Set(), plot: null };
   chart.show = (content) => {
     Object.assign(chart, content);
     buildLegend(chart);
-    drawChart(chart);
+    plotChart(chart);
   };
-  scrub(host, (x) => chart.axis.toTime(x));
   clock.listeners.push(() => moveCursor(chart));
-  drawOnResize(host, () => drawChart(chart));
+  span.listeners.push(() => chart.plot && chart.plot.setScale("x", { min: span.from, max: span.to }));
+  new ResizeObserver(() => requestAnimationFrame(() => fitChart(chart))).observe(chart.host);
+  byId(id + "-csv").addEventListener("click", () => saveChartCsv(chart));
+  byId(id + "-png").addEventListener("click", () => savePng(chart.title, chartPicture(chart)));
   return chart;
+}
+
+const chartSize = ({ host }) => ({ width: Math.max(host.clientWidth, 120), height: 250 });
+
+function fitChart(chart) {
+  const { plot } = chart, { width, height } = chartSize(chart);
+  if (plot && plot.width !== width) plot.setSize({ width, height });
 }
 
 function buildLegend(chart) {
   chart.values = chart.series.map(() => element("span", { className: "value" }));
   chart.legend.replaceChildren(...chart.series.map((series, i) => {
-    const swatch = element("span", { className: "swatch" });
-    swatch.style.background = series.color;
+    const swatch = element("span", { className: series.dash ? "swatch dashed" : "swatch" });
+    swatch.style.background = `var(--actor-${series.hue})`;
     const name = element("span", { className: "name", textContent: series.name, title: series.name });
     const button = element("button", { type: "button", title: "Show or hide" }, swatch, name, chart.values[i]);
     button.setAttribute("aria-pressed", !chart.hidden.has(series.name));
     button.addEventListener("click", () => {
       if (!chart.hidden.delete(series.name)) chart.hidden.add(series.name);
       button.setAttribute("aria-pressed", !chart.hidden.has(series.name));
-      drawChart(chart);
+      chart.plot.setSeries(i + 1, { show: !chart.hidden.has(series.name) });
     });
     return button;
   }));
 }
 
-const visibleSeries = (chart) => chart.series.filter((series) => !chart.hidden.has(series.name));
+const axis = (more) => ({
+  stroke: () => theme.soft, font: "12px " + FONT, grid: { stroke: () => theme.grid, width: 1 },
+  ticks: { stroke: () => theme.grid, width: 1, size: 4 }, ...more,
+});
 
-/** Smallest and largest value, zero included. */
-function valueRange(seriesList) {
-  let low = 0, high = 0;
-  for (const { y } of seriesList) {
-    for (const value of y) {
-      if (value === null) continue;
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
-  return high - low < 1e-6 ? [low, low + 1] : [low, high];
+/** Zero belongs to the range, and a flat curve gets one of its own. */
+function valueRange(plot, low, high) {
+  if (low === null || low === undefined) return [0, 1];
+  const [least, most] = [Math.min(low, 0), Math.max(high, 0)];
+  return most - least < 1e-6 ? [least, least + 1] : [least < 0 ? least * 1.05 : 0, most > 0 ? most * 1.05 : 0];
 }
 
-function drawChart(chart) {
-  const { host } = chart;
-  const width = host.clientWidth, height = host.clientHeight;
-  if (!width) return;
-  host.replaceChildren();
-  host.setAttribute("viewBox", `0 0 ${width} ${height}`); // so that printing can scale it
-  const [left, right, top, bottom] = [52, width - 14, 22, height - 24];
-  const shown = visibleSeries(chart);
-  const ticks = niceTicks(...valueRange(shown), 5);
-  const toY = (value) => bottom - ((value - ticks.low) / (ticks.high - ticks.low)) * (bottom - top);
-  chart.axis = { ...timeAxis(host, left, right, top, bottom), toY, top, bottom };
-  drawValueAxis(chart, ticks, left, right);
-  for (const series of shown) {
-    const curve = svg("path", { class: "curve", d: curvePath(series, chart.axis) });
-    curve.style.stroke = series.color;
-    host.append(curve);
-  }
-  if (!chart.series.length) host.append(svg("text", { x: left + 12, y: top + 24 }, "Nothing to show"));
-  chart.cursor = svg("line", { class: "cursor", y1: top - 4, y2: bottom });
-  chart.dots = shown.map((series) => {
-    const dot = svg("circle", { class: "dot", r: 4 });
-    dot.style.fill = series.color;
-    return dot;
-  });
-  host.append(chart.cursor, ...chart.dots);
+function plotChart(chart) {
+  if (chart.plot) chart.plot.destroy();
+  const options = {
+    ...chartSize(chart),
+    legend: { show: false },
+    cursor: { drag: { x: true, y: false, setScale: false }, y: false, points: { show: false } },
+    scales: { x: { time: false, min: span.from, max: span.to }, y: { range: valueRange } },
+    axes: [
+      axis({ size: 30, values: (_, ticks) => ticks.map((tick) => String(tick) + (tick === ticks[0] ? " s" : "")) }),
+      axis({ size: 52, values: (_, ticks) => ticks.map((tick) => String(tick).replace("-", "−")) }),
+    ],
+    series: [{}, ...chart.series.map((series) => ({
+      show: !chart.hidden.has(series.name), stroke: () => theme.colors[series.hue], width: 1.8,
+      dash: series.dash ? [6, 4] : undefined, points: { show: false },
+    }))],
+    hooks: { setSelect: [zoomToSelection], setSize: [() => moveCursor(chart)], setScale: [() => moveCursor(chart)] },
+  };
+  chart.plot = new uPlot(options, [TIMES, ...chart.series.map((series) => series.y)], chart.host);
+  chart.plot.setScale("x", { min: span.from, max: span.to });
+  chart.now = element("div", { className: "now-line" });
+  chart.plot.over.append(chart.now);
+  listenToChart(chart.plot);
   moveCursor(chart);
 }
 
-function drawValueAxis(chart, ticks, left, right) {
-  for (const value of ticks.values) {
-    const y = chart.axis.toY(value);
-    const zero = Math.abs(value) < 1e-9 && ticks.low < 0;
-    chart.host.append(svg("line", { class: zero ? "zero" : "grid", x1: left, x2: right, y1: y, y2: y }));
-    chart.host.append(svg("text", { x: left - 8, y: y + 4, "text-anchor": "end" }, format(value, ticks.digits)));
-  }
-  chart.host.append(svg("text", { x: 4, y: 11 }, chart.unit));
+function zoomToSelection(plot) {
+  const { left, width } = plot.select;
+  if (width < 4) return;
+  const [from, to] = [plot.posToVal(left, "x"), plot.posToVal(left + width, "x")];
+  plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  span.set(from, to);
 }
 
-function curvePath({ t, y }, { toX, toY }) {
-  const parts = [];
-  let pen = "M";
-  t.forEach((time, i) => {
-    if (y[i] === null) { pen = "M"; return; }
-    parts.push(pen, toX(time).toFixed(1), " ", toY(y[i]).toFixed(1));
-    pen = "L";
+/** A press moves the time, a drag zooms, two presses show the whole run. */
+function listenToChart(plot) {
+  let pressed = 0;
+  plot.over.addEventListener("pointerdown", (event) => { pressed = event.clientX; });
+  plot.over.addEventListener("click", (event) => {
+    if (Math.abs(event.clientX - pressed) > 3) return;
+    clock.set(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x"));
   });
-  return parts.join("");
+  plot.over.addEventListener("dblclick", () => span.set(0, clock.end));
 }
 
 /** Value of a series at a time, null outside of its samples. */
-function seriesAt({ t, y }, time) {
-  if (!t.length || time < t[0] - 1e-6 || time > t[t.length - 1] + 1e-6) return null;
-  return columnAt({ t }, y, time);
+function seriesAt({ y }, time) {
+  const i = lastIndex(TIMES, time + 1e-9), next = Math.min(i + 1, TIMES.length - 1);
+  if (!TIMES.length || y[i] === null || y[next] === null) return TIMES.length ? y[i] : null;
+  const step = TIMES[next] - TIMES[i];
+  return mix(y[i], y[next], step > 0 ? clamp((time - TIMES[i]) / step, 0, 1) : 0);
 }
 
 function moveCursor(chart) {
-  if (!chart.axis) return;
-  const x = chart.axis.toX(clock.now);
-  chart.cursor.setAttribute("x1", x);
-  chart.cursor.setAttribute("x2", x);
+  if (!chart.plot || !chart.now) return;
+  const inside = clock.now >= span.from - 1e-9 && clock.now <= span.to + 1e-9;
+  chart.now.hidden = !inside;
+  if (inside) chart.now.style.transform = `translateX(${chart.plot.valToPos(clock.now, "x")}px)`;
   chart.series.forEach((series, i) => {
     const value = seriesAt(series, clock.now);
     chart.values[i].textContent = value === null ? "–" : format(value, chart.digits) + " " + chart.unit;
   });
-  visibleSeries(chart).forEach((series, i) => {
-    const value = seriesAt(series, clock.now);
-    chart.dots[i].setAttribute("visibility", value === null ? "hidden" : "visible");
-    chart.dots[i].setAttribute("cx", x);
-    chart.dots[i].setAttribute("cy", chart.axis.toY(value === null ? 0 : value));
-  });
+}
+
+function redrawCharts() {
+  for (const chart of charts) if (chart.plot) chart.plot.redraw(false);
 }
 
 // ---- the two charts ----------------------------------------------------------------------------
 
-const QUANTITIES = {
+const charts = [];
+
+const MOTION = {
   v: { title: "Speed", unit: "km/h", digits: 1, factor: 3.6 },
   a: { title: "Acceleration", unit: "m/s²", digits: 2, factor: 1 },
+  offset: { title: "Offset from the lane's centre", unit: "m", digits: 2, factor: 1 },
 };
 
+const curve = (actor) => ({ name: actor.name, hue: actor.hue, dash: actor.number > 0 });
+
 function motionSeries(column) {
-  const factor = QUANTITIES[column].factor;
-  return MOVABLE.filter((actor) => actor.track[column]).map((actor) => ({
-    name: actor.id, color: actor.color, t: actor.track.t,
-    y: actor.track[column].map((value) => (value === null ? null : value * factor)),
-  }));
+  return MOVABLE.filter((actor) => isShown(actor) && actor.track[column]).map((actor) => (
+    { ...curve(actor), y: sampled(actor, actor.track[column], MOTION[column].factor) }));
 }
 
 function startMotionChart() {
-  const chart = makeChart(byId("motion"), byId("motion-legend"));
-  const show = (column) => {
-    byId("motion-title").textContent = QUANTITIES[column].title;
-    chart.show({ ...QUANTITIES[column], series: motionSeries(column) });
+  const chart = makeChart("motion");
+  let column = "v";
+  charts.push(chart);
+  const show = () => {
+    byId("motion-title").textContent = MOTION[column].title;
+    chart.show({ ...MOTION[column], series: motionSeries(column) });
   };
-  segments(byId("motion-kind"), [["v", "Speed"], ["a", "Acceleration"]], show);
-  show("v");
+  const pick = (chosen) => { column = chosen; show(); };
+  segments(byId("motion-kind"), [["v", "Speed"], ["a", "Acceleration"], ["offset", "Lateral"]], pick);
+  shown.listeners.push(show);
+  show();
 }
 
-/** Distance of the reference points of two actors at the sample times of the first. */
-function gapSeries(a, b, color) {
-  const from = b.track.t[0], to = b.track.t[b.track.t.length - 1];
-  const t = a.track.t.filter((time) => time >= from && time <= to);
-  const y = t.map((time) => {
+const BETWEEN = {
+  bumper: { title: "Bumper gap", unit: "m", digits: 1, of: bumperGap },
+  ttc: { title: "Time to collision", unit: "s", digits: 2, of: timeToCollision },
+  box: { title: "Distance between boxes", unit: "m", digits: 1, of: boxDistance },
+};
+
+const allPairs = () => MOVABLE.filter(isShown).flatMap((a, i, all) =>
+  all.slice(i + 1).filter((b) => b.run === a.run).map((b) => [a, b]));
+const pairsOf = (actor) =>
+  MOVABLE.filter((other) => other !== actor && other.run === actor.run && isShown(other)).map((other) => [actor, other]);
+
+/** How near two actors come, at some twenty times. */
+function nearest([a, b]) {
+  const times = Array.from({ length: 21 }, (_, i) => (clock.end * i) / 20);
+  return Math.min(...times.map((time) => {
     const p = poseAt(a, time), q = poseAt(b, time);
     return Math.hypot(p.x - q.x, p.y - q.y);
-  });
-  return { name: a.id + " – " + b.id, color, t, y };
+  }));
 }
 
-const allPairs = () => MOVABLE.flatMap((a, i) => MOVABLE.slice(i + 1).map((b) => [a, b]));
-const pairsOf = (actor) => MOVABLE.filter((other) => other !== actor).map((other) => [actor, other]);
+function pairSeries([a, b], of, hue) {
+  const y = TIMES.map((time) => (within(a, time) && within(b, time) ? of(boxAt(a, time), boxAt(b, time)) : null));
+  return { name: `${a.name} – ${b.name}`, hue, dash: a.number > 0, y };
+}
 
 function startGapChart() {
-  const select = byId("gap-of"), pairs = allPairs();
-  if (!pairs.length) {
+  const select = byId("gap-of");
+  if (allPairs().length === 0) {
     byId("gap").closest(".card").hidden = true;
     return;
   }
-  const chart = makeChart(byId("gap"), byId("gap-legend"));
-  const showAll = () => pairs.map(([a, b], i) => gapSeries(a, b, paletteColor(pairs.length === 1 ? 5 : i + 4)));
-  const showOne = (actor) => pairsOf(actor).map(([a, b]) => gapSeries(a, b, b.color));
+  const chart = makeChart("gap");
+  let kind = "bumper";
+  charts.push(chart);
+  select.append(element("option", { value: "all", textContent: "nearest" }));
+  for (const actor of MOVABLE) select.append(element("option", { value: actor.index, textContent: "of " + actor.name }));
+  select.parentElement.hidden = MOVABLE.length < 3;
   const show = () => {
     const actor = select.value === "all" ? null : ACTORS[Number(select.value)];
-    chart.show({ unit: "m", digits: 1, series: actor ? showOne(actor) : showAll() });
+    const pairs = (actor ? pairsOf(actor) : allPairs()).map((pair) => [nearest(pair), pair])
+      .sort((one, other) => one[0] - other[0]).slice(0, MAX_PAIRS).map(([, pair]) => pair);
+    byId("gap-title").textContent = BETWEEN[kind].title;
+    const hueOf = ([, b], i) => (actor ? b.hue : i % Math.max(IDS.length, 1));
+    chart.show({ ...BETWEEN[kind], series: pairs.map((pair, i) => pairSeries(pair, BETWEEN[kind].of, hueOf(pair, i))) });
   };
-  if (pairs.length <= MAX_PAIRS) select.append(element("option", { value: "all", textContent: "all" }));
-  if (MOVABLE.length > 2) {
-    for (const actor of MOVABLE) {
-      select.append(element("option", { value: actor.index, textContent: "of " + actor.id }));
-    }
-  }
+  const pick = (chosen) => { kind = chosen; show(); };
+  segments(byId("gap-kind"), [["bumper", "Bumper gap"], ["ttc", "Time to collision"], ["box", "Distance"]], pick);
   select.addEventListener("change", show);
-  select.parentElement.hidden = MOVABLE.length < 3;
+  shown.listeners.push(show);
   show();
 }

@@ -1,31 +1,8 @@
-"use strict";
-// Data, time, colours and small helpers that all views share. Texts of the trace reach the page
-// through textContent only.
+// The runs of the page: actors, colours, time, and what all views draw with.
 
-const byId = (id) => document.getElementById(id);
-const DATA = JSON.parse(byId("run-data").textContent);
-const SVG_SPACE = byId("motion").namespaceURI;
-
-// ---- errors: shown on the page and readable in the DOM -----------------------------------------
-
-function showError(message) {
-  document.documentElement.dataset.error = message;
-  byId("error").hidden = false;
-  byId("error").textContent = "The report could not be drawn completely: " + message;
-}
-window.addEventListener("error", (event) => showError(String(event.message)));
-
-// ---- small helpers -----------------------------------------------------------------------------
-
-const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-const mix = (a, b, share) => (a === null || b === null ? a : a + (b - a) * share);
-
-/** Make an HTML element: element("td", {className: "x"}, "text", child...). */
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
+const RUNS = DATA.runs;
+const COMPARED = RUNS.length > 1;
+const SVG_SPACE = byId("timeline").namespaceURI;
 
 /** Make an SVG element with attributes; children may be texts (they stay texts). */
 function svg(tag, attributes = {}, ...children) {
@@ -33,38 +10,6 @@ function svg(tag, attributes = {}, ...children) {
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   made.append(...children);
   return made;
-}
-
-/** A number with fixed decimals and a true minus sign; a dash where there is none. */
-function format(value, digits) {
-  if (value === null || value === undefined) return "–";
-  const text = value.toFixed(digits);
-  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
-}
-
-const seconds = (time) => format(time, 2) + " s";
-
-/** Index of the last entry of a sorted list that is not after `value` (0 if all are). */
-function lastIndex(list, value) {
-  let low = 0, high = list.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (list[middle] <= value) low = middle + 1; else high = middle;
-  }
-  return Math.max(low - 1, 0);
-}
-
-/** A row of buttons of which one is pressed. */
-function segments(host, choices, onPick) {
-  const buttons = choices.map(([value, text]) => {
-    const button = element("button", { type: "button", textContent: text });
-    button.addEventListener("click", () => { press(value); onPick(value); });
-    return [value, button];
-  });
-  const press = (chosen) =>
-    buttons.forEach(([value, button]) => button.setAttribute("aria-pressed", value === chosen));
-  host.append(...buttons.map(([, button]) => button));
-  press(choices[0][0]);
 }
 
 const measure = document.createElement("canvas").getContext("2d");
@@ -82,30 +27,69 @@ function fitText(text, width, style) {
   return length > 0 ? text.slice(0, length) + "…" : "";
 }
 
-// ---- colours -----------------------------------------------------------------------------------
+// ---- packed columns ----------------------------------------------------------------------------
+
+/** A column as it was before `columns.py` packed it: second differences, runs as [number, count]. */
+function unpackColumn(packed, digits) {
+  if (!packed) return null;
+  const values = [], scale = 10 ** digits;
+  let last = 0, slope = 0;
+  const add = (difference) => {
+    if (difference === null) { values.push(null); return; }
+    slope += difference;
+    last += slope;
+    values.push(last / scale);
+  };
+  for (const part of packed) {
+    if (Array.isArray(part)) for (let i = 0; i < part[1]; i += 1) add(part[0]);
+    else add(part);
+  }
+  return values;
+}
+
+function unpackTrack(track) {
+  const columns = Object.entries(DATA.digits).map(([name, digits]) => [name, unpackColumn(track[name], digits)]);
+  return { ...track, ...Object.fromEntries(columns) };
+}
+
+// ---- actors and their colours ------------------------------------------------------------------
+
+const IDS = [...new Set(RUNS.flatMap((run) => run.actors.map((actor) => actor.id)))];
+const ACTORS = RUNS.flatMap((run, number) => run.actors.map((actor) => ({
+  ...actor, run, number, hue: IDS.indexOf(actor.id), color: `var(--actor-${IDS.indexOf(actor.id)})`,
+  name: COMPARED ? `${run.letter}: ${actor.id}` : actor.id, track: actor.track && unpackTrack(actor.track),
+}))).map((actor, index) => ({ ...actor, index }));
+for (const run of RUNS) run.byId = new Map(ACTORS.filter((actor) => actor.run === run).map((actor) => [actor.id, actor]));
+const TRACKED = ACTORS.filter((actor) => actor.track);
+const MOVABLE = TRACKED.filter((actor) => actor.movable);
+const ACTIONS = RUNS.flatMap((run) => run.actions.map((action) => ({ ...action, run })));
+const MARKS = RUNS.flatMap((run) => run.marks.map((mark) => ({ ...mark, run }))).sort((a, b) => a.t - b.t);
+
+/** Which actors the views show: those that the filter leaves. */
+const shown = { actors: new Set(ACTORS), listeners: [] };
+const isShown = (actor) => shown.actors.has(actor);
+function setShown(actors) {
+  shown.actors = new Set(actors);
+  for (const listener of shown.listeners) listener();
+}
+
+// Neighbours in the cast differ in hue and in lightness, so that fifty can be told apart.
+const LIGHTNESS = { light: [0.42, 0.54, 0.66, 0.74], dark: [0.62, 0.71, 0.8, 0.88] };
+const actorColor = (hue, levels) => `oklch(${levels[hue % levels.length]} 0.15 ${(262 + 104 * hue) % 360})`;
 
 const theme = {};
-const THEME_NAMES = ["text", "soft", "card", "line", "bad", "label", "land", "asphalt", "shoulder",
+const THEME_NAMES = ["text", "soft", "card", "line", "grid", "bad", "label", "land", "asphalt", "shoulder",
   "walk", "bike", "park", "green", "other", "mark", "arrow", "accent",
   "lamp-red", "lamp-amber", "lamp-green", "lamp-dark", "lamp-box", "beam"];
 
 /** Canvas drawing needs the values of the style sheet's variables. */
 function readTheme() {
-  const style = getComputedStyle(document.documentElement);
+  const root = document.documentElement, style = getComputedStyle(root);
   for (const name of THEME_NAMES) theme[name] = style.getPropertyValue("--" + name).trim();
-  theme.palette = Array.from({ length: 10 }, (_, i) => style.getPropertyValue("--c" + i).trim());
+  theme.colors = IDS.map((_, hue) => actorColor(hue, LIGHTNESS[style.colorScheme === "dark" ? "dark" : "light"]));
+  theme.colors.forEach((color, hue) => root.style.setProperty("--actor-" + hue, color));
 }
 readTheme();
-
-/** For SVG: a variable, so that a change of the colour scheme needs no drawing. */
-const paletteColor = (index) => `var(--c${index % 10})`;
-
-// ---- actors and their movement -----------------------------------------------------------------
-
-const ACTORS = DATA.actors.map((actor, index) => ({ ...actor, index, color: paletteColor(index) }));
-const ACTOR_BY_ID = new Map(ACTORS.map((actor) => [actor.id, actor]));
-const TRACKED = ACTORS.filter((actor) => actor.track);
-const MOVABLE = TRACKED.filter((actor) => actor.movable);
 
 // Canvas paths hold single precision: everything is drawn relative to a point nearby.
 const ORIGIN = TRACKED.length ? [TRACKED[0].track.x[0], TRACKED[0].track.y[0]] : [0, 0];
@@ -145,17 +129,36 @@ function poseAt(actor, time) {
 const placeAt = ({ track }, time) => track.places[lastIndex(track.placeTimes, time)];
 
 /** Start and end of an action on the page; an open one lasts to the end of the run. */
-const actionEnd = (action) => (action.end === null ? DATA.duration : action.end);
+const actionEnd = (action) => (action.end === null ? action.run.duration : action.end);
 
 // ---- the one time of the page ------------------------------------------------------------------
 
 const clock = {
   now: 0,
-  end: Math.max(DATA.duration, 0),
+  end: Math.max(0, ...RUNS.map((run) => run.duration)),
   listeners: [],
   set(time) {
     this.now = clamp(time, 0, this.end);
     for (const listener of this.listeners) listener(this.now);
+  },
+};
+
+/** The part of the run that charts and timeline show: all of it, or what was zoomed to. */
+const span = {
+  from: 0,
+  to: clock.end || 1,
+  listeners: [],
+  set(from, to) {
+    const whole = clock.end || 1;
+    this.from = clamp(from, 0, whole);
+    this.to = clamp(to, this.from + Math.min(0.2, whole), whole);
+    this.from = Math.min(this.from, this.to - Math.min(0.2, whole));
+    for (const listener of this.listeners) listener();
+  },
+  /** Zoom about the present time. */
+  zoom(factor) {
+    const about = clamp(clock.now, this.from, this.to);
+    this.set(about - (about - this.from) * factor, about + (this.to - about) * factor);
   },
 };
 
@@ -175,11 +178,13 @@ function scrub(host, timeOf) {
 /** Draw now and again whenever the width of an element changes. */
 function drawOnResize(host, draw) {
   let width = host.clientWidth;
-  new ResizeObserver(() => {
+  const redraw = () => {
     if (host.clientWidth === width) return;
     width = host.clientWidth;
     draw();
-  }).observe(host);
+  };
+  // Drawing may change the height, which an observer must not do while it is told of a change.
+  new ResizeObserver(() => requestAnimationFrame(redraw)).observe(host);
   draw();
 }
 
@@ -202,17 +207,17 @@ function niceTicks(low, high, count, inside = false) {
   return { values, digits, low: values[0], high: values[values.length - 1] };
 }
 
-/** The time axis of charts and timeline: vertical lines, numbers below, and the scale. */
+/** The time axis of the timeline: vertical lines, numbers below, and the scale. */
 function timeAxis(host, left, right, top, bottom) {
-  const end = clock.end || 1;
-  const toX = (time) => left + (time / end) * (right - left);
-  const ticks = niceTicks(0, end, clamp((right - left) / 90, 3, 14), true);
+  const { from, to } = span;
+  const toX = (time) => left + ((time - from) / (to - from)) * (right - left);
+  const ticks = niceTicks(from, to, clamp((right - left) / 90, 3, 14), true);
   for (const value of ticks.values) {
     const x = toX(value);
     host.append(svg("line", { class: "grid", x1: x, x2: x, y1: top, y2: bottom }));
-    const label = format(value, ticks.digits) + (value === 0 ? " s" : "");
+    const label = format(value, ticks.digits) + (value === ticks.values[0] ? " s" : "");
     host.append(svg("text", { x, y: bottom + 16, "text-anchor": "middle" }, label));
   }
   host.append(svg("line", { class: "axis", x1: left, x2: right, y1: bottom, y2: bottom }));
-  return { toX, toTime: (x) => ((x - left) / (right - left)) * end };
+  return { toX, toTime: (x) => from + ((x - left) / (right - left)) * (to - from) };
 }

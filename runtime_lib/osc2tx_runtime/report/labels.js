@@ -34,7 +34,7 @@ function placeLabel(box, width, height, taken, area) {
 
 /** Name and speed of an actor; name and distance from the middle if it is out of sight. */
 function labelTexts(actor, time, visible) {
-  const name = fitText(actor.id, 150, "600 12px");
+  const name = fitText(actor.name, 150, "600 12px");
   if (!visible) {
     const { x, y } = poseAt(actor, time);
     const [sx, sy] = project(x, y);
@@ -60,12 +60,13 @@ const MAX_POINTED = 12; // in a larger cast, arrows to everything out of sight w
 /** A place for every actor's label, in order of the cast. */
 function layoutLabels(time) {
   const area = [4, 4, canvas.clientWidth - 4, canvas.clientHeight - 4];
-  const boxes = TRACKED.map((actor) => screenBox(actor, time));
+  const actors = DRAWN();
+  const boxes = actors.map((actor) => screenBox(actor, time));
   const crosses = collisionPoints(time).map(([x, y]) => [x - 8, y - 8, x + 8, y + 8]);
   const taken = [...boxes, ...crosses, ...ornaments(time)];
-  return TRACKED.flatMap((actor, i) => {
+  return actors.flatMap((actor, i) => {
     const visible = overlap(boxes[i], area) > 0;
-    if (!visible && TRACKED.length > MAX_POINTED) return [];
+    if (!visible && actors.length > MAX_POINTED) return [];
     const edge = visible ? null : edgeBox(boxes[i], [12, 12, area[2] - 8, area[3] - 8]);
     const [name, detail] = labelTexts(actor, time, visible);
     const nameWidth = textWidth(name, "600 12px");
@@ -135,7 +136,7 @@ function ornaments(time) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const recent = recentMarks(time).length;
   const fixed = [[0, height - 34, 190, height], [width - 44, height - 50, width, height]];
-  return [...fixed, [0, 0, recent ? 330 : 0, 10 + 26 * recent], ...DATA.surroundings.signals.map(signalBox)];
+  return [...fixed, [0, 0, recent ? 330 : 0, 10 + 26 * recent], ...SIGNALS.map(signalBox)];
 }
 
 function drawScaleBar(context) {
@@ -167,7 +168,7 @@ function drawCompass(context) {
 }
 
 /** Events and collisions within the last two seconds, at most four. */
-const recentMarks = (time) => DATA.marks.filter((mark) =>
+const recentMarks = (time) => MARKS.filter((mark) =>
   (mark.kind === "event" || mark.kind === "collision") && mark.t <= time && mark.t > time - 2).slice(-4);
 
 function drawRecent(context, time) {
@@ -189,8 +190,8 @@ function drawRecent(context, time) {
 
 /** Where on the screen collisions have happened: between the reference points of the actors. */
 function collisionPoints(time) {
-  return DATA.marks.filter((mark) => mark.kind === "collision" && mark.t <= time).flatMap((mark) => {
-    const actors = mark.actors.map((id) => ACTOR_BY_ID.get(id)).filter((actor) => actor && actor.track);
+  return MARKS.filter((mark) => mark.kind === "collision" && mark.t <= time).flatMap((mark) => {
+    const actors = mark.actors.map((id) => mark.run.byId.get(id)).filter((actor) => actor && actor.track);
     const points = actors.map((actor) => poseAt(actor, mark.t)).map(({ x, y }) => [x, y]);
     return points.length ? [project(...extentOf(points).slice(0, 2))] : [];
   });

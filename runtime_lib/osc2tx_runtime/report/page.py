@@ -1,38 +1,61 @@
-"""Puts the data, the style and the scripts into one HTML file."""
+"""The page of one run, or of two runs over each other."""
 
 from __future__ import annotations
 
-import base64
-import hashlib
-import json
 from collections.abc import Sequence
-from importlib.resources import files
+from dataclasses import dataclass
 from pathlib import Path
-from string import Template
 from typing import Protocol
 
+from .html import fill, resource
 from .json_values import Json
 from .nearby_lanes import OutlineSource, nearby_crosswalks, nearby_lanes
 from .surroundings import SignalSource
 from .trace_reader import read_run
+from .tracks import DIGITS
 
-__all__ = ["render_report", "write_report"]
+__all__ = ["Trace", "render_report", "render_runs", "write_report"]
 
+_VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
+    f"vendor/{name}" for name in ("uplot.js", "uplot.css", "LICENSE")
+)
 _SCRIPTS = (
+    "base.js",
     "core.js",
+    "export.js",
     "roads.js",
     "surroundings.js",
     "camera.js",
     "labels.js",
     "view.js",
+    "distances.js",
     "charts.js",
     "timeline.js",
+    "actors.js",
+    "tree.js",
+    "log.js",
+    "header.js",
+    "transport.js",
     "report.js",
 )
+_LETTERS = "AB"
 
 
 class MapSource(OutlineSource, SignalSource, Protocol):
     """The part of `osc2tx_runtime.opendrive.RoadMap` that is drawn."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """A trace that a page is made of.
+
+    Attributes:
+        lines: Its lines; broken and unknown ones are counted on the page.
+        name: What tells it from another on the same page.
+    """
+
+    lines: Sequence[str]
+    name: str = ""
 
 
 def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | None = None) -> None:
@@ -48,40 +71,40 @@ def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | N
 
 
 def render_report(trace_lines: Sequence[str], road_map: MapSource | None = None) -> str:
-    """The page as text; the same arguments give the same text."""
-    run = read_run(trace_lines)
-    data = run.as_json()
-    paths = [track.points() for track in run.tracks.values()]
-    data["surroundings"] = run.surroundings.as_json(road_map)
-    data["lanes"] = [] if road_map is None else nearby_lanes(road_map, paths)
-    data["crosswalks"] = [] if road_map is None else nearby_crosswalks(road_map, paths)
-    script = "\n".join(_resource(name) for name in _SCRIPTS)
-    style = _resource("report.css")
-    return Template(_resource("report.html")).substitute(
-        style=style,
-        script=script,
-        style_hash=_csp_hash(style),
-        script_hash=_csp_hash(script),
-        data=_embed(data),
-    )
+    """The page of one run as text; the same arguments give the same text."""
+    return render_runs([Trace(trace_lines)], road_map)
 
 
-def _resource(name: str) -> str:
-    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> str:
+    """The page of one run, or of two runs over each other, as text.
 
-
-def _csp_hash(content: str) -> str:
-    """The browser runs only the script with this hash: nothing a trace could smuggle in."""
-    digest = hashlib.sha256(content.encode("utf-8")).digest()
-    return "sha256-" + base64.b64encode(digest).decode("ascii")
-
-
-def _embed(data: Json) -> str:
-    r"""JSON that cannot end its script block.
-
-    ASCII output writes U+2028 and U+2029 (and lone surrogates) as \u escapes already.
+    Args:
+        traces: One or two.
+        road_map: The map under the paths of both; None to leave it out.
     """
-    encoded = json.dumps(data, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
-    for character in "<>&":
-        encoded = encoded.replace(character, f"\\u{ord(character):04x}")
-    return encoded
+    runs = [read_run(trace.lines) for trace in traces]
+    paths = [track.points() for run in runs for track in run.tracks.values()]
+    named = zip(_LETTERS, traces, runs, strict=False)
+    data: Json = {
+        "runs": [
+            {
+                "letter": letter,
+                "name": trace.name,
+                **run.as_json(),
+                "surroundings": run.surroundings.as_json(road_map),
+            }
+            for letter, trace, run in named
+        ],
+        "digits": DIGITS,
+        "lanes": [] if road_map is None else nearby_lanes(road_map, paths),
+        "crosswalks": [] if road_map is None else nearby_crosswalks(road_map, paths),
+    }
+    script = "\n".join((_vendored(), *(resource(name) for name in _SCRIPTS)))
+    style = resource(_VENDOR_STYLE) + "\n" + resource("report.css")
+    return fill(resource("report.html"), style, script, data)
+
+
+def _vendored() -> str:
+    """The code of uPlot under its licence; its own first line is only an address."""
+    code = resource(_VENDOR_SCRIPT).partition("\n")[2]
+    return f"/* uPlot\n\n{resource(_VENDOR_LICENCE)}*/\n{code}"

@@ -6,6 +6,10 @@ function changeAt(changes, time) {
   return changes[index].t <= time + 1e-9 ? changes[index] : undefined;
 }
 
+// Of two runs that are compared, lights and weather are those of the first.
+const SURROUNDINGS = RUNS[0].surroundings;
+const SIGNALS = SURROUNDINGS.signals;
+
 // ---- traffic lights ----------------------------------------------------------------------------
 
 // From top to bottom, by the number of lamps; boxes with others have one lamp by what they say.
@@ -35,7 +39,7 @@ function signalBox(signal) {
 
 /** Boxes of lamps on a stem at their places, of one size however far one looks from. */
 function drawSignals(context, time) {
-  for (const signal of DATA.surroundings.signals) {
+  for (const signal of SIGNALS) {
     const [x, y] = footOf(signal), [left, top, right, bottom] = signalBox(signal);
     const change = changeAt(signal.changes, time);
     const lamps = change ? lampsOf(change) : lampsOf(signal.changes[0]).map(() => null);
@@ -63,11 +67,11 @@ function drawSignals(context, time) {
 // ---- headlights --------------------------------------------------------------------------------
 
 const BEAMS = new Map([["low_beam", 14], ["high_beam", 30], ["fog", 9]]); // m
-const LIGHTS = new Map(Object.entries(DATA.surroundings.lights));
+const LIGHTS = RUNS.map((run) => new Map(Object.entries(run.surroundings.lights)));
 
 /** Two cones before a box whose lights shine; the context's origin is the reference point. */
 function drawBeams(context, actor, time) {
-  const changes = LIGHTS.get(actor.id);
+  const changes = LIGHTS[actor.number].get(actor.id);
   const change = changes && changeAt(changes, time);
   const reach = change && BEAMS.get(change.lit);
   if (!reach) return;
@@ -101,12 +105,12 @@ const WEATHER = [
 
 /** All values that hold at a time. */
 function weatherAt(time) {
-  const past = DATA.surroundings.weather.filter((change) => change.t <= time + 1e-9);
+  const past = SURROUNDINGS.weather.filter((change) => change.t <= time + 1e-9);
   return Object.assign({}, ...past.map((change) => change.values));
 }
 
 function startWeather() {
-  if (!DATA.surroundings.weather.length) return;
+  if (!SURROUNDINGS.weather.length) return;
   byId("weather").hidden = false;
   clock.listeners.push((time) => {
     const values = weatherAt(time);

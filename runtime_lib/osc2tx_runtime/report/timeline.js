@@ -4,27 +4,46 @@ const LINE_HEIGHT = 24;
 const BAR_HEIGHT = 18;
 const MAX_MARK_LINES = 4;
 
-const TIMELINE_ROWS = buildTimelineRows();
 const timeline = { host: byId("timeline"), axis: null, cursor: null };
 
-/** Rows of marks that exist, then a row for every actor with actions. */
+// Marks of these kinds have rows of their own; what else happened is in the log.
+const MARK_ROWS = [
+  ["events", ["event", "collision", "criterion"]], ["lights", ["lights"]], ["signals", ["signal"]],
+  ["environment", ["environment"]],
+];
+const COMPOSITIONS = new Set(["serial", "parallel", "one_of", "action", "emit"]);
+
+/** Rows of marks that exist, then a row for every actor with actions, then what is waited for. */
 function buildTimelineRows() {
-  const markRows = [
-    ["events", (mark) => mark.kind === "event" || mark.kind === "collision"],
-    ["lights", (mark) => mark.kind === "lights"],
-    ["signals", (mark) => mark.kind === "signal"],
-    ["environment", (mark) => mark.kind === "environment"],
-  ].map(([name, test]) => ({ name, marks: DATA.marks.filter(test) })).filter((row) => row.marks.length);
-  const actors = new Map(ACTORS.map((actor) => [actor.id, []]));
-  for (const action of DATA.actions) {
+  const markRows = MARK_ROWS.map(([name, kinds]) => (
+    { name, marks: MARKS.filter((mark) => kinds.includes(mark.kind)) })).filter((row) => row.marks.length);
+  const bars = RUNS.flatMap((run) => [...actionRows(run), ...waitRows(run)]);
+  return [...markRows.filter((row) => row.name === "events"), ...bars, ...markRows.filter((row) => row.name !== "events")];
+}
+
+function actionRows(run) {
+  const actors = new Map(run.actors.map((actor) => [actor.id, []]));
+  for (const action of ACTIONS.filter((each) => each.run === run)) {
     if (!actors.has(action.actor)) actors.set(action.actor, []);
     actors.get(action.actor).push(action);
   }
-  const barRows = [...actors].filter(([, actions]) => actions.length)
-    .map(([name, actions]) => ({ name: name || "(no actor)", id: name, actions }));
-  const [events, others] = [markRows.filter((row) => row.name === "events"), markRows.filter((row) => row.name !== "events")];
-  return [...events, ...barRows, ...others];
+  return [...actors].filter(([, actions]) => actions.length).map(([id, actions]) => {
+    const actor = run.byId.get(id);
+    return { name: actor ? actor.name : id || "(no actor)", actor, actions };
+  });
 }
+
+/** Waits, conditions and deadlines: why a run goes on. */
+function waitRows(run) {
+  const actions = run.nodes.filter((node) => !COMPOSITIONS.has(node.kind)).flatMap((node) =>
+    node.runs.map(([start, end, status]) => ({
+      run, actor: "", name: `${node.kind} ${node.text}`.trim(), source: node.source, start, end,
+      status: status === "failure" ? "fail" : status, reason: "",
+    })));
+  return actions.length ? [{ name: COMPARED ? `${run.letter}: waits` : "waits", actions, waits: true }] : [];
+}
+
+const TIMELINE_ROWS = buildTimelineRows();
 
 /** Without the actor's name in front, which the row already says. */
 const shortName = (action) =>
@@ -40,14 +59,16 @@ function freeLine(lines, from, to, limit) {
 }
 
 /** Where a bar and its text go: inside if it fits, else beside it. */
-function layoutBar(action, toX, right) {
-  const x0 = toX(action.start), x1 = Math.max(toX(actionEnd(action)), x0 + 5);
+function layoutBar(action, toX, left, right) {
+  const x0 = Math.max(toX(action.start), left), x1 = Math.max(Math.min(toX(actionEnd(action)), right), x0 + 5);
   const style = action.status === "fail" ? "600 12px" : "12px";
   const name = fitText(shortName(action), 260, style);
   const textSpan = textWidth(name, style) + 12;
   if (textSpan <= x1 - x0) return { action, x0, x1, name, textX: x0 + 6, from: x0, to: x1 };
   if (x1 + textSpan <= right) return { action, x0, x1, name, textX: x1 + 5, from: x0, to: x1 + textSpan };
-  return { action, x0, x1, name, textX: x0 - textSpan + 6, from: x0 - textSpan, to: x1 };
+  if (x0 - textSpan >= left) return { action, x0, x1, name, textX: x0 - textSpan + 6, from: x0 - textSpan, to: x1 };
+  const cut = fitText(name, right - x0 - 8, style); // no side has room: over the bar and beyond
+  return { action, x0, x1, name: cut, textX: x0 + 6, from: x0, to: right };
 }
 
 function layoutMark(mark, toX, right) {
@@ -60,11 +81,14 @@ function layoutMark(mark, toX, right) {
     : { mark, label, x, name, textX: x - width, from: x - 8 - width, to: x + 6 };
 }
 
+const inSpan = (item) =>
+  (item.t === undefined ? item.start <= span.to && actionEnd(item) >= span.from : item.t >= span.from && item.t <= span.to);
+
 /** Places the contents of a row on lines; gives the number of lines. */
-function layoutRow(row, toX, right) {
+function layoutRow(row, toX, left, right) {
   const lines = [], limit = row.marks ? MAX_MARK_LINES : Infinity;
-  row.items = (row.actions || row.marks).map((item) =>
-    row.actions ? layoutBar(item, toX, right) : layoutMark(item, toX, right));
+  row.items = (row.actions || row.marks).filter(inSpan).map((item) =>
+    row.actions ? layoutBar(item, toX, left, right) : layoutMark(item, toX, right));
   for (const item of row.items) item.line = freeLine(lines, item.from, item.to + 4, limit);
   // Marks beyond the limit share one more line, without names.
   row.lines = lines.length + (row.items.some((item) => item.line === limit) ? 1 : 0);
@@ -87,7 +111,7 @@ function jumpOnPress(group, time) {
 function drawBar(item, y) {
   const { action, x0, x1, name, textX } = item;
   const failed = action.status === "fail";
-  const actor = ACTOR_BY_ID.get(action.actor);
+  const actor = action.run.byId.get(action.actor);
   const kind = failed ? " bar-fail" : action.end === null ? " bar-open" : "";
   const box = svg("rect", { class: "bar-box" + kind, x: x0, y: y + 3, width: x1 - x0, height: BAR_HEIGHT, rx: Math.min(4, (x1 - x0) / 2) });
   if (!failed) box.style.fill = box.style.stroke = actor ? actor.color : "var(--soft)";
@@ -117,9 +141,10 @@ function drawTimeline() {
   const { host } = timeline;
   const width = host.clientWidth, left = namesWidth(), right = width - 14;
   if (!width) return;
-  const toX = (time) => left + (time / (clock.end || 1)) * (right - left);
-  TIMELINE_ROWS.forEach((row) => layoutRow(row, toX, right));
-  const rowHeights = TIMELINE_ROWS.map((row) => row.lines * LINE_HEIGHT + 8);
+  const toX = (time) => left + ((time - span.from) / (span.to - span.from)) * (right - left);
+  const rows = TIMELINE_ROWS.filter((row) => !row.actor || isShown(row.actor));
+  rows.forEach((row) => layoutRow(row, toX, left, right));
+  const rowHeights = rows.map((row) => row.lines * LINE_HEIGHT + 8);
   const bottom = rowHeights.reduce((sum, height) => sum + height, 0) || 30;
   host.style.height = bottom + 26 + "px";
   host.setAttribute("viewBox", `0 0 ${width} ${bottom + 26}`); // so that printing can scale it
@@ -127,11 +152,11 @@ function drawTimeline() {
   drawBands(rowHeights, width);
   timeline.axis = timeAxis(host, left, right, 0, bottom);
   let y = 0;
-  TIMELINE_ROWS.forEach((row, i) => {
+  rows.forEach((row, i) => {
     drawRow(row, y, left, row.name === "events" ? bottom : 0);
     y += rowHeights[i];
   });
-  if (!TIMELINE_ROWS.length) host.append(svg("text", { x: left + 12, y: 20 }, "No actions or events"));
+  if (!rows.length) host.append(svg("text", { x: left + 12, y: 20 }, "No actions or events"));
   timeline.cursor = svg("line", { class: "cursor", y1: 0, y2: bottom });
   host.append(timeline.cursor);
   moveTimelineCursor();
@@ -156,7 +181,7 @@ function drawRow(row, y, left, markBottom) {
 
 function moveTimelineCursor() {
   if (!timeline.axis) return;
-  const x = timeline.axis.toX(clock.now);
+  const x = timeline.axis.toX(clamp(clock.now, span.from, span.to));
   timeline.cursor.setAttribute("x1", x);
   timeline.cursor.setAttribute("x2", x);
 }
@@ -164,5 +189,7 @@ function moveTimelineCursor() {
 function startTimeline() {
   scrub(timeline.host, (x) => timeline.axis.toTime(x));
   clock.listeners.push(moveTimelineCursor);
+  span.listeners.push(drawTimeline);
+  shown.listeners.push(drawTimeline);
   drawOnResize(timeline.host, drawTimeline);
 }

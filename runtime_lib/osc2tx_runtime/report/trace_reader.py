@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from .action_log import ActionLog
 from .json_values import Json, number, plain, short, text
+from .marks import mark_name
+from .node_list import node_list
 from .surroundings import Surroundings
 from .tracks import Track
 
@@ -16,24 +17,21 @@ __all__ = ["Run", "read_run"]
 
 _FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
 _SIZES = {"length": 1.0, "width": 1.0}
-_DEGREES = 180.0 / math.pi
-# Values of the environment: words before, factor and offset from SI units, unit behind.
-_WEATHER = {
-    "temperature": ("", 1.0, -273.15, " °C"),
-    "pressure": ("pressure ", 0.01, 0.0, " hPa"),
-    "relative_humidity": ("humidity ", 100.0, 0.0, " %"),
-    "rain_intensity": ("rain ", 3.6e6, 0.0, " mm/h"),
-    "snow_intensity": ("snow ", 3.6e6, 0.0, " mm/h"),
-    "wind_speed": ("wind ", 3.6, 0.0, " km/h"),
-    "wind_direction": ("wind from ", _DEGREES, 0.0, "°"),
-    "visual_range": ("sight ", 1.0, 0.0, " m"),
-    "cloudiness": ("clouds ", 1.0, 0.0, "/8"),
-    "sun_elevation": ("sun elevation ", _DEGREES, 0.0, "°"),
-    "sun_azimuth": ("sun azimuth ", _DEGREES, 0.0, "°"),
-    "moon_elevation": ("moon elevation ", _DEGREES, 0.0, "°"),
-    "moon_azimuth": ("moon azimuth ", _DEGREES, 0.0, "°"),
-}
-_HEADER_KEYS = ("version", "scenario", "source", "map", "dt", "seed", "parameters")
+_HEADER_KEYS = (
+    "version",
+    "scenario",
+    "source",
+    "map",
+    "dt",
+    "seed",
+    "parameters",
+    "one_of",
+    "conduct",
+    "physics",
+    "fail_on",
+    "world",
+    "control",
+)
 
 
 @dataclass
@@ -45,6 +43,7 @@ class Run:
         result: The result line, None if the run did not get there.
         tracks: Movement by actor id.
         surroundings: Lights and weather.
+        nodes: The behavior tree, each node with the times at which it ran.
         end: Latest time in the trace (s).
         skipped: Number of lines that could not be shown.
     """
@@ -55,6 +54,7 @@ class Run:
     actions: ActionLog = field(default_factory=ActionLog)
     marks: list[Json] = field(default_factory=list)
     surroundings: Surroundings = field(default_factory=Surroundings)
+    nodes: list[Json] = field(default_factory=list)
     end: float = 0.0
     skipped: int = 0
 
@@ -65,6 +65,8 @@ class Run:
             self.header = line
         elif kind == "result":
             self.result = line
+        elif kind == "tree":
+            self.nodes = node_list(line.get("nodes"))
         else:
             time = number(line.get("t"))
             if time is None or not self._add_timed(text(kind), time, line):
@@ -79,11 +81,13 @@ class Run:
             self.actions.add(time, line)
             return True
         self.surroundings.add(kind, time, line)
-        name = _mark_name(kind, line)
+        name = mark_name(kind, line)
         if name is None:
             return False
         mark: Json = {"t": short(time, 4), "kind": kind, "actor": text(line.get("actor"))}
-        mark["name"] = name
+        mark |= {"name": name, "source": text(line.get("source"))}
+        if kind == "criterion":
+            mark["about"] = text(line.get("name"))
         if kind == "collision":
             actors = line.get("actors")
             mark["actors"] = [text(actor) for actor in actors] if isinstance(actors, list) else []
@@ -100,6 +104,7 @@ class Run:
             "actors": [self._actor(name, sizes) for name, sizes in self._cast().items()],
             "actions": self.actions.as_json(),
             "marks": self.marks,
+            "nodes": self.nodes,
         }
 
     def _cast(self) -> dict[str, Json]:
@@ -127,39 +132,6 @@ class Run:
             "movable": not any(word in kind.lower() for word in _FIXED_KINDS),
             "track": track.as_json() if track is not None and track.times else None,
         }
-
-
-def _mark_name(kind: str, line: Json) -> str | None:
-    """What to write beside the mark of an instant; None for a kind that is not known."""
-    if kind == "event":
-        return text(line.get("name")) + _arguments(line.get("arguments"))
-    if kind == "lights":
-        return text(line.get("mode"))
-    if kind == "signal":
-        return f"{text(line.get('signal'))}: {text(line.get('state'))}"
-    if kind == "collision":
-        actors = line.get("actors")
-        return " and ".join(map(text, actors)) if isinstance(actors, list) else text(actors)
-    if kind == "environment":
-        rest = (_weather(key, value) for key, value in line.items() if key not in ("t", "kind"))
-        return ", ".join(rest)
-    return None
-
-
-def _weather(name: str, value: object) -> str:
-    """A value of the environment in units that people use."""
-    amount = number(value)
-    if amount is None or name not in _WEATHER:
-        return f"{name} {text(value)}"
-    words, factor, offset, unit = _WEATHER[name]
-    return f"{words}{amount * factor + offset:.4g}{unit}"
-
-
-def _arguments(values: object) -> str:
-    """The arguments of an event in brackets, nothing if there are none."""
-    if not isinstance(values, dict) or not values:
-        return ""
-    return " (" + ", ".join(f"{name} {text(value)}" for name, value in values.items()) + ")"
 
 
 def read_run(trace_lines: Sequence[str]) -> Run:

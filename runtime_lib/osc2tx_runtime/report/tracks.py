@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .columns import pack
 from .json_values import Json, number, short, text
 
-__all__ = ["MAX_SAMPLES", "Track"]
+__all__ = ["DIGITS", "MAX_SAMPLES", "Track"]
 
 MAX_SAMPLES = 4000
 """Samples of one actor on the page; longer runs are thinned evenly."""
 
-_COLUMNS = {"x": 2, "y": 2, "h": 4, "v": 3, "a": 3, "s": 2, "offset": 2}
-"""Decimals that are kept: centimetres, about 0.01 degrees, millimetres per second."""
+DIGITS = {"t": 4, "x": 2, "y": 2, "h": 4, "v": 3, "a": 3, "s": 2, "offset": 2}
+"""Columns, and the decimals that are kept: centimetres, 0.01 degrees, millimetres per second."""
 
 _Sample = dict[str, float | None]
 
@@ -32,7 +33,7 @@ class Track:
         if self.times and time <= self.times[-1]:
             return False
         self.times.append(time)
-        self._samples.append({name: number(line.get(name)) for name in _COLUMNS})
+        self._samples.append({name: number(line.get(name)) for name in DIGITS})
         self._note_place(time, text(line.get("road")), text(line.get("lane")))
         return True
 
@@ -49,20 +50,24 @@ class Track:
         """Indices of the samples that go on the page; first and last are always among them."""
         count = len(self.times)
         last = count - 1
-        if all(sample == self._samples[0] for sample in self._samples):
+        if self._is_at_rest():
             return [0] if last == 0 else [0, last]
         if count <= MAX_SAMPLES:
             return list(range(count))
         # Integer arithmetic: evenly spread, and the same on every machine.
         return [i * last // (MAX_SAMPLES - 1) for i in range(MAX_SAMPLES)]
 
+    def _is_at_rest(self) -> bool:
+        first = {**self._samples[0], "t": None}
+        return all({**sample, "t": None} == first for sample in self._samples)
+
     def as_json(self) -> Json:
-        """Columns of equal length; a column without any value is None."""
+        """Columns of equal length, packed; a column without any value is None."""
         kept = self._kept()
-        result: Json = {"t": [short(self.times[i], 4) for i in kept]}
-        for name, digits in _COLUMNS.items():
+        result: Json = {}
+        for name, digits in DIGITS.items():
             values = [self._samples[i][name] for i in kept]
-            rounded = [None if value is None else short(value, digits) for value in values]
-            result[name] = None if all(value is None for value in values) else rounded
+            known = any(value is not None for value in values)
+            result[name] = pack(values, digits) if known else None
         result["places"] = [[short(time, 4), road, lane] for time, road, lane in self._places]
         return result

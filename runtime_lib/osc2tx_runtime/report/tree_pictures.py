@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from xml.etree import ElementTree
 
-from osc2tx_runtime.language.base_action import BaseAction
-from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial
+from osc2tx_runtime.language.outline import OutlineNode, outline
+from osc2tx_runtime.language.tree import Behaviour
 from osc2tx_text import visible
 
 __all__ = ["tree_svg", "tree_text"]
@@ -28,30 +27,13 @@ COLORS = {
 OTHER_COLOR = "#5c6470"
 
 
-@dataclass(frozen=True, slots=True)
-class _Row:
-    """A node as one line: what leads to it from the left, and what it is.
-
-    Attributes:
-        last: For each level from the root down, whether the branch ends there.
-        kind: `serial`, `action`, …
-        text: What the node is called or does.
-        source: Where the scenario says so; empty if nothing is known.
-    """
-
-    last: tuple[bool, ...]
-    kind: str
-    text: str
-    source: str
-
-
 def tree_text(root: Behaviour) -> str:
     """Return the tree as lines of text, with the lines of the scenario in a column of their own.
 
     Args:
         root: What `create_root` of a generated module returns.
     """
-    rows = list(_rows(root))
+    rows = _rows(root)
     lines = [f"{_branches(row.last)}{_words(row)}" for row in rows]
     width = max(map(len, lines))
     numbered = zip(lines, rows, strict=True)
@@ -64,7 +46,7 @@ def tree_svg(root: Behaviour) -> str:
     Args:
         root: What `create_root` of a generated module returns.
     """
-    rows = list(_rows(root))
+    rows = _rows(root)
     column = max(
         len(row.last) * STEP + _chip_width(row) + len(row.text) * CHARACTER for row in rows
     )
@@ -86,34 +68,14 @@ def tree_svg(root: Behaviour) -> str:
     return ElementTree.tostring(svg, encoding="unicode") + "\n"
 
 
-def _rows(root: Behaviour) -> Iterator[_Row]:
-    """Every node from the top down, in the order of the scenario."""
-    pending: list[tuple[Behaviour, tuple[bool, ...]]] = [(root, ())]
-    while pending:
-        node, last = pending.pop()
-        yield _Row(last, _kind(node), visible(_text(node)), visible(getattr(node, "source", "")))
-        children = list(node.children)
-        shown = [(child, (*last, child is children[-1])) for child in children]
-        pending += reversed(shown)
+def _rows(root: Behaviour) -> list[OutlineNode]:
+    """The nodes, with texts that a terminal can show."""
+    return [
+        replace(row, text=visible(row.text), source=visible(row.source)) for row in outline(root)
+    ]
 
 
-def _kind(node: Behaviour) -> str:
-    for kind, name in ((Serial, "serial"), (Parallel, "parallel"), (OneOf, "one_of")):
-        if isinstance(node, kind):
-            return name
-    return "action" if isinstance(node, BaseAction) else type(node).__name__.lower()
-
-
-def _text(node: Behaviour) -> str:
-    """The name, without what the kind says already; a label with what the action does."""
-    kind = _kind(node)
-    if isinstance(node, BaseAction) and node.label is not None:
-        return f"{node.label}: {node.action_name}"
-    name = node.name.removeprefix(kind).lstrip(" ,")
-    return "" if name == kind else name
-
-
-def _words(row: _Row) -> str:
+def _words(row: OutlineNode) -> str:
     return row.text if row.kind == "action" else f"{row.kind} {row.text}".rstrip()
 
 
@@ -127,7 +89,7 @@ def _branches(last: tuple[bool, ...]) -> str:
 # --- SVG --------------------------------------------------------------------------------------
 
 
-def _draw_branches(svg: ElementTree.Element, rows: list[_Row]) -> None:
+def _draw_branches(svg: ElementTree.Element, rows: list[OutlineNode]) -> None:
     """Draw a line from each node to those below it."""
     parents: dict[int, int] = {}  # depth to the row of the last node there
     path = []
@@ -143,7 +105,7 @@ def _draw_branches(svg: ElementTree.Element, rows: list[_Row]) -> None:
     ElementTree.SubElement(svg, "path", d="".join(path), fill="none", stroke="#c5ccd6")
 
 
-def _draw_row(svg: ElementTree.Element, row: _Row, top: float, places: float) -> None:
+def _draw_row(svg: ElementTree.Element, row: OutlineNode, top: float, places: float) -> None:
     left = MARGIN + STEP * len(row.last)
     baseline = _number(top + ROW / 2 + 4)
     chip = _chip_width(row)
@@ -165,7 +127,7 @@ def _draw_row(svg: ElementTree.Element, row: _Row, top: float, places: float) ->
     ElementTree.SubElement(svg, "text", place).text = row.source
 
 
-def _chip_width(row: _Row) -> float:
+def _chip_width(row: OutlineNode) -> float:
     return len(row.kind) * CHARACTER + 12
 
 

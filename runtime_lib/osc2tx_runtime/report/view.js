@@ -7,7 +7,8 @@ for (const { track } of TRACKED) {
   track.path = new Path2D();
   addLine(track.path, track.px.map((x, i) => [x, track.py[i]]));
 }
-const canvasColor = (actor) => theme.palette[actor.index % 10];
+const canvasColor = (actor) => theme.colors[actor.hue];
+const DRAWN = () => TRACKED.filter(isShown);
 
 /** The whole path pale, the part driven so far strong. */
 function drawPath(context, actor, time) {
@@ -15,6 +16,7 @@ function drawPath(context, actor, time) {
   context.strokeStyle = canvasColor(actor);
   context.lineJoin = "round";
   context.lineWidth = 1.6 / camera.scale;
+  context.setLineDash(actor.number ? [6 / camera.scale, 4 / camera.scale] : []);
   context.globalAlpha = 0.35;
   context.stroke(track.path);
   context.globalAlpha = 0.9;
@@ -24,6 +26,7 @@ function drawPath(context, actor, time) {
   const pose = poseAt(actor, time);
   driven.lineTo(pose.x, pose.y);
   context.stroke(driven);
+  context.setLineDash([]);
   context.globalAlpha = 1;
 }
 
@@ -42,7 +45,9 @@ function drawBox(context, actor, time) {
   context.beginPath();
   if (Math.max(length, width) < 8 * pixel) context.arc(length / 2 - rear, 0, 4.5 * pixel, 0, 2 * Math.PI);
   else context.roundRect(-rear, -width / 2, length, width, Math.min(length, width) * (actor.movable ? 0.22 : 0.08));
+  context.globalAlpha = actor.number ? 0.45 : 1; // the second run shows through
   context.fill();
+  context.globalAlpha = 1;
   context.stroke();
   if (actor.movable && length > 14 * pixel) drawScreen(context, actor);
   context.restore();
@@ -88,8 +93,8 @@ function drawView() {
   context.fillRect(0, 0, width, height);
   worldTransform(context);
   drawRoads(context, ROADS, 1 / camera.scale);
-  for (const actor of TRACKED) drawPath(context, actor, time);
-  for (const actor of TRACKED) drawBox(context, actor, time);
+  for (const actor of DRAWN()) drawPath(context, actor, time);
+  for (const actor of DRAWN()) drawBox(context, actor, time);
   pixelTransform(context);
   drawSignals(context, time);
   drawCollisions(context, time);
@@ -140,7 +145,7 @@ function listTargets() {
   }
   for (const actor of TRACKED) {
     targets.set(String(actor.index), actor);
-    select.append(element("option", { value: actor.index, textContent: actor.id }));
+    select.append(element("option", { value: actor.index, textContent: actor.name }));
   }
   return targets;
 }
@@ -168,6 +173,8 @@ function startView(fit) {
     followAt(targets.get(select.value));
     if (fit) showFit();
   }
+  byId("view-png").addEventListener("click", () => savePng("view", canvas));
   clock.listeners.push(drawView);
+  shown.listeners.push(drawView);
   drawOnResize(canvas, drawView);
 }

@@ -48,7 +48,7 @@ class Criteria:
         self._time = step * self._context.dt
         if "collision" in self._wanted:
             for one, other in self._context.world.collisions():
-                self._break(f"collision of {one} and {other}")
+                self._break("collision", f"collision of {one} and {other}")
         self._look()
 
     def _look(self) -> None:
@@ -71,7 +71,7 @@ class Criteria:
             road_map.lane_type(place.road, place.lane, place.s) in DRIVING
         )
         if self._on_road.get(actor_id) and not here:
-            self._break(f"{actor_id} off the road")
+            self._break("off_road", f"{actor_id} off the road")
         self._on_road[actor_id] = here
 
     def _look_at_lights(self, actor_id: str, state: ActorState) -> None:
@@ -80,11 +80,12 @@ class Criteria:
         if ahead is not None:
             signal, gap, before = ahead
             if math.hypot(state.x - before.x, state.y - before.y) > gap:
-                self._break(f"{actor_id} past the red light {signal}")
+                self._break("red_light", f"{actor_id} past the red light {signal}")
         reach = state.shape.front + abs(state.v) * self._context.dt + _REACH
         line = self._context.world.stop_line(state, None, reach) if state.v > 0.0 else None
         if line is not None and line.strict:
             self._lines[actor_id] = (line.signal, line.distance - state.shape.front, state)
 
-    def _break(self, what: str) -> None:
+    def _break(self, name: str, what: str) -> None:
+        self._context.trace.criterion(name, what)
         self.broken.append(f"{what} at {self._time:.2f} s")

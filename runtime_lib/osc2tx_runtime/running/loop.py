@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
+from osc2tx_runtime.language.outline import outline
 from osc2tx_runtime.language.tree.base import (
     FAILURE,
     INVALID,
@@ -85,6 +86,7 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
                 node.status = INVALID
         context.clear()
         context.trace.end_instant(context.time, states(context))
+        write_tree(root, context)
         found = overloads(context)
         context.trace.result(outcome.status, outcome.reason, outcome.steps, found)
 
@@ -94,6 +96,14 @@ def overloads(context: ExecutionContext) -> tuple[str, ...]:
     if context.settings.physics == "fail":
         return ()
     return tuple(map(str, context.world.overloads()))
+
+
+def write_tree(root: Behaviour, context: ExecutionContext) -> None:
+    """Write when each node of the tree ran."""
+    if context.trace.enabled:
+        context.trace.tree(
+            (each.node, len(each.last), each.kind, each.text, each.source) for each in outline(root)
+        )
 
 
 def loop(

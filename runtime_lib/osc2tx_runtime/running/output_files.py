@@ -9,7 +9,7 @@ from pathlib import Path
 from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 
-__all__ = ["check_outputs", "write_output"]
+__all__ = ["check_outputs", "may_replace", "write_output"]
 
 # How the files begin that a run writes; also what is to be overwritten has to.
 BEGINS = {"trace": b'{"kind":"header"', "report": b"<!DOCTYPE html>"}
@@ -29,18 +29,22 @@ def check_outputs(settings: RunSettings) -> None:
     if len(set(given.values())) < len(given):
         raise SettingsError(f"--trace and --report are both {settings.trace}: give them two files")
     for name, path in given.items():
-        begin = BEGINS[name]
-        try:
-            if not path.is_file() or path.stat().st_size == 0:
-                continue
-            with path.open("rb") as file:
-                is_ours = file.read(len(begin)) == begin
-        except (OSError, ValueError):  # writing it will say what is wrong
-            continue
-        if not is_ours:
+        if not may_replace(name, path):
             raise SettingsError(
                 f"--{name} {places[name]}: there is a file, and it is no {name}; name another one"
             )
+
+
+def may_replace(name: str, path: Path) -> bool:
+    """Return whether a file is not there, or is what a run writes by this name."""
+    begin = BEGINS[name]
+    try:
+        if not path.is_file() or path.stat().st_size == 0:
+            return True
+        with path.open("rb") as file:
+            return file.read(len(begin)) == begin
+    except (OSError, ValueError):  # writing it will say what is wrong
+        return True
 
 
 def write_output(name: str, path: Path, text: str) -> None:

@@ -12,6 +12,7 @@ from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import OnProgress, overloads, run_tree
+from osc2tx_runtime.running.map_warnings import map_warnings
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.worlds import WorldRequest, find_world
@@ -93,7 +94,7 @@ def run_scenario(
         outcome.steps * context.dt,
         tuple(context.trace.lines),
         tuple(context.collisions),
-        (*world.warnings(), *overloads(context)),
+        (*map_warnings(world.map), *world.warnings(), *overloads(context)),
     )
 
 
@@ -180,6 +181,10 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
     }
     if context.settings.conduct != "as_told":
         header["conduct"] = context.settings.conduct
+    if context.settings.physics != "warn":
+        header["physics"] = context.settings.physics
+    if context.settings.fail_on:
+        header["fail_on"] = list(context.settings.fail_on)
     if world.name != "embedded":
         header["world"] = world.name
     controls = {actor: world.control(actor) for actor in context.cast()}

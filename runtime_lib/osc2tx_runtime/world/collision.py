@@ -212,9 +212,8 @@ _Span = tuple[float, float, float, float, int]
 def _span(b: Box, e: Box, index: int) -> _Span:
     x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
     y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
-    if (
-        b.cos != e.cos or b.sin != e.sin
-    ):  # in between it reaches farther, but not beyond its corners
+    # In between one that turns reaches farther, but not beyond its corners.
+    if b.cos != e.cos or b.sin != e.sin:
         turn = abs(_turn(b, e))
         bulge = math.hypot(b.half_length, b.half_width) * (1.0 - math.cos(min(0.5 * turn, 1.6)))
         x, y = x + bulge, y + bulge

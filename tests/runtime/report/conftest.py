@@ -103,6 +103,14 @@ class TraceMaker:
     actors: dict[str, Json] = field(default_factory=dict)
     motions: dict[str, Motion] = field(default_factory=dict)
     lines: list[tuple[float, Json]] = field(default_factory=list)
+    nodes: list[Json] = field(default_factory=list)
+
+    def node(
+        self, depth: int, kind: str, text: str, *runs: tuple[float, float | None, str]
+    ) -> None:
+        source = f"{self.scenario}.osc:1"
+        words = {"depth": depth, "kind": kind, "text": text, "source": source}
+        self.nodes.append({**words, "runs": list(runs)})
 
     def car(self, name: str, motion: Motion, length: float = 4.7, width: float = 1.9) -> None:
         self.actors[name] = {
@@ -164,8 +172,11 @@ class TraceMaker:
             for name in self.motions
         ]
         ordered = [line for _, line in sorted(lines, key=lambda entry: entry[0])]
+        tree = {"kind": "tree", "nodes": self.nodes}
         result = {"kind": "result", "status": status, "reason": reason, "steps": steps}
-        return [json.dumps(line) for line in [header, *ordered, *([result] if status else [])]]
+        return [
+            json.dumps(line) for line in [header, *ordered, tree, *([result] if status else [])]
+        ]
 
     def _state(self, t: float, name: str) -> Json:
         x, y, h, v, a = (round(value, 6) for value in self.motions[name](t))
@@ -188,6 +199,18 @@ def ease(u: float) -> float:
     """Smooth step from 0 to 1."""
     u = min(max(u, 0.0), 1.0)
     return u * u * u * (10 - 15 * u + 6 * u * u)
+
+
+def wandering(number: int) -> Motion:
+    """A car that moves neither steadily nor straight."""
+
+    def motion(t: float) -> tuple[float, float, float, float, float]:
+        v = 20 + 5 * math.sin(t / 7 + number) + math.sin(3.1 * t + number)
+        x = 20 * t - 35 * math.cos(t / 7 + number) - math.cos(3.1 * t + number) / 3.1
+        a = 5 / 7 * math.cos(t / 7 + number) + 3.1 * math.cos(3.1 * t + number)
+        return x, 0.2 * math.sin(t / 3 + number), 0.01 * math.sin(t + number), v, a
+
+    return motion
 
 
 def highway() -> FakeMap:
@@ -238,6 +261,8 @@ def make_overtaking() -> TraceMaker:
     maker.action("npc", "drive", 0.0, 20.0, 80)
     maker.action("npc", "change_speed", 20.0, 26.0, 82)
     maker.action("npc", "keep_space_gap", 26.0, 27.5, 83, "fail", reason="leader lost")
+    maker.node(0, "serial", "overtake", (0.0, 27.5, "failure"))
+    maker.node(1, "wait", "rise(hero.speed > 20)", (9.5, 13.0, "success"))
     maker.note(0.0, "environment", azimuth=4.71, elevation=0.2)
     maker.note(0.05, "event", name="go_signal")
     maker.note(9.0, "lights", actor="hero", mode="high_beam")

@@ -3,13 +3,16 @@
 import re
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
 
 from osc2tx_runtime.report import write_report
+from osc2tx_runtime.report.index_page import RunRow, render_index
+from osc2tx_runtime.report.page import Trace, render_runs
 from tests.processes import HANGING
+from tests.runtime.report.conftest import TraceMaker, wandering
 from tests.runtime.report.test_surroundings import lit_highway, maker
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -62,23 +65,45 @@ byId("turn").click(); found.turned = camera.turn;
 
 [...byId("motion-kind").children][1].click(); found.title = byId("motion-title").textContent;
 byId("motion-legend").firstChild.click();
-found.curves = byId("motion").querySelectorAll(".curve").length;
+found.curves = charts[0].plot.series.filter((series, i) => i > 0 && series.show).length;
+clock.set(20); byId("zoom-in").click(); found.span = [span.from, span.to].join("-");
+byId("zoom-all").click(); found.whole = span.to;
+enter("actor-filter", "npc", "input");
+found.shown = [...shown.actors].map((actor) => actor.id).join();
+found.filtered = charts[0].series.map((series) => series.name).join();
+enter("actor-filter", "", "input");
 const bars = [...byId("timeline").querySelectorAll(".bar")];
 pointer(bars.find((bar) => bar.textContent.includes("keep_space_gap")), "pointerdown", 0, 0);
 found.bar = clock.now;
 enter("filter", "crash", "input");
 found.rows = [...byId("log").tBodies[0].rows].filter((row) => !row.hidden).length;
 byId("log").tBodies[0].rows[3].click(); found.row = clock.now;
+found.state = [9, 12, 30].map((time) => nodeState(RUNS[0].nodes[1], time)).join();
+clock.set(12); byId("running-only").click();
+found.tree = [...byId("tree").children].filter((row) => !row.hidden).length;
 window.dispatchEvent(new Event("beforeprint")); window.dispatchEvent(new Event("afterprint"));
+span.set(5, 10);
+queueMicrotask(() => {
+  const { min, max } = charts[1].plot.scales.x;
+  found.axis = `${min}-${max}`;
+});
 byId("play").click(); found.playing = byId("play").textContent;
 found.driven = "true";
 </script>
 """
 
 
-def attributes_of(path: Path, profile: Path, fragment: str = "") -> dict[str, str]:
+def attributes_of(
+    path: Path, profile: Path, fragment: str = "", flags: Sequence[str] = ()
+) -> dict[str, str]:
     """Attributes of the document's root once the page has settled."""
-    command = [str(CHROMIUM), *FLAGS, f"--user-data-dir={profile}", path.as_uri() + fragment]
+    command = [
+        str(CHROMIUM),
+        *FLAGS,
+        *flags,
+        f"--user-data-dir={profile}",
+        path.as_uri() + fragment,
+    ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=HANGING, check=True)
     root = re.search(r"<html([^>]*)>", done.stdout)
     assert root is not None, done.stderr
@@ -138,6 +163,13 @@ def test_controls(open_report, overtaking, highway_map) -> None:
         "turned": "true",
         "title": "Acceleration",
         "curves": "1",
+        "span": "10-23.75",
+        "axis": "5-10",
+        "whole": "27.5",
+        "shown": "npc",
+        "filtered": "npc",
+        "state": ",running,success",
+        "tree": "2",
         "bar": "26",
         "rows": "1",
         "row": "0.05",
@@ -149,7 +181,7 @@ def test_controls(open_report, overtaking, highway_map) -> None:
 LOOK = """
 <script>
 const out = document.documentElement.dataset;
-const lamps = (time) => lampsOf(changeAt(DATA.surroundings.signals[0].changes, time)).join("-");
+const lamps = (time) => lampsOf(changeAt(SIGNALS[0].changes, time)).join("-");
 out.before = lamps(1.9); out.after = lamps(2.0);
 clock.set(0.5); out.early = byId("weather").textContent;
 clock.set(3.0); out.late = byId("weather").textContent;
@@ -176,3 +208,108 @@ def test_surroundings_are_those_of_the_time(open_report) -> None:
         "dark": "0",
         "lit": "2",
     }
+
+
+# Widths of what sticks out, and how far apart the colours of the actors are (in OKLab).
+FACTS = """
+<script>
+const found = document.documentElement.dataset;
+const lab = (color) => {
+  const [l, c, h] = color.match(/[\\d.]+/g).map(Number), angle = (h * Math.PI) / 180;
+  return [l, c * Math.cos(angle), c * Math.sin(angle)];
+};
+const labs = theme.colors.map(lab);
+const distance = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
+const apart = labs.flatMap((a, i) => labs.slice(0, i).map((b) => distance(a, b)));
+found.apart = apart.every((each) => each > 0.025);
+found.colors = new Set(theme.colors).size;
+found.wide = document.documentElement.scrollWidth > innerWidth;
+</script>
+"""
+
+
+def test_fifty_actors_on_a_phone(tmp_path: Path) -> None:
+    made = TraceMaker("many")
+    for number in range(50):
+        made.car(f"car{number}", wandering(number))
+    found = looked_at(tmp_path, [Trace(made.text(100))], FACTS, ["--window-size=390,800"])
+    assert found == {"ready": "true", "apart": "true", "colors": "50", "wide": "false"}
+
+
+# Two cars in one lane, 50 m between their bumpers, closing at 10 m/s; one far beside them.
+MEASURED = """
+<script>
+const out = document.documentElement.dataset;
+const [rear, front, beside] = MOVABLE.map((actor) => boxAt(actor, 1));
+out.gap = bumperGap(rear, front).toFixed(3);
+out.box = boxDistance(rear, front).toFixed(3);
+out.ttc = timeToCollision(rear, front).toFixed(3);
+out.apart = timeToCollision(front, rear) === timeToCollision(rear, front);
+out.never = String(timeToCollision(rear, beside));
+out.corner = boxDistance(rear, beside).toFixed(3);
+out.abreast = bumperGap(rear, beside).toFixed(3);
+</script>
+"""
+
+
+def test_distances_by_hand(tmp_path: Path) -> None:
+    """At 1 s: middles 54 m apart, boxes 4 m long and 2 m wide, 20 and 10 m/s."""
+    made = TraceMaker("gaps")
+    made.car("rear", lambda t: (20 * t, 0.0, 0.0, 20.0, 0.0), 4.0, 2.0)
+    made.car("front", lambda t: (64 + 10 * t, 0.0, 0.0, 10.0, 0.0), 4.0, 2.0)
+    made.car("beside", lambda t: (7 + 20 * t, 6.0, 0.0, 20.0, 0.0), 4.0, 2.0)
+    assert looked_at(tmp_path, [Trace(made.text(40))], MEASURED) == {
+        "ready": "true",
+        "gap": "50.000",
+        "box": "50.000",
+        "ttc": "5.000",
+        "apart": "true",
+        "never": "null",
+        "corner": "5.000",  # 3 m ahead and 4 m beside
+        "abreast": "3.000",
+    }
+
+
+def test_two_runs_over_each_other(tmp_path: Path, overtaking) -> None:
+    driver = """<script>
+    const out = document.documentElement.dataset;
+    out.names = MOVABLE.map((actor) => actor.name).join();
+    out.colors = MOVABLE[0].hue === MOVABLE[2].hue;
+    out.dashed = charts[0].series.map((series) => series.dash).join();
+    </script>"""
+    found = looked_at(tmp_path, [Trace(overtaking, "one"), Trace(overtaking, "two")], driver)
+    assert found == {
+        "ready": "true",
+        "names": "A: hero,A: npc,B: hero,B: npc",
+        "colors": "true",
+        "dashed": "false,false,true,true",
+    }
+
+
+def test_index_of_runs(tmp_path: Path, overtaking, hostile) -> None:
+    driver = """<script>
+    const out = document.documentElement.dataset;
+    byId("filter").value = "overtake leader"; byId("filter").dispatchEvent(new Event("input"));
+    out.left = rows.filter(({ row }) => !row.hidden).length;
+    sortBy("duration"); out.first = body.rows[0].querySelector("a").textContent;
+    </script>"""
+    runs = [RunRow("a.html", Trace(overtaking, "a")), RunRow("b.html", Trace(hostile, "b"))]
+    assert shown_page(tmp_path, render_index(runs), driver) == {
+        "ready": "true",
+        "left": "1",
+        "first": "b",
+    }
+
+
+def looked_at(
+    folder: Path, traces: Sequence[Trace], driver: str, flags: Sequence[str] = ()
+) -> dict[str, str]:
+    return shown_page(folder, render_runs(traces), driver, flags)
+
+
+def shown_page(folder: Path, page: str, driver: str, flags: Sequence[str] = ()) -> dict[str, str]:
+    """Attributes of a page with a script of the test at its end, which its policy forbids."""
+    page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
+    path = folder / "page.html"
+    path.write_text(page.replace("</body>", driver + "</body>"), encoding="utf-8")
+    return attributes_of(path, folder / "profile", flags=flags)

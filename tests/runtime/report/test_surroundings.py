@@ -30,7 +30,7 @@ def surroundings(road_map: FakeMap | None) -> dict[str, object]:
     page = render_report(maker().text(80), road_map)
     data = re.search(r'<script type="application/json" id="run-data">(.*?)</script>', page)
     assert data is not None
-    found: dict[str, object] = json.loads(data[1])["surroundings"]
+    found: dict[str, object] = json.loads(data[1])["runs"][0]["surroundings"]
     return found
 
 

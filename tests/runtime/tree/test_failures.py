@@ -175,7 +175,11 @@ def test_what_cannot_go_on_names_its_place(make: Callable[[], Behaviour], messag
 def test_the_trace_of_a_failing_run_says_why_actions_ended() -> None:
     tree = Parallel("p", Task(HERO, 2, fails=True), Drive(NPC))
     run = Run(numbered(tree), ids=("hero", "npc")).go()
-    ends = [json.loads(line) for line in run.lines if '"action"' in line and '"start"' not in line]
+    ends = [
+        json.loads(line)
+        for line in run.lines
+        if line.startswith('{"t"') and '"action"' in line and '"start"' not in line
+    ]
     assert [(x["t"], x["status"], x["name"], x["source"], x["reason"]) for x in ends] == [
         (0.1, "fail", "hero task", "x.osc:2", "gave up"),
         (0.1, "end", "npc drive", "x.osc:3", "stopped"),

@@ -27,6 +27,7 @@ from osc2tx_runtime.language.tree import (
 from osc2tx_runtime.language.tree.override import guard
 from osc2tx_runtime.language.tree.variables import Sampled, Sampling
 from tests.runtime.tree.kit import Drive, FakeActor, FakeWorld, Run, Switch, Task, event
+from tests.traces import whatever_the_order
 
 ACTORS = ("hero", "npc")
 NAMES = ("a", "b", "c")
@@ -216,7 +217,7 @@ def run(spec: Spec, shuffle: random.Random | None) -> tuple[list[str], list[obje
         result.lines[:] = [type(error).__name__]
     except ScenarioError as error:
         result.lines.append(str(error))
-    return result.lines, list(builder.world.commands), result
+    return whatever_the_order(result.lines), list(builder.world.commands), result
 
 
 @settings(max_examples=150)

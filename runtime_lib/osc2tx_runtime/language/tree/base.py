@@ -188,6 +188,7 @@ class Node(Behaviour):
             self._stop_children(new_status)
             self.terminate(new_status)
             self._post_life_event(new_status)
+            self.context.trace.node_ends(self, self.context.time, new_status.name)
             if self.activity is not None:
                 self.activity.end(self.context.tick)
         elif new_status is INVALID:
@@ -210,6 +211,7 @@ class Node(Behaviour):
         self.status = RUNNING
         self.feedback_message = ""
         self.started_late, self._first_step = self.context.late, self.context.step
+        self.context.trace.node_starts(self, self.context.time)
         if self._started is not None:
             self.context.post(self._started)
         if self.activity is not None:

@@ -14,6 +14,7 @@ from .commands import command_of
 from .snapshots import Collisions, actor_state, light_states
 
 POLL = 0.1  # s between two looks for an actor of somebody else
+GLANCE = 0.5  # s to wait for a step of somebody else before it is looked for
 SUBSTEP, MOST_SUBSTEPS = 0.01, 16
 """s, and how many of them the server makes in a step at most."""
 
@@ -99,12 +100,32 @@ class Session:
 
     def step(self, commands: Sequence[Sequence[Any]]) -> Mapping[str, Any]:
         """Carry out commands, go on by a step, and return how things are then."""
-        self.apply(commands)
         if self._ticks:
+            self.apply(commands)
             self._world.tick(self._timeout)
-        else:
-            self._world.wait_for_tick(self._timeout)
-        return self.look()
+            return self.look()
+        late = self._steps_since_look()
+        self.apply(commands)
+        self._wait_for_step()
+        looked = self.look()
+        return {**looked, "skipped": max(looked["skipped"], late)}
+
+    def _steps_since_look(self) -> int:
+        """How many steps the server has made since the last look."""
+        frame = self._world.get_snapshot().frame
+        if self._frame is None:
+            self._frame = frame
+        return int(frame - self._frame)
+
+    def _wait_for_step(self) -> None:
+        """Wait until the other client has made a step, be it before this side began to wait."""
+        end = time.monotonic() + self._timeout
+        while not self._steps_since_look():
+            try:
+                self._world.wait_for_tick(GLANCE)
+            except RuntimeError:  # none came in so short a time
+                if time.monotonic() > end:
+                    raise
 
     def apply(self, commands: Sequence[Sequence[Any]]) -> None:
         """Carry out commands; one that the server refuses is an error."""

@@ -11,6 +11,7 @@ from osc2tx_runtime import (
     Emit,
     Event,
     Map,
+    Modifier,
     On,
     Parallel,
     Scenario,
@@ -24,6 +25,13 @@ from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, mps, s
 
 require_api(1)
+
+
+def brief() -> list[Modifier]:
+    """Modifier `brief`."""
+    return [
+        speed(9 * mps),
+    ]
 
 
 class Top(Scenario):
@@ -53,7 +61,7 @@ class Top(Scenario):
             self.invoke("quick", HurryMore, actor=self.ego),
             self.invoke(Hurry, actor=self.ego, to=20 * mps * 0.25),
             self.invoke(Platoon, first=self.ego, second=self.other, pace=8 * mps),
-            self.ego.drive(speed(9 * mps), duration=2 * s),
+            self.ego.drive(*brief(), duration=2 * s),
             Wait(lambda: self.invoked("quick").to == 18 * mps),
         )
 

@@ -7,6 +7,7 @@ OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
 from osc2tx_runtime import (
     Behaviour,
     Map,
+    Modifier,
     Parallel,
     Scenario,
     Serial,
@@ -18,9 +19,41 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.modifiers import keep_lane, lane, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import Speed, m, mps, s
 
 require_api(1)
+
+
+def careful(*, limit: Speed, in_lane: int = 2) -> list[Modifier]:
+    """Modifier `careful`."""
+    return [
+        speed(limit),
+        lane(in_lane, at="start"),
+    ]
+
+
+def gentle(*, top: Speed = 8 * mps) -> list[Modifier]:
+    """Modifier `gentle`."""
+    return [
+        speed(top),
+    ]
+
+
+def calm(*, top: Speed) -> list[Modifier]:
+    """Modifier `calm`."""
+    return [
+        speed(top),
+    ]
+
+
+def easy(*, top: Speed = 8 * mps, side: int) -> list[Modifier]:
+    """Modifier `easy`."""
+    return [
+        # as it was
+        keep_lane(),
+        speed(top + 1 * mps),
+        lane(side, at="start"),
+    ]
 
 
 class Demo(Scenario):
@@ -42,9 +75,9 @@ class Demo(Scenario):
         return Serial(
             "demo",
             self.ego.drive("a", speed(10 * mps), duration=2 * s),
-            self.ego.drive("b", speed(8 * mps), duration=2 * s),
-            self.ego.drive("c", speed(7 * mps), duration=2 * s),
-            self.ego.drive("d", speed(6 * mps), duration=2 * s),
+            self.ego.drive("b", *gentle(), duration=2 * s),
+            self.ego.drive("c", *gentle(top=7 * mps), duration=2 * s),
+            self.ego.drive("d", *calm(top=6 * mps), duration=2 * s),
             self.ego_parallel(),
         )
 
@@ -55,10 +88,7 @@ class Demo(Scenario):
             self.ego.drive(
                 "slow",
                 # easily
-                # as it was
-                keep_lane(),
-                speed(8 * mps + 1 * mps),
-                lane(self.slow_easy_side, at="start"),
+                *easy(side=self.slow_easy_side),
                 duration=3 * s,
             ),
             self.w(),

@@ -1,0 +1,74 @@
+"""Which applications of modifiers of the user's own are calls of their functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import PyName
+from osc2tx.backends.py_trees.naming import NameTable, identifier
+
+
+class ModifierCalls:
+    """Knows the functions of a module.
+
+    Args:
+        modifiers: The modifiers that have one.
+        names: Names of the module.
+    """
+
+    def __init__(self, modifiers: Iterable[ir.UserModifier], names: NameTable) -> None:
+        """See the class."""
+        self._modifiers = {modifier.key: modifier for modifier in modifiers}
+        self._names = names
+
+    def fitting(
+        self, application: ir.Application, calls: Sequence[ir.ModifierCall]
+    ) -> ir.UserModifier | None:
+        """Return the modifier whose function returns just these calls; `None` if it does not.
+
+        Args:
+            application: Where it is applied.
+            calls: What is left there of what it stands for.
+        """
+        modifier = self._modifiers.get(application.key)
+        given = {argument.parameter: argument.value for argument in application.arguments}
+        if modifier is None or any(map(ir.is_live, given.values())):
+            return None
+        defaults = {p.name: p.default for p in modifier.parameters if p.default is not None}
+        expected = ir.applied_with(modifier.calls, defaults | given)
+        return modifier if ir.means_same(expected, tuple(calls)) else None
+
+    def name(self, modifier: ir.UserModifier) -> PyName:
+        """Return the name of the function of a modifier."""
+        return self._names[modifier.key]
+
+    def arguments(
+        self, modifier: ir.UserModifier, application: ir.Application
+    ) -> list[tuple[PyName, ir.Expression]]:
+        """Return the arguments of a call that are not the defaults of its parameters."""
+        defaults = {p.name: p.default for p in modifier.parameters}
+        hidden = self.hidden(modifier)
+        return [
+            (parameter_name(argument.parameter, hidden), argument.value)
+            for argument in application.arguments
+            if not ir.means_same(argument.value, defaults[argument.parameter])
+        ]
+
+    def hidden(self, modifier: ir.UserModifier) -> frozenset[str]:
+        """Return what a function speaks of, so that no parameter of it may have that name."""
+        applied = [each for call in modifier.calls for each in call.applied]
+        values = [argument.value for call in modifier.calls for argument in call.arguments]
+        values += [argument.value for each in applied for argument in each.arguments]
+        values += [p.default for p in modifier.parameters if p.default is not None]
+        parts = (part for value in values for part in ir.walk(value))
+        units = (part.unit.name for part in parts if isinstance(part, ir.Quantity))
+        called = (call.name for call in modifier.calls)
+        others = (self._modifiers[each.key].name for each in applied)
+        return frozenset(map(identifier, (*units, *called, *others)))
+
+
+def parameter_name(name: str, hidden: frozenset[str]) -> PyName:
+    """Name a parameter; one called `m` would hide the unit in `5 * m`."""
+    wanted = identifier(name)
+    return PyName(f"{wanted}_" if wanted in hidden else wanted)

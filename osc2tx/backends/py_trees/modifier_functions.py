@@ -1,0 +1,73 @@
+"""Modifiers of the user's own, as functions of the module.
+
+Where one is applied, the module calls its function if what that returns is just what the program
+means there. Else the modifiers of the library that it stands for are written: some of them may say
+where the actor starts, which is said in `placement`, and a function takes no values that change
+while the scenario runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.calls import CallWriter
+from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr
+from osc2tx.backends.py_trees.expressions import ExpressionWriter
+from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
+from osc2tx.backends.py_trees.naming import NameTable
+from osc2tx.backends.py_trees.type_methods import TypeMethods
+from osc2tx.backends.py_trees.type_table import TypeTable
+from osc2tx.backends.py_trees.uses import Uses
+from osc2tx.backends.py_trees.view import CallView, UserModifierView
+
+
+def write_modifiers(
+    modifiers: Iterable[ir.UserModifier],
+    functions: ModifierCalls,
+    names: NameTable,
+    types: TypeTable,
+    methods: TypeMethods,
+    uses: Uses,
+) -> tuple[UserModifierView, ...]:
+    """Return the view models of the functions that a module defines, in their order.
+
+    Args:
+        modifiers: Those modifiers.
+        functions: Calls of them, and of those that the module imports.
+        names: Names of the module.
+        types: All types that the module knows.
+        methods: The methods that stand in classes.
+        uses: What the module has to import.
+    """
+
+    def write(modifier: ir.UserModifier) -> UserModifierView:
+        expressions = ExpressionWriter(
+            NameTable(),
+            uses.unit,
+            uses.name,
+            lambda type_: types.class_of((type_,)),
+            member=types.member,
+            type_methods=methods,
+            hidden=functions.hidden(modifier),
+        )
+        calls = CallWriter(expressions, uses.name, uses.modifier, functions)
+        parameters = [_parameter(p, expressions, types) for p in modifier.parameters]
+        about = ("", *modifier.comments) if modifier.comments else ()
+        listed = ", ".join(("*", *parameters)) if parameters else ""
+        signature = f"{names[modifier.key]}({listed}) -> list[{uses.name('Modifier')}]"
+        return UserModifierView(
+            signature=PyExpr(signature, Level.ATOM),
+            docstring=tuple(map(PyDocLine.of, (f"Modifier `{modifier.name}`.", *about))),
+            value=CallView(None, tuple(calls.modifiers(modifier.calls)), exploded=True),
+        )
+
+    return tuple(map(write, modifiers))
+
+
+def _parameter(
+    parameter: ir.MethodParameter, expressions: ExpressionWriter, types: TypeTable
+) -> str:
+    name = expressions.parameter(parameter.name)
+    text = f"{name}: {types.annotation(parameter.type)}"
+    return text if parameter.default is None else f"{text} = {expressions.write(parameter.default)}"

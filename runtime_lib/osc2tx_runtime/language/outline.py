@@ -1,0 +1,61 @@
+"""The nodes of a tree in the order of the scenario, with the words that people know them by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from osc2tx_runtime.language.base_action import BaseAction
+from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Wait
+from osc2tx_runtime.language.tree.events import describe
+
+__all__ = ["OutlineNode", "outline"]
+
+
+@dataclass(frozen=True, slots=True)
+class OutlineNode:
+    """One node of a tree.
+
+    Attributes:
+        node: The node itself.
+        last: For each level from the root down, whether the branch ends there.
+        kind: `serial`, `action`, `wait`, …
+        text: What the node is called or does.
+        source: Where the scenario says so, `file:line`; empty if nothing is known.
+    """
+
+    node: Behaviour
+    last: tuple[bool, ...]
+    kind: str
+    text: str
+    source: str
+
+
+def outline(root: Behaviour) -> Iterator[OutlineNode]:
+    """Yield every node from the top down, parents before their members."""
+    pending: list[tuple[Behaviour, tuple[bool, ...]]] = [(root, ())]
+    while pending:
+        node, last = pending.pop()
+        yield OutlineNode(node, last, _kind(node), _text(node), getattr(node, "source", ""))
+        children = list(node.children)
+        shown = [(child, (*last, child is children[-1])) for child in children]
+        pending += reversed(shown)
+
+
+def _kind(node: Behaviour) -> str:
+    for kind, name in ((Serial, "serial"), (Parallel, "parallel"), (OneOf, "one_of")):
+        if isinstance(node, kind):
+            return name
+    return "action" if isinstance(node, BaseAction) else type(node).__name__.lower()
+
+
+def _text(node: Behaviour) -> str:
+    """The name, without what the kind says already; a label with what is done under it."""
+    kind = _kind(node)
+    label = getattr(node, "label", None)
+    if isinstance(node, BaseAction) and label is not None:
+        return f"{label}: {node.action_name}"
+    if isinstance(node, Wait) and label is not None:
+        return f"{label}: {describe(node.trigger, node.condition)}"
+    name = node.name.removeprefix(kind).lstrip(" ,")
+    return "" if name == kind else name

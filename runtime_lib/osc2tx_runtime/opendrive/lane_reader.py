@@ -1,0 +1,154 @@
+"""OpenDRIVE text to lane sections and lanes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from lxml import etree
+
+from .model import Lane, LaneSection
+from .polynomials import Piecewise, Row
+from .xml_reader import Attributes, source_line
+
+__all__ = ["read_sections"]
+
+NARROWEST = -0.05
+"""Metres below nothing that are the rounding of whoever wrote the map."""
+
+_SIDES = ("left", "right")
+_Span = tuple[float, float]
+
+
+def read_sections(
+    lanes: etree._Element, length: float, attributes: Attributes
+) -> tuple[LaneSection, ...]:
+    """All lane sections of a road, in order of s.
+
+    A section of one side (`singleSide`) leaves the lanes of the other side as they are, so these
+    come from an earlier element.
+
+    Args:
+        lanes: The element `lanes` of a road.
+        length: Length of the road (m).
+        attributes: Of the file.
+
+    Raises:
+        MapError: There is no section, or a lane cannot be read.
+    """
+    elements = [(attributes.number(e, "s"), e) for e in lanes.iterchildren("laneSection")]
+    if not elements:
+        raise attributes.error(lanes, "has no `laneSection`; a road needs at least one")
+    elements.sort(key=lambda item: item[0])
+    begins = [min(max(begin, 0.0), length) for begin, _ in elements]
+    begins[0] = 0.0
+    ends = [*begins[1:], length]
+    found: list[list[Lane]] = [[] for _ in elements]
+    for side in _SIDES:
+        firsts = [i for i, (_, e) in enumerate(elements) if i == 0 or _says(e, side)]
+        for first, after in pairwise([*firsts, len(elements)]):
+            element = elements[first][1].find(side)
+            if element is not None:
+                span = begins[first], ends[after - 1]
+                for i in range(first, after):
+                    found[i].extend(_lanes(element, span, (i == first, i == after - 1), attributes))
+    for (_, element), section in zip(elements, found, strict=True):
+        # Edges are stacked from the centre outwards, so a repeated id would be an overlap.
+        if len({lane.id for lane in section}) != len(section):
+            raise attributes.error(element, "a lane id is used twice; make lane ids unique")
+    return tuple(
+        LaneSection(i, begins[i], ends[i], [lane for lane in found[i] if lane.id != 0])
+        for i in range(len(elements))
+    )
+
+
+def _says(section: etree._Element, side: str) -> bool:
+    """True if a section decides about the lanes of a side."""
+    one_side = section.get("singleSide") in ("true", "1")
+    return not one_side or section.find(side) is not None
+
+
+def _lanes(
+    side: etree._Element, span: _Span, is_end: tuple[bool, bool], attributes: Attributes
+) -> list[Lane]:
+    """Lanes of one side in one of the sections that its element holds for.
+
+    Args:
+        side: The element `left` or `right`.
+        span: Where it holds (m of s).
+        is_end: Whether this is the first, and the last, of these sections.
+        attributes: Of the file.
+    """
+    lanes = [_lane(element, span, attributes) for element in side.iterchildren("lane")]
+    for lane in lanes:
+        lane.previous_ids = lane.previous_ids if is_end[0] else (lane.id,)
+        lane.next_ids = lane.next_ids if is_end[1] else (lane.id,)
+    return lanes
+
+
+def _lane(element: etree._Element, span: _Span, attributes: Attributes) -> Lane:
+    begin, end = span
+    lane = Lane(
+        attributes.integer(element, "id"),
+        element.get("type", "none"),
+        source_line(element),
+    )
+    widths: list[tuple[float, Row]] = []
+    borders: list[tuple[float, Row]] = []
+    heights: list[tuple[float, float, float]] = []
+    for child in element:
+        tag = child.tag
+        if tag == "width" or tag == "border":
+            records = widths if tag == "width" else borders
+            start = begin + attributes.number(child, "sOffset")
+            records.append((start, attributes.cubic(child)))
+        elif tag == "link":
+            lane.previous_ids = _linked_ids(child, "predecessor", attributes)
+            lane.next_ids = _linked_ids(child, "successor", attributes)
+        elif tag == "height":
+            inner, outer = (attributes.number(child, edge) for edge in ("inner", "outer"))
+            heights.append((begin + attributes.number(child, "sOffset"), inner, outer))
+    lane.width = Piecewise.from_records(widths)
+    if lane.width is not None and (narrowest := lane.width.extremes(begin, end)[0]) < NARROWEST:
+        raise attributes.error(element, f"is {narrowest:g} m wide at one place; give a width")
+    lane.border = Piecewise.from_records(borders)
+    if lane.width is None and lane.border is not None:
+        _check_side(element, lane, span, attributes)
+    lane.heights = _heights(heights)
+    if element.get("direction", "standard") != "standard":
+        attributes.remark(element, f"has direction `{element.get('direction')}`, which is not read")
+    return lane
+
+
+def _check_side(element: etree._Element, lane: Lane, span: _Span, attributes: Attributes) -> None:
+    """A border on the other side of the road would fold the lane over its neighbours."""
+    assert lane.border is not None
+    low, high = lane.border.extremes(*span)
+    beyond = high if lane.id < 0 else -low
+    if beyond > -NARROWEST:
+        side, other = ("right", "left") if lane.id < 0 else ("left", "right")
+        raise attributes.error(
+            element,
+            f"is on the {side} of the road, its border {beyond:g} m to the {other} of the centre;"
+            " t grows to the left",
+        )
+
+
+def _heights(records: list[tuple[float, float, float]]) -> tuple[Piecewise, Piecewise] | None:
+    """Heights of both edges: even ramps from one record to the next."""
+    if not any(inner or outer for _, inner, outer in records):
+        return None
+    records = sorted({record[0]: record for record in records}.values())
+    starts = [start for start, _, _ in records]
+    edges = []
+    for edge in (1, 2):
+        rows: list[Row] = []
+        for here, onward in pairwise([*records, records[-1]]):
+            span = onward[0] - here[0]
+            slope = (onward[edge] - here[edge]) / span if span else 0.0
+            rows.append((here[edge], slope, 0.0, 0.0))
+        edges.append(Piecewise(starts, rows))
+    return edges[0], edges[1]
+
+
+def _linked_ids(link: etree._Element, name: str, attributes: Attributes) -> tuple[int, ...]:
+    return tuple(attributes.integer(e, "id") for e in link.iterchildren(name))

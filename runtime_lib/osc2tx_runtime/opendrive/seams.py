@@ -1,0 +1,108 @@
+"""Seams: where a lane goes on beside where it ends, or in another direction.
+
+Looked at are the joints of each lane that vehicles or persons use: the pieces that its road is made
+of, and the lanes that follow it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from .lane_advance import wrap
+from .model import DRIVING, Lane, Pose, Road
+from .poses import lane_pose
+
+__all__ = ["SMALLEST_GAP", "SMALLEST_TURN", "Seam", "seams"]
+
+SMALLEST_GAP = 0.01
+"""Metres up to which a step is the rounding of whoever wrote the map."""
+SMALLEST_TURN = math.radians(1.0)
+"""Likewise of headings (rad)."""
+
+_USED = DRIVING | {"biking", "shoulder", "sidewalk", "walking"}
+_BEFORE = 1e-6  # m: where a piece ends, as seen from it
+
+
+@dataclass(frozen=True, slots=True)
+class Seam:
+    """A place where a lane does not go on as it ends.
+
+    Attributes:
+        road: Road id.
+        lane: Lane id.
+        s: Road coordinate of the joint (m).
+        onto: Road and lane that follow; those of the seam itself for a joint inside of a lane.
+        gap: Distance (m) of both ends of the centre line.
+        turn: Change of heading there (rad), without sign.
+    """
+
+    road: str
+    lane: int
+    s: float
+    onto: tuple[str, int]
+    gap: float
+    turn: float
+
+    def __str__(self) -> str:
+        """Place and size, for people."""
+        road, lane = self.onto
+        beyond = "" if self.onto == (self.road, self.lane) else f" to lane {lane} of road {road}"
+        return (
+            f"lane {self.lane} of road {self.road} at s = {self.s:.2f} m{beyond}:"
+            f" {self.gap:.3f} m, {math.degrees(self.turn):.1f}°"
+        )
+
+
+def seams(roads: Iterable[Road]) -> tuple[Seam, ...]:
+    """All seams above the rounding of maps, in the order of roads, sections and lanes."""
+    return tuple(
+        seam
+        for road in roads
+        for section in road.sections
+        for lane in section.lanes.values()
+        if lane.type in _USED and section.end > section.begin
+        for seam in (*_within(lane), *_onward(lane))
+    )
+
+
+def _within(lane: Lane) -> Iterator[Seam]:
+    """Seams at joints of the pieces of road and lane."""
+    begin, end, road = lane.section.begin, lane.section.end, lane.road
+    if not lane.section.ready:
+        lane.section.prepare()
+    starts = {*road.reference.starts[1:], *lane.centre.starts[1:]}
+    for profile in (road.elevation, road.superelevation):
+        starts.update(() if profile is None else profile.starts[1:])
+    for s in sorted(starts):
+        if begin + _BEFORE < s < end:
+            before, after = lane_pose(lane, s - _BEFORE, 0.0), lane_pose(lane, s, 0.0)
+            yield from _seam(lane, s, (road.id, lane.id), before, after)
+
+
+def _onward(lane: Lane) -> Iterator[Seam]:
+    """Seams to the lanes that follow in direction of travel."""
+    s, before = _end(lane, at_exit=True)
+    for onward in lane.successors:
+        if onward.section.end > onward.section.begin:
+            _, after = _end(onward, at_exit=False)
+            yield from _seam(lane, s, (onward.road.id, onward.id), before, after)
+
+
+def _end(lane: Lane, *, at_exit: bool) -> tuple[float, Pose]:
+    """The s of one end of a lane, just inside of it, and the pose there."""
+    section = lane.section
+    if not section.ready:
+        section.prepare()
+    inset = min(_BEFORE, 0.5 * (section.end - section.begin))
+    upper = at_exit == (lane.direction > 0)
+    s = section.end - inset if upper else section.begin
+    return s, lane_pose(lane, s, 0.0)
+
+
+def _seam(lane: Lane, s: float, onto: tuple[str, int], before: Pose, after: Pose) -> Iterator[Seam]:
+    gap = math.dist(before[:3], after[:3])
+    turn = abs(wrap(after.h - before.h))
+    if gap > SMALLEST_GAP or turn > SMALLEST_TURN:
+        yield Seam(lane.road.id, lane.id, round(s, 3), onto, gap, turn)

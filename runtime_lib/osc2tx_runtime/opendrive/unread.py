@@ -1,0 +1,58 @@
+"""Elements of a map that matter for where things are, and that nothing here reads."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+
+from lxml import etree
+
+from .xml_reader import parse_xml
+
+__all__ = ["READ", "unread", "unread_elements"]
+
+READ = frozenset(
+    {
+        *("OpenDRIVE", "header", "geoReference", "offset"),
+        *("road", "link", "predecessor", "successor", "planView", "geometry"),
+        *("line", "arc", "spiral", "poly3", "paramPoly3"),
+        *("elevationProfile", "elevation", "lateralProfile", "superelevation"),
+        *("lanes", "laneOffset", "laneSection", "left", "center", "right"),
+        *("lane", "width", "border", "height"),
+        *("signals", "signal", "signalReference", "validity", "objects"),
+        *("junction", "connection", "laneLink", "controller", "control"),
+    }
+)
+"""What the reader takes, beside crosswalks among the objects."""
+
+_MATTERS: Mapping[str, str] = {
+    "shape": "the road is flat across instead",
+    "crossSectionSurface": "the road is flat across instead",
+}
+"""Elements that change where things are, and what is there instead."""
+
+
+def unread(root: etree._Element) -> tuple[str, ...]:
+    """A sentence for each kind of element that matters and is not read."""
+    remarks = []
+    for tag, instead in _MATTERS.items():
+        number = sum(1 for _ in root.iter(tag))
+        if number:
+            remarks.append(f"`{tag}` ({number}) is not read: {instead}")
+    return tuple(remarks)
+
+
+def unread_elements(path: Path) -> tuple[tuple[str, int], ...]:
+    """Elements of a file that are not read, with their number, the most frequent first.
+
+    Raises:
+        MapError: The file cannot be read.
+    """
+    root = parse_xml(path)
+    for element in list(root.iter("object")):
+        parent = element.getparent()
+        if element.get("type") == "crosswalk" and parent is not None:
+            parent.remove(element)
+    tags = [str(e.tag) for e in root.iter(etree.Element) if e.tag not in READ]
+    return tuple(sorted(Counter(tags).items(), key=lambda item: (-item[1], item[0])))

@@ -1,0 +1,53 @@
+"""The index of many runs: one row for each, with a link to its page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .html import fill, resource
+from .json_values import Json, number, plain, text
+from .page import Trace
+from .trace_reader import read_run
+
+__all__ = ["RunRow", "render_index"]
+
+
+@dataclass(frozen=True, slots=True)
+class RunRow:
+    """A run in the index.
+
+    Attributes:
+        page: Its page, relative to the index, with `/`.
+        trace: Its trace.
+    """
+
+    page: str
+    trace: Trace
+
+
+def render_index(rows: Sequence[RunRow]) -> str:
+    """The index as text; the same arguments give the same text."""
+    data: Json = {"runs": [_row(row) for row in rows]}
+    script = resource("base.js") + "\n" + resource("index.js")
+    return fill(resource("index.html"), resource("report.css"), script, data)
+
+
+def _row(row: RunRow) -> Json:
+    run = read_run(row.trace.lines)
+    result = run.result or {}
+    warnings = result.get("warnings")
+    parameters = run.header.get("parameters")
+    return {
+        "page": row.page,
+        "name": row.trace.name,
+        "scenario": text(run.header.get("scenario")),
+        "world": text(run.header.get("world")) or "embedded",
+        "seed": text(run.header.get("seed")),
+        "parameters": plain(parameters) if isinstance(parameters, dict) else {},
+        "status": text(result.get("status")),
+        "reason": text(result.get("reason")),
+        "duration": number(run.end),
+        "collisions": sum(mark["kind"] == "collision" for mark in run.marks),
+        "warnings": len(warnings) if isinstance(warnings, list) else 0,
+    }

@@ -1,0 +1,125 @@
+"""Pages of traces that were written before: one run, two over each other, or all of a folder."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.errors import InputError
+from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
+from osc2tx_runtime.report.index_page import RunRow, render_index
+from osc2tx_runtime.report.page import Trace, render_runs
+from osc2tx_runtime.running.output_files import may_replace, write_output
+
+__all__ = ["folder_report", "trace_report"]
+
+
+class _Maps:
+    """The maps of traces, each read once; one that is not found is a warning.
+
+    Args:
+        folders: Where to look, before the maps of this package.
+
+    Attributes:
+        warnings: What is not drawn.
+    """
+
+    def __init__(self, folders: Sequence[Path]) -> None:
+        self._folders = folders
+        self._known: dict[str, RoadMap | None] = {}
+        self.warnings: list[str] = []
+
+    def of(self, trace: Trace) -> RoadMap | None:
+        """Return the map of a trace."""
+        name = _map_name(trace)
+        if name and name not in self._known:
+            self._known[name] = self._read(name)
+        return self._known.get(name)
+
+    def _read(self, name: str) -> RoadMap | None:
+        try:
+            return read_map(find_map(name, self._folders))
+        except (InputError, MapError) as error:
+            self.warnings.append(f"the page has no road map: {error}")
+            return None
+
+
+def trace_report(
+    traces: Sequence[Path], page: Path | None, map_path: Sequence[Path]
+) -> tuple[Path, list[str]]:
+    """Write the page of one trace, or of two runs over each other.
+
+    Args:
+        traces: One or two files.
+        page: Where to; beside the first trace if it is None.
+        map_path: Folders with maps, or the map itself.
+
+    Returns:
+        The page, and what it does not show.
+
+    Raises:
+        InputError: A trace cannot be read, or the page cannot be written.
+    """
+    maps = _Maps(map_path)
+    read = [_read_trace(path, path.stem) for path in traces]
+    name = "-and-".join(path.stem for path in traces)
+    target = page or traces[0].with_name(f"{name}.html")
+    _write(target, render_runs(read, maps.of(read[0])))
+    return target, maps.warnings
+
+
+def folder_report(
+    folder: Path, out: Path | None, map_path: Sequence[Path]
+) -> tuple[Path, list[str]]:
+    """Write a page for each trace below a folder, and an index of them.
+
+    Args:
+        folder: It and the folders below it hold traces, `*.jsonl`.
+        out: Folder for the pages; None for beside the traces.
+        map_path: Folders with maps, or the map itself.
+
+    Returns:
+        The index, and what the pages do not show.
+
+    Raises:
+        InputError: There is no trace, one cannot be read, or a page cannot be written.
+    """
+    maps, rows = _Maps(map_path), []
+    target = out or folder
+    paths = sorted(folder.rglob("*.jsonl"))
+    if not paths:
+        raise InputError(f"{folder} has no traces (*.jsonl)")
+    for path in paths:
+        place = path.relative_to(folder)
+        trace = _read_trace(path, str(place.with_suffix("")))
+        page = place.with_suffix(".html")
+        _write(target / page, render_runs([trace], maps.of(trace)))
+        rows.append(RunRow(page.as_posix(), trace))
+    index = target / "index.html"
+    _write(index, render_index(rows))
+    return index, maps.warnings
+
+
+def _read_trace(path: Path, name: str) -> Trace:
+    try:
+        return Trace(path.read_text(encoding="utf-8").splitlines(), name)
+    except (OSError, ValueError) as error:
+        raise InputError(f"trace {path} cannot be read: {error}") from error
+
+
+def _write(page: Path, text: str) -> None:
+    if not may_replace("report", page):
+        raise InputError(f"{page}: there is a file, and it is no report; name another one")
+    write_output("report", page, text)
+
+
+def _map_name(trace: Trace) -> str:
+    """The map that the header names; empty if there is none."""
+    try:
+        header = json.loads(trace.lines[0]) if trace.lines else {}
+    except (ValueError, RecursionError):
+        return ""
+    name = header.get("map") if isinstance(header, dict) else None
+    return name if isinstance(name, str) else ""
