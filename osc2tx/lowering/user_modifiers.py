@@ -79,8 +79,8 @@ class ModifierLowering:
         if not self._applies(node, callee):
             return ()
         if callee.origin != "user":
-            actor = lower_expression(self.ctx, node.actor) if node.actor else self.actor
-            return (Applied(lower_modifier(self.ctx, node, self.what), callee.target, actor),)
+            call = lower_modifier(self.ctx, node, self.what)
+            return (Applied(call, callee.target, self._actor_of(node)),)
         if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
             self._refuse(
                 node,
@@ -108,16 +108,22 @@ class ModifierLowering:
         if isinstance(callee, sym.ModifierSymbol) and callee.origin == "user":
             self._inside(node, callee).bind(callee)
 
+    def _actor_of(self, node: ast.ModifierApplication) -> ir.Expression | None:
+        """Return whose behavior is modified."""
+        return self.actor if node.actor is None else lower_expression(self.ctx, node.actor)
+
     def _inside(
         self, node: ast.ModifierApplication, callee: sym.ModifierSymbol
     ) -> ModifierLowering:
         chain = (*self.chain, node)
         prefix = (*self.within, *chain)
         place = Place(model=self.ctx.model, owner=callee, prefix=prefix, it=self.it)
+        actor = self._actor_of(node)
         return replace(
             self,
-            ctx=replace(self.ctx.at(place), actor=self.actor, receiver=None),
-            constraints=self.constraints.with_actor(self.actor),
+            ctx=replace(self.ctx.at(place), actor=actor, receiver=None),
+            constraints=self.constraints.with_actor(actor),
+            actor=actor,
             what=f"{self.what}.{node.modifier.text}",
             chain=chain,
         )
@@ -125,7 +131,9 @@ class ModifierLowering:
     def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
         """Return what `bind` found."""
         fields = parameters_of(callee)
-        values = ((field, self.ctx.given.get((*self.within, *self.chain, field))) for field in fields)
+        values = (
+            (field, self.ctx.given.get((*self.within, *self.chain, field))) for field in fields
+        )
         return {field: value for field, value in values if value is not None}
 
     def bind(self, callee: sym.ModifierSymbol) -> None:
