@@ -2,7 +2,7 @@
 
 A file for each kind of actors, read from the registry: signature and docstring of the class that
 carries an action out, and the modifiers that it takes; the section of the standard is from the
-catalogue. `modifiers.py` beside them names groups of modifiers. A test compares.
+catalogue. A test compares.
 """
 
 from __future__ import annotations
@@ -24,28 +24,18 @@ from osc2tx.backends.py_trees.naming import class_name
 from osc2tx.catalogue import catalogue
 from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
 from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
-from osc2tx_runtime.domain.modifiers.groups import (
-    PATH_SHAPERS,
-    SIDE_FREE,
-    SPEED_FREE,
-    TURN_SHAPERS,
-)
+from osc2tx_runtime.domain.modifiers import groups
 from osc2tx_runtime.language.registry import Method, methods
 
 FOLDER = Path(__file__).parents[1] / "runtime_lib/osc2tx_runtime/domain/methods"
-PACKAGE = "osc2tx_runtime.domain.methods"
-MODIFIERS = "osc2tx_runtime.domain.modifiers"
 MADE = "made by tools/make_actor_methods.py"
 
 STARTS = "StartModifier"
 """Modifiers that actions take `at: start` alone."""
 
 GROUPS: dict[str, tuple[type, ...]] = {
-    "SpeedModifier": SPEED_FREE,
-    "SideModifier": SIDE_FREE,
-    "TurnModifier": TURN_SHAPERS,
-    "PathModifier": PATH_SHAPERS,
-    STARTS: tuple(kind for kind in KINDS.values() if kind.facts.rules.starts),
+    name: get_args(getattr(groups, name))
+    for name in ("SpeedModifier", "SideModifier", "TurnModifier", "PathModifier", STARTS)
 }
 """Modifiers that actions take together."""
 
@@ -59,25 +49,11 @@ Imports = dict[str, set[str]]
 
 def render() -> dict[Path, str]:
     """Return the texts of all files."""
+    starting = {kind for kind in KINDS.values() if kind.facts.rules.starts}
+    if starting != set(GROUPS[STARTS]):
+        sys.exit(f"{STARTS} are others: {sorted(kind.__name__ for kind in starting)}")
     kinds = sorted({method.kind for method in methods.all()})
-    files = {FOLDER / f"{kind}.py": _methods_of(kind) for kind in kinds}
-    return {FOLDER / "modifiers.py": _groups(), **files}
-
-
-def _groups() -> str:
-    classes = sorted({kind.__name__ for group in GROUPS.values() for kind in group})
-    aliases = (
-        f"{name}: TypeAlias = {' | '.join(kind.__name__ for kind in group)}"
-        for name, group in GROUPS.items()
-    )
-    return _formatted(
-        f'"""Modifiers that actions take together; {MADE}."""',
-        "from __future__ import annotations\n",
-        "from typing import TypeAlias\n",
-        f"from {MODIFIERS} import {', '.join(classes)}\n",
-        f"__all__ = {sorted(GROUPS)!r}\n",
-        *aliases,
-    )
+    return {FOLDER / f"{kind}.py": _methods_of(kind) for kind in kinds}
 
 
 def _methods_of(kind: str) -> str:
@@ -132,19 +108,18 @@ def _method(method: Method, imports: Imports) -> Iterator[str]:
 def _modifiers(factory: type[Any], imports: Imports) -> Iterator[str]:
     """Yield the types of modifiers that an action takes: groups of them, then single ones."""
     taken = set(factory.accepts)
-    left, own = set(taken), f"{PACKAGE}.modifiers"
-    groups = []
+    left, names = set(taken), []
     for name, group in GROUPS.items():
         if name != STARTS and set(group) <= taken and left & set(group):
-            groups.append(name)
+            names.append(name)
             left -= set(group)
     if issubclass(factory, ModifiableAction) and not set(GROUPS[STARTS]) <= taken:
-        groups.append(STARTS)
+        names.append(STARTS)
         left -= set(GROUPS[STARTS])
-    imports.setdefault(own, set()).update(groups)
+    imports.setdefault(groups.__name__, set()).update(names)
     for kind in left:
         imports.setdefault(kind.__module__, set()).add(kind.__name__)
-    yield from (*groups, *sorted(kind.__name__ for kind in left))
+    yield from (*names, *sorted(kind.__name__ for kind in left))
 
 
 def _parameters(factory: type[Any], imports: Imports) -> Iterator[str]:

@@ -4,8 +4,8 @@ Exit codes: 0 ok (warnings included), 1 outputs are stale, or warnings under --s
 or settings, 3 errors in a source, 4 unreadable input or unwritable output, 5 the scenario ran and
 failed, 70 a bug of ours.
 
-`init`, `check`, `build`, `report`, `fmt`, `map`, `config` and `explain` hold the commands, each
-loaded when it is asked for; `options` and `progress` are what they share.
+`init`, `check`, `build`, `report`, `fmt`, `map`, `config`, `reference` and `explain` hold the
+commands, each loaded when it is asked for; `options` and `progress` are what they share.
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
     "map": ("osc2tx.cli.map:map", "Say what is in a road map, and what is wrong with it."),
     "config": ("osc2tx.cli.config:config", "Show the settings in force, and where they are from."),
+    "reference": ("osc2tx.cli.reference:reference", "Say what a name of the library means."),
     "explain": ("osc2tx.cli.explain:explain", "Say what a diagnostic code means."),
 }
 

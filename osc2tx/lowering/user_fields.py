@@ -73,14 +73,17 @@ def _has_value(field: sym.FieldSymbol) -> bool:
     return field.default is not None or bool(field.constraints)
 
 
-def user_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:
-    """Return a type and its bases, as far as they are not the library's."""
-    found = []
+def user_bases(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
+    """Yield a type and its bases, as far as they are not the library's."""
     current: TypeSymbol | None = symbol
     while current is not None and current.origin == "user":
-        found.append(current)
+        yield current
         current = current.base
-    return tuple(found)
+
+
+def user_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:
+    """Return the same types at once."""
+    return tuple(user_bases(symbol))
 
 
 def class_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import takewhile
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
@@ -13,8 +14,8 @@ from osc2tx.lowering.user_fields import (
     class_default,
     is_optional,
     unused_fields,
+    user_bases,
     user_fields,
-    user_lineage,
 )
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
@@ -35,13 +36,19 @@ def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.Us
     symbols: dict[str, TypeSymbol] = {}
     for symbol in used:
         _add(ctx, symbol, symbols, ())
+    seen: set[TypeSymbol] = set()
     for symbol in (*symbols.values(), *_own_types(ctx)):
-        _add_unused(ctx.quiet(), symbol, symbols)
+        _add_unused(ctx.quiet(), symbol, symbols, seen)
     for combined in ctx.combined.values():
         if combined.name in symbols:
             _report_name(ctx, combined.name, combined.span)
-    lowered = (_lower_type(ctx, symbol) for symbol in symbols.values())
+    nodes = {_place(node.name.span): node for node in _declarations(ctx)}
+    lowered = (_lower_type(ctx, s, nodes.get(_place(s.span))) for s in symbols.values())
     return (*lowered, *ctx.combined.values())
+
+
+def _place(span: Span) -> tuple[str, int]:
+    return span.source.name, span.start
 
 
 def _own_types(ctx: LoweringContext) -> Iterable[TypeSymbol]:
@@ -52,18 +59,22 @@ def _own_types(ctx: LoweringContext) -> Iterable[TypeSymbol]:
             yield symbol
 
 
-def _add_unused(ctx: LoweringContext, symbol: TypeSymbol, symbols: dict[str, TypeSymbol]) -> None:
-    """Add a type and the types of fields that nobody speaks of."""
+def _add_unused(
+    ctx: LoweringContext,
+    symbol: TypeSymbol,
+    symbols: dict[str, TypeSymbol],
+    seen: set[TypeSymbol],
+) -> None:
+    """Add a type and the types of fields that nobody speaks of; of those seen, that is done."""
     _add(ctx, symbol, symbols, ())
-    seen: set[TypeSymbol] = set()
     pending = [symbol]
     while pending:
-        for each in user_lineage(pending.pop()):
+        for each in takewhile(lambda t: t not in seen, user_bases(pending.pop())):
+            seen.add(each)
             for field in unused_fields(ctx, each):
                 for needed in _object_types(field.type):
                     _add(ctx, needed, symbols, ())
-                    pending += [] if needed in seen else [needed]
-                    seen.add(needed)
+                    pending.append(needed)
 
 
 def _add(
@@ -72,8 +83,9 @@ def _add(
     symbols: dict[str, TypeSymbol],
     around: tuple[TypeSymbol, ...],
 ) -> None:
-    """Add a type below all that it needs."""
-    for each in reversed(user_lineage(symbol)):
+    """Add a type below all that it needs; above one that is there, all its bases are."""
+    missing = takewhile(lambda t: symbols.get(t.name) is not t, user_bases(symbol))
+    for each in reversed(tuple(missing)):
         if each in around:
             continue
         for field in user_fields(ctx, each):
@@ -102,8 +114,11 @@ def _object_types(type_: types.Type) -> Iterable[TypeSymbol]:
             return ()
 
 
-def _lower_type(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
-    node = next((s for s in _declarations(ctx) if s.name.span == symbol.span), None)
+def _lower_type(
+    ctx: LoweringContext,
+    symbol: TypeSymbol,
+    node: ast.ActorDeclaration | ast.StructDeclaration | None,
+) -> ir.UserType:
     return ir.UserType(
         name=symbol.name,
         span=symbol.span,

@@ -11,10 +11,18 @@ from functools import cache
 from pathlib import Path
 
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, SourceFile
+from osc2tx.stdlib.meanings import member_meanings
 from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
 from osc2tx.syntax import ast, parse
 
-__all__ = ["DOMAIN", "TYPES", "library_file", "library_source", "parse_library_file"]
+__all__ = [
+    "DOMAIN",
+    "TYPES",
+    "library_file",
+    "library_source",
+    "member_meanings",
+    "parse_library_file",
+]
 
 TYPES, DOMAIN = "types.osc", "domain.osc"
 

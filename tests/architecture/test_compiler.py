@@ -37,7 +37,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"diagnostics", "formatter", "options", "support"},
     "building": {"compilation", "config"}
     | {"diagnostics", "options", "resources", "support", "version"},
-    "cli": {"backends", "building", "compilation", "config"}
+    "reference": {"catalogue", "stdlib", "support", "syntax"},
+    "cli": {"backends", "building", "compilation", "config", "reference"}
     | {"diagnostics", "options", "resources", "support", "version"},
     "start": {"cli"},
     "__main__": {"start"},

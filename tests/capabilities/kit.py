@@ -128,12 +128,6 @@ def next_step(t: float) -> float:
 # --- Motion in closed form, written down anew -----------------------------------------------------
 
 
-def quintic(start: float, end: float, duration: float, t: float) -> float:
-    """Course with rate and curvature zero at both ends, by the polynomial 6x^5 - 15x^4 + 10x^3."""
-    x = min(max(t / duration, 0.0), 1.0)
-    return start + (end - start) * (6.0 * x**5 - 15.0 * x**4 + 10.0 * x**3)
-
-
 def cosine(start: float, end: float, duration: float, t: float) -> float:
     """Course along half a cosine."""
     x = min(max(t / duration, 0.0), 1.0)

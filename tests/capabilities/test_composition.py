@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tests.capabilities.kit import DT, ROUNDED, Perform, cosine, next_step, quintic
+from tests.capabilities.kit import DT, ROUNDED, Perform, cosine, next_step
 
 
 def test_c30_steps_follow_without_a_gap(perform: Perform) -> None:
@@ -22,7 +22,7 @@ def test_c30_steps_follow_without_a_gap(perform: Perform) -> None:
     # From the middle of lane 1 (12.25 m right of the road's) to that of lane 2, 3.5 m further left.
     for line in run.states("ego"):
         t = line["t"]
-        y = quintic(-12.25, -8.75, 4.0, t - 2.0) + quintic(0.0, -3.5, 4.0, t - 9.5)
+        y = cosine(-12.25, -8.75, 4.0, t - 2.0) + cosine(0.0, -3.5, 4.0, t - 9.5)
         assert line["y"] == pytest.approx(y, abs=ROUNDED)
 
 
@@ -36,7 +36,7 @@ def test_c31_members_of_a_parallel_share_time(perform: Perform) -> None:
     for line in run.during("ego", left):
         # Both changes take their course as if they were alone.
         assert line["v"] == pytest.approx(cosine(10.0, 16.0, 4.0, line["t"]), abs=ROUNDED)
-        assert line["y"] == pytest.approx(quintic(-8.75, -5.25, 5.0, line["t"]), abs=ROUNDED)
+        assert line["y"] == pytest.approx(cosine(-8.75, -5.25, 5.0, line["t"]), abs=ROUNDED)
     assert run.span("other drive").end == 3.0
     # overlap: end - the short one starts late, so that both end together.
     short = run.span("other change_speed")

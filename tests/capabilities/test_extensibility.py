@@ -9,7 +9,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.options import CompileOptions
 from osc2tx_runtime.errors import SlotConflict
-from tests.capabilities.kit import CAPABILITIES, DT, ROUNDED, Perform, next_step, quintic
+from tests.capabilities.kit import CAPABILITIES, DT, ROUNDED, Perform, cosine, next_step
 from tests.end_to_end.harness import generate
 from tests.own_actions import install, run_module
 
@@ -47,7 +47,7 @@ def test_c34_a_car_is_handed_over_and_shared(perform: Perform) -> None:
         t = line["t"]
         v = max(20.0 - 4.0 * max(t - 2.0, 0.0), 10.0) + 2.0 * max(t - 5.0, 0.0)
         assert line["v"] == pytest.approx(v, abs=ROUNDED)
-        assert line["y"] == pytest.approx(quintic(-8.75, -5.25, 3.0, t - 2.0), abs=ROUNDED)
+        assert line["y"] == pytest.approx(cosine(-8.75, -5.25, 3.0, t - 2.0), abs=ROUNDED)
 
 
 def test_c34_a_conflict_ends_the_run_and_is_named(perform: Perform) -> None:

@@ -23,10 +23,9 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.processes import HANGING
 from tests.unit.backends.xosc.documents import PLAIN, compiled
-from tests.unit.backends.xosc.played import (
+from tests.xosc.played import (
     Played,
     compare,
-    spread,
     with_values_of,
     world,
 )
@@ -147,7 +146,7 @@ def test_capabilities(path: Path, tmp_path: Path) -> None:
         if what == "places":
             difference = compare(document, expected, found, FINE, patience)
             for actor, (metres, t) in difference.apart.items():
-                shifted = difference.late * spread(expected, actor)
+                shifted = difference.late * difference.spread[actor]
                 assert metres < near + shifted, f"{actor} at {t} s"
         elif what == "held":
             assert distances(found) == pytest.approx(distances(expected), abs=near)

@@ -33,6 +33,9 @@ def known(value: float) -> Interval:
     return Interval(value, value)
 
 
+STEADY = Interval(0.0, 0.0)
+"""Acceleration of who keeps its speed."""
+
 CENTRE = Interval(0.0, 0.0)
 """Of a lane."""
 
@@ -49,6 +52,8 @@ class ActorState:
         aim: Speed (m/s) that its last change had as its goal; `None` without one, or if
             there are several.
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
+        pending: Between which accelerations (m/s^2) a change that is cut short may leave it.
+        drift: Fastest speed across the road (m/s) that a change which is cut short may leave.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.
     """
@@ -59,6 +64,8 @@ class ActorState:
     pose: Pose | None = None
     aim: float | None = None
     rate: float | None = 0.0
+    pending: Interval = STEADY
+    drift: float = 0.0
     unfinished: tuple[tuple[str, str], ...] = ()
 
     def with_unfinished(self, domain: str, event: str) -> ActorState:
@@ -68,7 +75,14 @@ class ActorState:
     def finished(self, domain: str) -> ActorState:
         """Return the state in which nothing changes in a domain."""
         rate = 0.0 if domain == LONGITUDINAL else self.rate
-        return replace(self, rate=rate, unfinished=self._others(domain))
+        pending = STEADY if domain == LONGITUDINAL else self.pending
+        drift = 0.0 if domain == LATERAL else self.drift
+        others = self._others(domain)
+        return replace(self, rate=rate, pending=pending, drift=drift, unfinished=others)
+
+    def going_on(self, other: ActorState) -> ActorState:
+        """Return the state in which what changes goes on as in another one."""
+        return replace(self, rate=other.rate, pending=other.pending, drift=other.drift)
 
     def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
         return tuple(pair for pair in self.unfinished if pair[0] != domain)
@@ -91,5 +105,7 @@ def merged(a: ActorState, b: ActorState) -> ActorState:
         pose=a.pose if a.pose == b.pose else None,
         aim=b.aim if a.aim is None else a.aim if b.aim in (None, a.aim) else None,
         rate=a.rate if a.rate == b.rate else None,
+        pending=a.pending.over(b.pending),
+        drift=max(a.drift, b.drift),
         unfinished=unfinished,
     )

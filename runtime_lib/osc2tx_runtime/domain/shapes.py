@@ -151,6 +151,9 @@ class CommonPositionShape(CommonShape, AnyPositionShape):
 class CommonLateralShape(CommonShape, AnyLateralShape):
     """Of a place across the lane (m); the rate is the lateral speed (m/s)."""
 
+    def _smooth(self, target: float, peak: float) -> Profile:
+        return Cosine(0.0, target, cosine_duration(target, peak))
+
 
 ShapeT = TypeVar("ShapeT", bound=AnyShape, covariant=True)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .actor_dimensions import COMFORT, Limits
 from .commands import AccelerationChange
-from .profiles import Linear, Profile, Quintic
+from .profiles import QUINTIC_PEAK, Linear, Profile, Quintic
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 from .step_inputs import StepInputs
@@ -47,7 +47,7 @@ def acceleration_profile(
         return Linear(start, command.target, change / (peak or limits.jerk))
     jerk = peak or COMFORT * limits.jerk
     if command.profile == "smooth":
-        return Quintic(start, command.target, command.duration or 1.875 * change / jerk)
+        return Quintic(start, command.target, command.duration or QUINTIC_PEAK * change / jerk)
     return Linear(start, command.target, command.duration or change / jerk)
 
 

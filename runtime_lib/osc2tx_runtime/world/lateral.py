@@ -29,7 +29,7 @@ from .commands import (
 from .lane_neighbours import neighbouring, offset_from
 from .lateral_feedback import BesideRun, SidewaysRun
 from .lateral_limits import HEADING_LIMIT, SIDEWAYS
-from .profiles import Linear, Profile, Quintic, quintic_duration
+from .profiles import Cosine, Linear, Profile, Quintic, cosine_duration, fastest_cosine
 from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 from .step_inputs import StepInputs
@@ -171,21 +171,24 @@ def shift_profile(
     if profile == "constant":
         usual = 1.0 / LANE_CHANGE_TIME if change == 0.0 else change / _usual_time(change, limits)
         return Linear(offset, end, duration or change / (peak or usual))
-    fastest = quintic_duration(change, rate_peak=None, curve_peak=limits.lateral)
     if profile == "asap":
-        slowed = 0.0 if peak is None else quintic_duration(change, rate_peak=peak, curve_peak=1.0)
-        return Quintic(offset, end, max(fastest, slowed), rate)
-    if duration is not None:
-        return Quintic(offset, end, duration, rate)
-    if peak is not None:
-        return Quintic(offset, end, quintic_duration(change, rate_peak=peak, curve_peak=1.0), rate)
-    time = _usual_time(change, limits)
+        slowed = 0.0 if peak is None else cosine_duration(change, peak)
+        time = max(fastest_cosine(change, limits.lateral), slowed)
+    elif duration is not None:
+        time = duration
+    elif peak is not None:
+        time = cosine_duration(change, peak)
+    else:
+        time = _usual_time(change, limits)
+    if abs(rate) <= _AT_REST:
+        return Cosine(offset, end, time)
     # Taking over a lateral speed needs time even where there is no distance to go.
-    return Quintic(offset, end, max(time, 1.0) if abs(rate) > _AT_REST else time, rate)
+    is_free = profile != "asap" and duration is None and peak is None
+    return Quintic(offset, end, max(time, 1.0) if is_free else time, rate)
 
 
 def _usual_time(change: float, limits: Limits) -> float:
-    fastest = quintic_duration(change, rate_peak=None, curve_peak=limits.lateral)
+    fastest = fastest_cosine(change, limits.lateral)
     return max(LANE_CHANGE_TIME * math.sqrt(change / LANE_CHANGE_WIDTH), fastest)
 
 
@@ -274,7 +277,7 @@ def excessive_shift(
         limits: Of the actor.
     """
     here = offset_from(road_map, LanePosition(target.road, target.lane, target.s), me.x, me.y)
-    least = quintic_duration(abs(offset - here), rate_peak=None, curve_peak=limits.lateral)
+    least = fastest_cosine(offset - here, limits.lateral)
     if duration >= least - 1e-9:
         return None
     return (

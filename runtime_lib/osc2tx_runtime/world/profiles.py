@@ -7,12 +7,12 @@ value is exact and the step size has no influence.
 | profile    | form here                                                     |
 |------------|---------------------------------------------------------------|
 | `constant` | constant rate                                                 |
-| `smooth`   | speed: half a cosine, the `sinusoidal` shape of OpenSCENARIO  |
-|            | XML; lateral: quintic, whose rate and derivative of the rate  |
-|            | are zero at both ends                                         |
+| `smooth`   | half a cosine, the `sinusoidal` shape of OpenSCENARIO XML;    |
+|            | lateral, on from a rate: quintic                              |
 | `asap`     | speed: trapezoid of the acceleration with limited jerk;       |
-|            | lateral: quintic at the limit of the lateral acceleration     |
-| `none`     | as `asap`, but with comfortable limits                        |
+|            | lateral: as `smooth`, at the limit of the acceleration        |
+| `none`     | speed: as `asap`, but with comfortable limits; lateral: as    |
+|            | `smooth`                                                      |
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ __all__ = [
     "Quintic",
     "SCurve",
     "cosine_duration",
-    "quintic_duration",
+    "fastest_cosine",
 ]
 
 PROFILES: tuple[DynamicProfile, ...] = get_args(DynamicProfile)
 
 COSINE_PEAK = math.pi / 2.0  # peak rate of half a cosine, in units of change / duration
+COSINE_CURVE = math.pi**2 / 2.0  # peak of the derivative, in units of change / duration^2
 QUINTIC_PEAK = 1.875  # peak rate of the quintic, in units of change / duration
-QUINTIC_CURVE = 5.7735  # peak of the derivative of the rate, in units of change / duration^2
 
 
 class Profile(Protocol):
@@ -116,6 +116,11 @@ def cosine_duration(change: float, rate_peak: float) -> float:
     return COSINE_PEAK * abs(change) / rate_peak
 
 
+def fastest_cosine(change: float, curve_peak: float) -> float:
+    """Length (s) of a cosine change from the peak of the derivative of its rate."""
+    return math.sqrt(COSINE_CURVE * abs(change) / curve_peak)
+
+
 @dataclass(frozen=True, slots=True)
 class Quintic:
     """Smooth change with zero rate at its end.
@@ -159,13 +164,6 @@ def _coefficients(change: float, moved: float) -> tuple[float, float, float]:
         -15.0 * change + 8.0 * moved,
         6.0 * change - 3.0 * moved,
     )
-
-
-def quintic_duration(change: float, *, rate_peak: float | None, curve_peak: float) -> float:
-    """Length (s) of a quintic change from the peak of its rate, else of the rate's derivative."""
-    if rate_peak is not None:
-        return QUINTIC_PEAK * abs(change) / rate_peak
-    return math.sqrt(QUINTIC_CURVE * abs(change) / curve_peak)
 
 
 @dataclass(frozen=True, slots=True)

@@ -108,7 +108,7 @@ def test_too_fast_for_a_curve_is_a_failure(
 
 
 def test_lane_changes_are_gentler_on_ice(car_world: Callable[..., EmbeddedWorld]) -> None:
-    """A quintic change of 3.5 m with the lateral peak 5.774 D / T^2 = mu g."""
+    """Half a cosine over 3.5 m with the lateral peak pi^2 / 2 D / T^2 = mu g."""
 
     def time(weather: dict[str, float]) -> float:
         world = car_world(speed=20.0)
@@ -121,7 +121,7 @@ def test_lane_changes_are_gentler_on_ice(car_world: Callable[..., EmbeddedWorld]
         return steps * 0.05
 
     width = 3.5
-    expected = math.sqrt(5.7735 * width / (0.1 * GRAVITY))
+    expected = math.sqrt(0.5 * math.pi**2 * width / (0.1 * GRAVITY))
     assert time(WEATHER["ice"]) == pytest.approx(expected, abs=0.2)
     assert time(WEATHER["ice"]) > time({}) + 0.5
 

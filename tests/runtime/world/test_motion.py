@@ -78,7 +78,7 @@ def test_lane_change_ends_aligned_on_the_centre(car_world: CarWorld, highway: Ro
     assert states[end].h == pytest.approx(0.0, abs=1e-9)
     assert states[end - 1].offset != 0.0
     peak = max(abs(s.lateral_speed) for s in states)
-    assert peak == pytest.approx(1.875 * width / (3.0 * math.sqrt(width / 3.5)), rel=1e-2)
+    assert peak == pytest.approx(0.5 * math.pi * width / (3.0 * math.sqrt(width / 3.5)), rel=1e-2)
 
 
 def test_lane_is_the_one_under_the_reference_point(car_world: CarWorld) -> None:

@@ -138,8 +138,8 @@ def test_follow_lane_within_a_range(run: Run) -> None:
         ({"duration": (2.0, 5.0)}, 3.0),  # what it takes by itself
         ({"duration": (4.0, 5.0)}, 4.0),
         ({"duration": (1.0, 2.7)}, 2.7),
-        ({"rate_peak": 1.5}, 1.875 * 3.5 / 1.5),
-        ({"rate_peak": 1.5, "duration": 4.4}, 4.4),
+        ({"rate_peak": 1.5}, 0.5 * math.pi * 3.5 / 1.5),
+        ({"rate_peak": 1.5, "duration": 3.7}, 3.7),
         ({"rate_profile": "constant", "rate_peak": 0.7}, 5.0),
     ],
 )
@@ -201,10 +201,10 @@ def test_shape_of_an_acceleration(run: Run) -> None:
     ],
 )
 def test_shape_of_a_lateral_place(run: Run, modifier: Any) -> None:
-    """4 m with a peak of 1.5 m/s take 1.875 * 4 / 1.5 = 5 s."""
+    """4 m with a peak of 1.5 m/s take pi / 2 * 4 / 1.5 s."""
     states = run(scenario(lambda s: s.a.drive(modifier, duration=8.0))).states("a")
     width = states[-1]["y"] - states[0]["y"]
-    time = 1.875 * width / 1.5
+    time = 0.5 * math.pi * width / 1.5
     there = next(e["t"] for e in states if e["y"] == states[-1]["y"])
     assert there == pytest.approx(time, abs=0.051)
 

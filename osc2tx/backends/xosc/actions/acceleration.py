@@ -79,8 +79,9 @@ def _acceleration(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tu
         return (accelerated(leaf, target),)
     if leaf.duration is None:
         raise Inexpressible("how long the acceleration lasts is only known during the run")
-    before = leaf.state.rate or 0.0
-    course = course_of_acceleration(before, target, profile, peak, None, leaf.limits)
+    if leaf.state.rate is None:
+        raise Inexpressible("the present acceleration is only known during the run")
+    course = course_of_acceleration(leaf.state.rate, target, profile, peak, None, leaf.limits)
     return (_ramp(leaf, course, leaf.duration),)
 
 

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import Linear, Profile, course_of_shift
+from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_shift, fastest
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible
@@ -112,6 +112,8 @@ def lane_change(
     to_lane = math.copysign(distance_between(leaf, state.lane, target, count), count)
     way = abs(to_lane + offset - _offset(state))
     course = course_of_shift(way, profile, peak, duration, leaf.limits)
+    if not jumps:
+        _note_drift(leaf, way, (profile, peak, duration), course)
     time = 0.0 if jumps else course.duration
     shape = "step" if jumps else _shape(leaf, course, profile)
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
@@ -130,8 +132,25 @@ def lane_change(
             targetLaneOffset=offset or None,
         )
     )
-    during = replace(after, lane=None, offset=None)
+    drift = 0.0 if jumps else fastest(course)
+    during = replace(after, lane=None, offset=None, drift=drift)
     return Change(LATERAL, (action,), time, during, after)
+
+
+def _note_drift(
+    leaf: Leaf, way: float, said: tuple[str, float | None, float | None], course: Profile
+) -> None:
+    """Report that a change takes over a speed across the road: the XML begins without any."""
+    drift = leaf.state.drift
+    if drift == 0.0 or said[0] == "constant":
+        return
+    off = max(apart(course_of_shift(way, *said, leaf.limits, v), course) for v in (-drift, drift))
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        "it takes over the lateral speed of the change before; one of the XML begins without any",
+        f"at most {off:.2g} m beside, while it changes",
+    )
 
 
 def _shape(leaf: Leaf, course: Profile, profile: str) -> str:
@@ -219,6 +238,7 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
     """Return the change of the place in the lane."""
     way = abs(offset - _offset(leaf.state))
     course = course_of_shift(way, profile, peak, None, leaf.limits)
+    _note_drift(leaf, way, (profile, peak, None), course)
     shape = _shape(leaf, course, profile)
     # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
     half_turn = math.pi / course.duration
@@ -236,7 +256,8 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
         )
     )
     after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
-    return Change(LATERAL, (action,), course.duration, replace(after, offset=None), after)
+    during = replace(after, offset=None, drift=fastest(course))
+    return Change(LATERAL, (action,), course.duration, during, after)
 
 
 def lateral(action: Element) -> Element:

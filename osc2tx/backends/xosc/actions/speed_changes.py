@@ -18,9 +18,10 @@ from osc2tx.backends.xosc.facts.actors import (
     Linear,
     Profile,
     course_of_speed,
+    way_by_acceleration,
 )
 from osc2tx.backends.xosc.report import Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, STEADY, ActorState, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 POINTS = 12
@@ -50,7 +51,8 @@ def change_speed(
     if state.speed == known(target) and not _is_changing(state):
         return Change(LONGITUDINAL, (), 0.0, after, after)
     passed = None if state.speed is None else state.speed.over(known(target))
-    during = replace(after, speed=passed, aim=target)
+    pending = _accelerations(leaf, target, profile, peak)
+    during = replace(after, speed=passed, aim=target, rate=None, pending=pending)
     if state.speed is not None and state.speed.is_known:
         start = state.speed.low
         course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
@@ -78,9 +80,43 @@ def _from_known(
         return speed_action(target, "linear", "time", course.duration)
     if isinstance(course, Cosine):
         return speed_action(target, _curve(leaf, profile), "time", course.duration)
+    _note_acceleration(leaf, target, profile, peak)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, profile, peak)
     return speed_action(target, "linear", "time", course.duration)
+
+
+def _note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | None) -> None:
+    """Report that a change takes over an acceleration: that of the XML begins without any."""
+    rate, speed, limits = leaf.state.rate, leaf.state.speed, leaf.limits
+    rates = leaf.state.pending if rate is None else known(rate)
+    if rates == STEADY or leaf.ctx.profile.carries_acceleration:
+        return
+    if speed is None:
+        time = max(map(abs, rates)) / limits.jerk
+        bound = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
+    else:
+        ways = [way_by_acceleration(v, target, profile, peak, rates, limits) for v in speed]
+        bound = f"at most {max(ways):.2g} m ahead or behind"
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        "it takes over the acceleration of the change before; one of the XML begins without any",
+        bound,
+        Remedy(profile="esmini"),
+    )
+
+
+def _accelerations(leaf: Leaf, target: float, profile: str, peak: float | None) -> Interval:
+    """Return between which accelerations (m/s^2) a change to a target may be cut short."""
+    limits, speed = leaf.limits, leaf.state.speed
+    share = 1.0 if profile == "asap" else COMFORT
+    up, down = (share * limits.acceleration, share * limits.deceleration)
+    if peak is not None:
+        up = down = peak
+    faster = up if speed is None or speed.low < target else 0.0
+    slower = down if speed is None or speed.high > target else 0.0
+    return Interval(-slower, faster)
 
 
 def _from_unknown(
@@ -90,6 +126,8 @@ def _from_unknown(
     if duration is not None and profile != "asap":
         shape = "linear" if profile == "constant" else _curve(leaf, profile)
         return speed_action(target, shape, "time", duration)
+    if profile in ("none", "asap"):
+        _note_acceleration(leaf, target, profile, peak)
     if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, limits, profile, peak)
     limit = _limit_towards(leaf, target, profile)

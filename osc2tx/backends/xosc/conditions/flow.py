@@ -34,8 +34,8 @@ class Test:
         latched: It stays true.
         reached: The time at which it comes true (s), if it is a point in time.
         is_constant: It is the same during the whole run.
-        event: The event whose end it is, if it is one.
-        follows: Events that end before that one, each with the seconds that surely lie between.
+        event: The event whose end it is, or the act whose start it is, if it is one.
+        follows: Such moments before that one, each with the seconds that surely lie between.
     """
 
     condition: Element
@@ -54,12 +54,17 @@ class Test:
 
     def implies(self, other: Test) -> bool:
         """Return whether the other one is surely true when this one is."""
+        after = self.after(other)
+        return after is not None and after >= -ROUNDING
+
+    def after(self, other: Test) -> float | None:
+        """Return how long (s) after the other one it comes true at least; `None` if not known."""
         event, seconds = other.since
         own, delay = self.since
         if event is None or own is None:
-            return False
+            return None
         between = 0.0 if event == own else dict(self.follows).get(event)
-        return between is not None and between + delay >= seconds - ROUNDING
+        return None if between is None else between + delay - seconds
 
     def later(self, seconds: float) -> Test:
         """Return the test that comes true so much later."""
@@ -106,6 +111,17 @@ class Flow:
             for name, between in ends:
                 found[name] = max(found.get(name, 0.0), between + delay + seconds)
         return tuple(found.items())
+
+    def is_surely_after(self, other: Flow) -> bool:
+        """Whether it comes true later than the other one, if it does."""
+        if len(other.groups) != 1:
+            return False
+        delays = (
+            max((own.after(each) or 0.0 for own in group), default=0.0)
+            for group in self.groups
+            for each in other.groups[0]
+        )
+        return all(delay > ROUNDING for delay in delays)
 
     def __and__(self, other: Flow) -> Flow:
         pairs = product(self.groups, other.groups)
@@ -164,7 +180,7 @@ def state_of(kind: ElementKind, name: str, state: str = "completeState") -> Test
         storyboardElementRef=name,
         state=state,
     )
-    is_end = kind == "event" and state == "completeState"
+    is_moment = (kind, state) in (("event", "completeState"), ("act", "runningState"))
     return Test(
-        element("ByValueCondition", condition), latched=True, event=name if is_end else None
+        element("ByValueCondition", condition), latched=True, event=name if is_moment else None
     )

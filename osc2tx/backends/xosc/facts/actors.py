@@ -45,16 +45,22 @@ __all__ = [
     "Quintic",
     "SCurve",
     "Shape",
+    "apart",
     "automatic_light",
     "course_of_acceleration",
     "course_of_shift",
     "course_of_speed",
+    "fastest",
     "held_by",
     "limits_of",
     "road_condition",
     "shape_of",
+    "way_by_acceleration",
 ]
 
+
+STEPS = 200
+"""Of a numeric sum over a change."""
 
 CRUISE = SPEEDS_AT_START["person"]
 """Speed (m/s) at which walkers set out."""
@@ -80,6 +86,38 @@ def course_of_speed(
     return speed_profile(change, start, limits)
 
 
+def way_by_acceleration(
+    speed: float,
+    target: float,
+    profile: str,
+    peak: float | None,
+    rates: tuple[float, float],
+    limits: Limits,
+) -> float:
+    """Return how far (m) an actor may get ahead or stay behind where its acceleration goes on.
+
+    Args:
+        speed: At the start of the change (m/s).
+        target: m/s.
+        profile: `none` or `asap`.
+        peak: Of the acceleration (m/s^2).
+        rates: The least and the greatest acceleration that it may have at the start (m/s^2).
+        limits: Of the actor.
+    """
+    change = SpeedChange(target, _known(profile), peak)
+    at_rest = speed_profile(change, speed, limits)
+    farthest = 0.0
+    for rate in rates:
+        course = speed_profile(change, speed, limits, rate)
+        step = max(course.duration, at_rest.duration) / STEPS
+        apart = 0.0
+        for index in range(STEPS):
+            middle = (index + 0.5) * step
+            apart += step * (course.value(middle) - at_rest.value(middle))
+            farthest = max(farthest, abs(apart))
+    return farthest
+
+
 def course_of_acceleration(
     start: float,
     target: float,
@@ -94,10 +132,28 @@ def course_of_acceleration(
 
 
 def course_of_shift(
-    distance: float, profile: str, peak: float | None, duration: float | None, limits: Limits
+    distance: float,
+    profile: str,
+    peak: float | None,
+    duration: float | None,
+    limits: Limits,
+    rate: float = 0.0,
 ) -> Profile:
-    """Return the course of a change of the place across the road (m)."""
-    return shift_profile(0.0, distance, 0.0, (_known(profile), peak, duration), limits)
+    """Return the course of a change of the place across the road (m), from a lateral speed."""
+    return shift_profile(0.0, distance, rate, (_known(profile), peak, duration), limits)
+
+
+def apart(one: Profile, other: Profile) -> float:
+    """Return by how much two courses differ at most."""
+    step = max(one.duration, other.duration) / STEPS
+    times = (index * step for index in range(STEPS + 1))
+    return max(abs(one.value(time) - other.value(time)) for time in times)
+
+
+def fastest(course: Profile) -> float:
+    """Return the greatest rate of a course."""
+    step = course.duration / STEPS
+    return max(abs(course.rate((index + 0.5) * step)) for index in range(STEPS))
 
 
 def _known(profile: str) -> DynamicProfile:

@@ -9,9 +9,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed_changes import hold_speed
 from osc2tx.backends.xosc.conditions.flow import Flow
+from osc2tx.backends.xosc.facts.actors import apart, course_of_shift
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
@@ -28,7 +30,7 @@ def record_end_state(
     """Note what is known about the actor when an action has ended."""
     before = builder.ctx.states[leaf.member.name]
     state = _merged(before, change.after if is_over else change.during, change.domain)
-    state = replace(state.finished(change.domain), rate=state.rate)
+    state = state.finished(change.domain).going_on(state)
     if not is_over:
         state = state.with_unfinished(change.domain, leaf.event)
     builder.ctx.states[leaf.member.name] = state
@@ -41,9 +43,15 @@ def record_end_state(
 def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
     """Return the state in which only one domain has changed."""
     if domain == LATERAL:
-        return replace(before, offset=now.offset, lane=now.lane, pose=now.pose)
+        return replace(before, offset=now.offset, lane=now.lane, pose=now.pose, drift=now.drift)
     if domain == LONGITUDINAL:
-        return replace(now, offset=before.offset, lane=before.lane, unfinished=before.unfinished)
+        return replace(
+            now,
+            offset=before.offset,
+            lane=before.lane,
+            drift=before.drift,
+            unfinished=before.unfinished,
+        )
     return replace(now, unfinished=before.unfinished)
 
 
@@ -72,21 +80,40 @@ def end_open_actions(
         ]
         if not left:
             continue
+        actions = tuple(_ending(builder, actor, domain, member) for domain, _ in left)
         for domain, _ in left:
             state = state.finished(domain)
         ctx.states[actor] = state
-        actions = tuple(_ending(builder, actor, domain, member) for domain, _ in left)
         name = ctx.names.new(f"hold_{actor}")
         ended = builder.latched(ended, name)
         builder.add(name, actions, ended, actor=actor)
     return ended
 
 
+def _beside(builder: StoryboardBuilder, actor: str) -> float:
+    """Return by how much (m) the way back to a centre differs at most from the world's."""
+    (member,) = (each for each in builder.ctx.entities if each.name == actor)
+    drift, ways = builder.ctx.states[actor].drift, (0.0, 0.25 * LANE_WIDTH, 0.5 * LANE_WIDTH)
+    return max(
+        apart(
+            course_of_shift(way, "none", None, None, member.limits, rate),
+            course_of_shift(way, "smooth", None, BACK_TO_CENTRE, member.limits),
+        )
+        for way in ways
+        for rate in (-drift, drift)
+    )
+
+
 def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Behavior) -> Element:
     if domain == LONGITUDINAL:
         return hold_speed(actor)
-    note = f"it returns to the centre of the lane that it is in, within {BACK_TO_CENTRE:g} s"
-    builder.ctx.report.exact("a change of lane that is cut short", member.span, note)
+    reason = (
+        f"it returns to the centre of the lane that it is in within {BACK_TO_CENTRE:g} s, and"
+        " without the lateral speed that it has"
+    )
+    bound = f"at most {_beside(builder, actor):.2g} m beside, while it returns"
+    construct = "a change of lane that is cut short"
+    builder.ctx.report.approximate(construct, member.span, reason, bound)
     return element(
         "PrivateAction",
         element(

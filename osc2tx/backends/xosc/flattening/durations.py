@@ -42,7 +42,7 @@ def end_within_duration(
     if length is not None and length <= high:
         return (content if low <= length else start.later(low)) | until
     in_time, late = NEVER, start.later(high)
-    if length is None:
+    if length is None and not content.is_surely_after(late):
         done = builder.ctx.names.new(f"done_{builder.name_of(node)}")
         in_time = builder.keep(done, content) & start.later(low)
         late = late & builder.is_unset(done)

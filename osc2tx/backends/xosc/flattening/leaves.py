@@ -71,7 +71,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
             builder, leaf, change, is_over=not overriding and _is_over(change, lasting)
         )
         if (member.name, change.domain) in successors:
-            ctx.states[member.name] = ctx.states[member.name].finished(change.domain)
+            cut = ctx.states[member.name]
+            ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
     return builder.mark_end(node, ends)
 
 

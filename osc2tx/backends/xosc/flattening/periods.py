@@ -1,7 +1,7 @@
 """Reactions to a period (`on every`): an event that starts again and again.
 
-It waits for a period in its own standby state, so each round begins when the one before is over:
-one step later in tools that see a change of state in the next step.
+A variable goes up and down, half a period each: each edge is what the other one waits for. A level
+would not do, for tools differ in what a delay does to a condition that stays true.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.flow import Flow, Test, single, state_of
+from osc2tx.backends.xosc.conditions.flow import Flow, Test, single
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element
@@ -32,13 +32,14 @@ def react_periodically(
         raise Inexpressible(reason, node.span, Remedy(profile="generic"))
     period = ctx.values.number(every.period)
     begin = start.later(0.0 if every.offset is None else ctx.values.number(every.offset))
+    pulse = ctx.names.new("pulse")
+    up = (*actions, ctx.mark(pulse))
+    emitted = dict.fromkeys(r.event.name for r in node.reactions if isinstance(r, ir.Emit))
+    down = (*(builder.events.setting(name, "false") for name in emitted),)
+    down = (*down, ctx.set_variable(pulse, "false"))
+    is_up = Test(ctx.variable_is(pulse, "equalTo", "true"), delay=0.5 * period)
     # The first look of an event sees no edge, so it has to come before the first occurrence.
-    for emitted in dict.fromkeys(r.event.name for r in node.reactions if isinstance(r, ir.Emit)):
-        is_set = ctx.variable_is(builder.events.variable(emitted), "equalTo", "true")
-        halfway = replace(Test(is_set, "rising"), delay=0.5 * period)
-        reset = (builder.events.setting(emitted, "false"),)
-        builder.add(ctx.names.new(f"after_{emitted}"), reset, single(halfway), repeats=MANY_TIMES)
-    done = builder.add(ctx.names.new("first_time"), actions, begin)
-    name = ctx.names.new("every_time")
-    again = single(state_of("event", name, "standbyState")) & done
-    builder.add(name, actions, again.later(period), repeats=MANY_TIMES)
+    half, full = replace(is_up, edge="rising"), replace(is_up, edge="falling")
+    builder.add(ctx.names.new("half_time"), down, single(half), repeats=MANY_TIMES)
+    builder.add(ctx.names.new("first_time"), up, begin)
+    builder.add(ctx.names.new("every_time"), up, single(full), repeats=MANY_TIMES)

@@ -23,6 +23,8 @@ class ToolProfile:
         has_act_stop: It ends acts by their stop triggers.
         has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
         has_shapes: It looks at the shape of the dynamics.
+        carries_acceleration: A profile of speeds begins with the present acceleration; by the
+            standard it begins without any.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
             needs none.
         signal_name: What it calls a traffic light, `{}` being its id in the map.
@@ -37,6 +39,7 @@ class ToolProfile:
     has_act_stop: bool = True
     has_stop: bool = True
     has_shapes: bool = True
+    carries_acceleration: bool = False
     ego_property: str = ""
     signal_name: str = "{}"
     knows_towns: bool = False
@@ -69,7 +72,7 @@ _SCENARIO_RUNNER_IGNORES = {
 
 PROFILES: Mapping[XmlProfile, ToolProfile] = {
     "generic": ToolProfile(name="generic", unsupported={}),
-    "esmini": ToolProfile(name="esmini", unsupported=_ESMINI_IGNORES),
+    "esmini": ToolProfile(name="esmini", unsupported=_ESMINI_IGNORES, carries_acceleration=True),
     "scenario_runner": ToolProfile(
         name="scenario_runner",
         versions=("1.0",),

@@ -12,15 +12,15 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from osc2tx_runtime.domain.methods.modifiers import (
+    from osc2tx_runtime.domain.modifiers import Value
+    from osc2tx_runtime.domain.modifiers.conduct import PhysicalMovement
+    from osc2tx_runtime.domain.modifiers.groups import (
         PathModifier,
         SideModifier,
         SpeedModifier,
         StartModifier,
         TurnModifier,
     )
-    from osc2tx_runtime.domain.modifiers import Value
-    from osc2tx_runtime.domain.modifiers.conduct import PhysicalMovement
     from osc2tx_runtime.domain.modifiers.lane import Lane
     from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition, Position
     from osc2tx_runtime.domain.modifiers.speed import Speed

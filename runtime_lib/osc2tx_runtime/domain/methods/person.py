@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.language.registry import carried_out
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.methods.modifiers import PathModifier, StartModifier, TurnModifier
     from osc2tx_runtime.domain.modifiers.conduct import AvoidCollisions, PhysicalMovement
+    from osc2tx_runtime.domain.modifiers.groups import PathModifier, StartModifier, TurnModifier
     from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition
     from osc2tx_runtime.domain.modifiers.speed import Acceleration, ChangeSpeed, KeepSpeed
     from osc2tx_runtime.language.tree.base import Behaviour

@@ -12,13 +12,13 @@ from osc2tx_runtime.language.registry import carried_out
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from osc2tx_runtime.domain.methods.modifiers import (
+    from osc2tx_runtime.domain.modifiers import Value
+    from osc2tx_runtime.domain.modifiers.groups import (
         PathModifier,
         SideModifier,
         SpeedModifier,
         StartModifier,
     )
-    from osc2tx_runtime.domain.modifiers import Value
     from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition
     from osc2tx_runtime.domain.objects.parts import Towable
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject

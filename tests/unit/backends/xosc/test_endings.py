@@ -12,7 +12,7 @@ from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings, run_scenario
 from osc2tx_runtime.errors import UnsupportedError
 from tests.unit.backends.xosc.documents import compiled, documents, module_of
-from tests.unit.backends.xosc.player import Player
+from tests.xosc.parity import played
 
 DT = 0.05
 SOURCE = """\
@@ -82,6 +82,4 @@ def test_what_follows_begins_when_it_does_in_the_world(name: str, tmp_path: Path
     assert document.xml is not None, document.report.obstacles
     assert ('name="emit_over"' in document.xml) == (should is not None)
     if should is not None:
-        player = Player(document.xml, DT, is_lazy=False)
-        player.play()
-        assert player.starts["emit_over"] == pytest.approx(should, abs=4 * DT)
+        assert played(document.xml, DT).starts["emit_over"] == pytest.approx(should, abs=4 * DT)

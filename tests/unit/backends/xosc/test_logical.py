@@ -19,8 +19,8 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, OneOfPolicy, XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
-from tests.unit.backends.xosc.played import Played, compare, hops, spread, world
-from tests.unit.backends.xosc.player import Player
+from tests.xosc.parity import NEAR, played
+from tests.xosc.played import compare, world
 
 HEAD = """\
 import osc.standard.all
@@ -275,14 +275,11 @@ def assert_runs_like(
 ) -> None:
     """Compare a document whose parameters have values with the module of a scenario."""
     text = etree.tostring(document, encoding="unicode")
-    player = Player(text, settings.dt)
-    played = Played(player.play(), player.starts, player.track)
     should = world(path, "logical", settings, CompileOptions())
-    for actor, (metres, t) in compare(
-        replace(found, xml=text), should, played, settings.dt
-    ).apart.items():
-        late = (1 + max(hops(player.root).values())) * settings.dt
-        assert metres < 0.4 + late * spread(should, actor), f"{actor} at {t}"
+    difference = compare(replace(found, xml=text), should, played(text, settings.dt), settings.dt)
+    for actor, (metres, t) in difference.apart.items():
+        shifted = difference.late * difference.spread[actor]
+        assert metres < NEAR + shifted, f"{actor} at {t}"
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ import pytest
 
 from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.compilation.driver import Compilation
-from osc2tx.options import XML_VERSIONS, CompileOptions, XmlOptions, XmlVersion
+from osc2tx.options import XML_VERSIONS, CompileOptions, XmlOptions, XmlProfile, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems
 from tests.unit.backends.xosc.documents import compiled, documents
 
@@ -26,12 +26,16 @@ APPROXIMATED = {
     "hello_world": ("1.3",),
 }
 OUTSIDE = {"hello_world": {"signals": ("go_signal@1s",), "spawns": ("hero=16,-3,5",)}}
+PROFILES: dict[str, XmlProfile] = {"cut_in_and_evade": "esmini", "hello_world": "esmini"}
 
 
 def written(name: str, version: XmlVersion, *, allow_approx: bool = False) -> XmlScenario:
     dialect = "carla" if name == "hello_world" else "asam"
     path = SCENARIOS / f"{name}.osc"
-    options = XmlOptions(version=version, allow_approx=allow_approx, **OUTSIDE.get(name, {}))
+    profile = PROFILES.get(name, "generic")
+    options = XmlOptions(
+        version=version, profile=profile, allow_approx=allow_approx, **OUTSIDE.get(name, {})
+    )
     (scenario,) = documents(compiled(path, CompileOptions(dialect=dialect)), options)
     return scenario
 

@@ -1,9 +1,8 @@
-"""Numbers of a document and courses of values over time, for the player."""
+"""Numbers of a document, and courses of values over time."""
 
 import math
 import re
 from collections.abc import Callable
-from functools import cache
 from itertools import pairwise
 
 from lxml import etree
@@ -54,29 +53,26 @@ def shaped(shape: str, start: float, end: float, time: float) -> Course:
     return course
 
 
-@cache
-def with_jerk(
-    start: tuple[float, float], end: float, limit: float, jerk: float
-) -> tuple[Course, float]:
+def with_jerk(start: float, end: float, limit: float, jerk: float) -> tuple[Course, float]:
     """Return the fastest course within limits of acceleration and jerk, and its length.
 
-    Step by step: it speeds up as long as the speed would fall short if the acceleration were
-    brought to zero from now on.
+    A trapezoid of the acceleration, which is zero at both ends; a triangle where the limit is not
+    reached.
     """
-    h = 1e-3
-    v, a = start
-    points = [(0.0, v)]
-    for step in range(1, 1_000_000):
-        short = end - (v + a * abs(a) / (2.0 * jerk))
-        wanted = math.copysign(min(limit, abs(short) / h), short)
-        a += min(max(wanted - a, -jerk * h), jerk * h)
-        v += a * h
-        if abs(v - end) < 1e-3 and abs(a) < 10.0 * jerk * h:
-            break
-        if step % 10 == 0:
-            points.append((step * h, v))
-    points.append((step * h, end))
-    return lambda t: between(points, t), step * h
+    change = abs(end - start)
+    peak = min(limit, math.sqrt(change * jerk))
+    ramp = peak / jerk
+    flat = change / peak - ramp if peak else 0.0
+    time = flat + 2.0 * ramp
+
+    def gained(t: float) -> float:
+        if t <= ramp:
+            return 0.5 * jerk * t * t if ramp else 0.0
+        if t <= ramp + flat:
+            return peak * (t - 0.5 * ramp)
+        return change - 0.5 * jerk * (time - t) ** 2 if t < time else change
+
+    return lambda t: start + math.copysign(gained(t), end - start), time
 
 
 def between(points: list[tuple[float, float]], at: float) -> float:

@@ -47,10 +47,12 @@ class Difference:
     Attributes:
         late: Longest delay of an event (s), against what is allowed for it.
         apart: Longest distance (m) by actor, with its time.
+        spread: Between which speeds (m/s) an actor changes.
     """
 
     late: float
     apart: Mapping[str, tuple[float, float]]
+    spread: Mapping[str, float]
 
     @property
     def farthest(self) -> float:
@@ -173,7 +175,8 @@ def compare(
         if should + late + later < should_then:  # what is clearly apart keeps its order
             assert at < then, (one, other)
     apart = {a: _apart(rows, found.track[a], longest) for a, rows in expected.track.items()}
-    return Difference(max((abs(at - should) for should, at, *_ in times), default=0.0), apart)
+    late = max((abs(at - should) for should, at, *_ in times), default=0.0)
+    return Difference(late, apart, {actor: spread(expected, actor) for actor in apart})
 
 
 def _apart(expected: Sequence[Row], found: Sequence[Row], late: float) -> tuple[float, float]:

@@ -1,0 +1,40 @@
+"""`osc2tx reference`."""
+
+from __future__ import annotations
+
+import json
+
+import click
+from click.shell_completion import CompletionItem
+
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.reference import as_data, as_text, entries, find
+from osc2tx_text import put
+
+
+def _complete(
+    context: click.Context, parameter: click.Parameter, incomplete: str
+) -> list[CompletionItem]:
+    names = dict.fromkeys(each.declaration.name for each in entries())
+    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+
+
+@click.command()
+@click.argument("name", required=False, shell_complete=_complete)
+@click.option("--json", "as_json", is_flag=True, help="Print plain data.")
+def reference(name: str | None, as_json: bool) -> None:
+    """Say what an actor, action, modifier, struct, enum or physical type of the library is.
+
+    NAME is `drive`, `vehicle.drive` or `action vehicle.drive`. Without it, all names are listed.
+    """
+    if name is None:
+        found = list(entries())
+        text = "\n".join(each.key for each in found)
+    else:
+        found = find(name)
+        if not found:
+            names = [part for each in entries() for part in (each.declaration.name, each.own_name)]
+            meant = did_you_mean(name, names)
+            raise click.UsageError(f"there is no `{name}`" + (f"; {meant}" if meant else ""))
+        text = "\n\n\n".join(map(as_text, found))
+    put(json.dumps(list(map(as_data, found)), indent=2) + "\n" if as_json else text + "\n")

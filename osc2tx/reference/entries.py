@@ -1,0 +1,125 @@
+"""What a declaration is, together with what is made of it."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from osc2tx.catalogue import ActionEntry, ModifierEntry, catalogue
+from osc2tx.reference.declarations import Declaration, declarations
+from osc2tx.support.light_dataclass import dataclass
+
+__all__ = ["Entry", "entries", "find"]
+
+_ENDS = {
+    "goal": "It ends when its goal is reached.",
+    "at_once": "It reaches its goal in no time.",
+    "instant": "It takes no time.",
+    "open": "It does not end by itself: `duration`, `until` or what surrounds it ends it.",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A page of the reference.
+
+    Attributes:
+        declaration: What the library says.
+        facts: What the runtime makes of it, one sentence each.
+        xml: What OpenSCENARIO XML has for it; empty where that is no question.
+        modifiers: Modifiers that an action honours.
+        users: Declarations that use it as a type, or inherit from it.
+    """
+
+    declaration: Declaration
+    facts: tuple[str, ...]
+    xml: str
+    modifiers: tuple[str, ...]
+    users: tuple[str, ...]
+
+    @property
+    def key(self) -> str:
+        """How the entry is asked for: `action vehicle.drive`."""
+        return f"{self.declaration.kind} {self.declaration.name}"
+
+    @property
+    def own_name(self) -> str:
+        """The name without the actor."""
+        return self.declaration.name.rpartition(".")[2]
+
+
+@cache
+def entries() -> tuple[Entry, ...]:
+    """Return all entries, in the order of the library."""
+    users = _users()
+    return tuple(_entry(each, users.get(each.name, ())) for each in declarations())
+
+
+def find(name: str) -> list[Entry]:
+    """Return the entries of a name: `drive`, `vehicle.drive` or `action vehicle.drive`.
+
+    Names repeat across kinds (`speed` is a type and a modifier), so there may be several.
+    """
+    exact = [each for each in entries() if name in (each.key, each.declaration.name)]
+    last = [each for each in entries() if each.own_name == name]
+    return exact + [each for each in last if each not in exact]
+
+
+def _entry(declaration: Declaration, users: tuple[str, ...]) -> Entry:
+    known = catalogue()
+    if declaration.kind == "action" and declaration.name in known.actions:
+        action = known.actions[declaration.name]
+        facts = _action_facts(action)
+        return Entry(declaration, facts, _xml(action), tuple(sorted(action.modifiers)), users)
+    own = declaration.name.rpartition(".")[2]
+    if declaration.kind == "modifier" and own in known.modifiers:
+        modifier = known.modifiers[own]
+        return Entry(declaration, _modifier_facts(modifier), _xml(modifier), (), users)
+    if declaration.name in known.abstract:
+        return Entry(declaration, ("It is only there to be inherited from.",), "", (), users)
+    return Entry(declaration, (), "", (), users)
+
+
+def _action_facts(action: ActionEntry) -> tuple[str, ...]:
+    facts = [_ENDS[action.ends]]
+    if action.slots:
+        facts.append(f"It controls the actor's {' and '.join(action.slots)} movement.")
+    if action.physical:
+        facts.append("It moves within physics: the actor does not jump.")
+    return (*facts, *_shared_facts(action))
+
+
+def _modifier_facts(modifier: ModifierEntry) -> tuple[str, ...]:
+    facts = []
+    if modifier.placement:
+        facts.append("It can say how a scenario starts.")
+    if modifier.bounds:
+        facts.append("An open-ended action is over when what it says is reached.")
+    return (*facts, *_shared_facts(modifier))
+
+
+def _shared_facts(entry: ActionEntry | ModifierEntry) -> tuple[str, ...]:
+    facts = []
+    if entry.required:
+        facts.append(f"It must have {_listed(entry.required)}.")
+    if entry.needs:
+        facts.append(f"The world must offer {_listed(entry.needs)}; a world that does not says so.")
+    return tuple(facts)
+
+
+def _xml(entry: ActionEntry | ModifierEntry) -> str:
+    return f"It has no form: {entry.without_xml}." if entry.without_xml else "It has a form."
+
+
+def _listed(names: tuple[str, ...] | frozenset[str]) -> str:
+    return ", ".join(f"`{name}`" for name in sorted(names))
+
+
+def _users() -> dict[str, tuple[str, ...]]:
+    found: dict[str, dict[str, None]] = {}
+    for each in declarations():
+        types = [member.type for member in each.members]
+        types += [item for member in each.members for item in member.parameters]
+        names = {word for text in types for word in text.replace(":", " ").split()}
+        for name in sorted(names | {each.base}):
+            found.setdefault(name, {})[f"{each.kind} {each.name}"] = None
+    return {name: tuple(users) for name, users in found.items()}

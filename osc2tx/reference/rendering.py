@@ -1,0 +1,133 @@
+"""An entry of the reference as text, as Markdown, as plain data."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from osc2tx.reference.declarations import Declaration, Member
+from osc2tx.reference.entries import Entry
+
+__all__ = ["as_data", "as_markdown", "as_text", "signature"]
+
+MANY = 12  # users that a page names
+
+
+def signature(declaration: Declaration) -> str:
+    """Return the declaration as the library writes it, without meanings."""
+    head = f"{declaration.kind} {declaration.name}"
+    if declaration.base:
+        head += f" {'of' if declaration.kind == 'modifier' else 'inherits'} {declaration.base}"
+    if declaration.kind == "enum":
+        return f"{head}: [{', '.join(each.name for each in declaration.members)}]"
+    lines = [f"    {_member(each)}" for each in declaration.members]
+    return "\n".join([f"{head}:" if lines else head, *lines])
+
+
+def as_text(entry: Entry) -> str:
+    """Return the entry for a terminal."""
+    declaration = entry.declaration
+    parts = [_title(declaration), signature(declaration)]
+    if declaration.meaning:
+        parts.insert(1, _sentence(declaration.meaning))
+    told = [(each.name, _meaning(each)) for each in declaration.members if each.meaning]
+    if told:
+        width = max(len(name) for name, _ in told)
+        parts.append("\n".join(f"  {name:<{width}}  {meaning}" for name, meaning in told))
+    if declaration.units:
+        parts.append(f"Units: {', '.join(declaration.units)}")
+    parts += [fact.replace("`", "") for fact in entry.facts]
+    if entry.modifiers:
+        parts.append(f"Modifiers: {', '.join(entry.modifiers)}")
+    if entry.xml:
+        parts.append(f"OpenSCENARIO XML: {entry.xml}")
+    return "\n\n".join(parts)
+
+
+def as_markdown(entry: Entry) -> str:
+    """Return the entry as a page; links to types are left to whoever knows where they stand."""
+    declaration = entry.declaration
+    parts = [f"# {declaration.name}", f"*{_title(declaration)}*"]
+    parts.append(_sentence(declaration.meaning))
+    parts.append(f"```\n{signature(declaration)}\n```")
+    if declaration.members:
+        parts.append(_table(declaration))
+    if declaration.units:
+        parts.append("Units: " + ", ".join(f"`{unit}`" for unit in declaration.units))
+    if entry.facts:
+        parts += ["## How it runs", "\n".join(f"- {fact}" for fact in entry.facts)]
+    if entry.modifiers:
+        parts += ["## Modifiers", ", ".join(f"`{name}`" for name in entry.modifiers)]
+    if entry.xml:
+        parts += ["## OpenSCENARIO XML", entry.xml]
+    if entry.users:
+        more = f", and {len(entry.users) - MANY} more" if len(entry.users) > MANY else ""
+        parts += ["## Used by", ", ".join(f"`{user}`" for user in entry.users[:MANY]) + more]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def as_data(entry: Entry) -> dict[str, Any]:
+    """Return the entry as plain data, for JSON."""
+    declaration = entry.declaration
+    return {
+        "kind": declaration.kind,
+        "name": declaration.name,
+        "base": declaration.base,
+        "section": declaration.section,
+        "meaning": declaration.meaning,
+        "members": [_data(each) for each in declaration.members],
+        "units": list(declaration.units),
+        "modifiers": list(entry.modifiers),
+        "facts": [fact.replace("`", "") for fact in entry.facts],
+        "xml": entry.xml,
+    }
+
+
+def _sentence(text: str) -> str:
+    return text and text[0].upper() + text[1:] + ("" if text.endswith((".", "?")) else ".")
+
+
+def _data(member: Member) -> dict[str, Any]:
+    data = {"kind": member.kind, "name": member.name, "type": member.type}
+    data |= {"default": member.default, "meaning": member.meaning}
+    data |= {"section": member.section, "version": member.version}
+    return {**data, "parameters": list(member.parameters)}
+
+
+def _title(declaration: Declaration) -> str:
+    section = declaration.section and f", OpenSCENARIO DSL 2.2 section {declaration.section}"
+    return f"{declaration.kind} {declaration.name}{section}"
+
+
+def _member(member: Member) -> str:
+    if member.kind == "method":
+        result = f" -> {member.type}" if member.type else ""
+        return f"def {member.name}({', '.join(member.parameters)}){result}"
+    head = "var " if member.kind == "variable" else ""
+    default = f" = {member.default}" if member.default else ""
+    return f"{head}{member.name}: {member.type}{default}"
+
+
+def _meaning(member: Member) -> str:
+    return f"{member.meaning} (only in {member.version})" if member.version else member.meaning
+
+
+def _table(declaration: Declaration) -> str:
+    if declaration.kind == "enum":
+        names = [f"`{each.name}`{_note(each)}" for each in declaration.members]
+        return ", ".join(names)
+    rows = ["| name | type | default | meaning |", "|---|---|---|---|"]
+    for each in declaration.members:
+        default = f"`{each.default}`" if each.default else ""
+        kind = f"`{each.type}`" if each.type else ""
+        call = "()" if each.kind == "method" else ""
+        rows.append(f"| `{each.name}{call}` | {kind} | {default} | {_cell(_meaning(each))} |")
+    return "\n".join(rows)
+
+
+def _note(member: Member) -> str:
+    alias = f" = `{member.default}`" if member.default else ""
+    return f"{alias} ({member.version} only)" if member.version else alias
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|")

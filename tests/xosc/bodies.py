@@ -1,0 +1,172 @@
+"""Entities of a document as bodies on a map: where they are, how they move."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap, Route
+from tests.xosc.courses import Course, Node, number
+
+if TYPE_CHECKING:
+    from tests.xosc.actions import Running
+
+LONGITUDINAL, LATERAL = "longitudinal", "lateral"
+STRAIGHT = 0.75 * math.pi  # beyond: it looks against its lane
+
+
+class Pose(NamedTuple):
+    """Metres and radians in the world."""
+
+    x: float
+    y: float
+    h: float
+
+
+@dataclass
+class Body:
+    """An entity.
+
+    Attributes:
+        name: Its name.
+        kind: The element that describes it: `Vehicle`, `Pedestrian` or `MiscObject`.
+        front: Metres from its reference point to its front end.
+        rear: Metres from its reference point to its rear end.
+        width: Metres.
+        limits: Attributes of `Performance`, infinite where they are left out.
+        pose: Where it is.
+        place: The lane that it follows, with its offset from there; `None` off the lanes.
+        along: 1 if it looks in the direction of travel of that lane, -1 against it.
+        route: Decides at forks.
+        v: m/s.
+        a: m/s^2, along its axis.
+        rate: m/s to its left.
+        actions: At work, by domain.
+        behind: Which body tows it, with the metres from that one's reference point back to the
+            hitch, and from the coupler to its own reference point.
+    """
+
+    name: str
+    kind: str
+    front: float
+    rear: float
+    width: float
+    limits: dict[str, float]
+    pose: Pose | None = None
+    place: LanePosition | None = None
+    along: int = 1
+    route: Route | None = None
+    v: float = 0.0
+    a: float = 0.0
+    rate: float = 0.0
+    actions: dict[str, Running] = field(default_factory=dict)
+    behind: tuple[Body, float, float] | None = None
+
+    @property
+    def here(self) -> Pose:
+        """Where it is.
+
+        Raises:
+            AssertionError: It was put nowhere.
+        """
+        assert self.pose is not None, f"{self.name} is nowhere"
+        return self.pose
+
+    def lane(self, road_map: RoadMap) -> LanePosition | None:
+        """Return the driving lane in which its reference point is, else that of its nearest one."""
+        x, y, h = self.here
+        h = h if self.along > 0 else h + math.pi
+        return road_map.locate(x, y, None, h, hint=self.place)
+
+    # --- being put somewhere ------------------------------------------------------------------
+
+    def put(self, road_map: RoadMap, place: LanePosition | Pose, turned: float | None) -> None:
+        """Put it at a place.
+
+        Args:
+            road_map: The map.
+            place: On a lane, or anywhere: then it is on a lane where that one lies below it.
+            turned: Its heading (rad) in the world; `None`: that of the place.
+        """
+        self.behind = None
+        if isinstance(place, LanePosition):
+            pose = road_map.pose(place)
+            self.pose, self.place = Pose(pose.x, pose.y, pose.h), place
+        else:
+            self.pose, self.place = place, None
+            on = road_map.locate(place.x, place.y, heading=place.h, max_distance=0.0)
+            if on is not None and self.kind == "Vehicle":
+                self.place = on
+        if turned is not None:
+            self.pose = self.here._replace(h=turned)
+        if self.place is not None:
+            off = abs(math.remainder(self.here.h - road_map.pose(self.place).h, math.tau))
+            self.along = -1 if off > STRAIGHT else 1
+
+    # --- motion over one step -----------------------------------------------------------------
+
+    def move(self, road_map: RoadMap, way: float, offset: float | None, dt: float) -> None:
+        """Move it by a way (m), to an offset (m) from its lane where that changes."""
+        if self.place is None:
+            x, y, h = self.here
+            self.pose = Pose(x + way * math.cos(h), y + way * math.sin(h), h)
+            return
+        aside = 0.0 if offset is None else offset - self.place.offset
+        self.rate = aside / dt * self.along
+        if way == 0.0 and aside == 0.0:
+            return
+        onward = math.copysign(math.sqrt(max(way * way - aside * aside, 0.0)), way) * self.along
+        ahead = road_map.advance(self.place, onward, self.route)
+        if abs(ahead.travelled - onward) > 1e-6:
+            self.v = 0.0
+        self.place = ahead.position._replace(offset=self.place.offset + aside)
+        pose = road_map.pose(self.place)
+        turned = math.atan2(aside * self.along, abs(onward)) if onward else 0.0
+        self.pose = Pose(pose.x, pose.y, (pose.h if self.along > 0 else pose.h + math.pi) + turned)
+
+    def trail(self) -> None:
+        """Draw it straight towards the hitch of what tows it."""
+        assert self.behind is not None
+        tow, hitch, bar = self.behind
+        x = tow.here.x - hitch * math.cos(tow.here.h)
+        y = tow.here.y - hitch * math.sin(tow.here.h)
+        h = math.atan2(y - self.here.y, x - self.here.x)
+        self.pose, self.v = Pose(x - bar * math.cos(h), y - bar * math.sin(h), h), tow.v
+
+
+def body_of(node: Node) -> Body:
+    """Return the body that a `ScenarioObject` describes."""
+    kind = next(child for child in node if child.tag in ("Vehicle", "Pedestrian", "MiscObject"))
+    centre, size = kind.find("BoundingBox/Center"), kind.find("BoundingBox/Dimensions")
+    half, x = 0.5 * number(size, "length"), number(centre, "x")
+    performance = kind.find("Performance")
+    names = ("maxSpeed", "maxAcceleration", "maxDeceleration")
+    names += ("maxAccelerationRate", "maxDecelerationRate")
+    limits = {
+        name: math.inf if performance is None else number(performance, name, math.inf)
+        for name in names
+    }
+    return Body(node.get("name"), kind.tag, half + x, half - x, number(size, "width"), limits)
+
+
+def couple(root: Node, bodies: dict[str, Body]) -> None:
+    """Hang up the trailers that are coupled from the start on."""
+    for vehicle in root.iter("Vehicle"):
+        name = vehicle.find("Trailer/TrailerRef")
+        if name is not None:
+            tow = vehicle.getparent().get("name")
+            hang(root, bodies[tow], bodies[name.get("entityRef")])
+
+
+def hang(root: Node, tow: Body, trailer: Body) -> None:
+    """Couple a trailer."""
+    described = {node.get("name"): node for node in root.iter("ScenarioObject")}
+    hitch = described[tow.name].find("Vehicle/TrailerHitch")
+    coupler = described[trailer.name].find("Vehicle/TrailerCoupler")
+    trailer.behind = (tow, -number(hitch, "dx"), number(coupler, "dx"))
+    trailer.place = None
+
+
+__all__ = ["DRIVING", "LATERAL", "LONGITUDINAL", "Body", "Course", "Pose", "body_of"]
+__all__ += ["couple", "hang"]

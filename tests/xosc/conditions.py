@@ -1,0 +1,191 @@
+"""Triggers: an OR of groups, each an AND of conditions with edges and delays."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from typing import Protocol
+
+from tests.xosc.bodies import Body
+from tests.xosc.courses import RULES, Node, number
+from tests.xosc.distances import Ruler, asked
+from tests.xosc.places import place_of
+
+KINDS = {
+    "act": "Act",
+    "action": "Action",
+    "event": "Event",
+    "maneuver": "Maneuver",
+    "maneuverGroup": "ManeuverGroup",
+    "story": "Story",
+}
+
+
+class World(Protocol):
+    """What conditions read besides the bodies."""
+
+    root: Node
+    time: float
+    step: int
+    variables: dict[str, str]
+    lights: dict[str, str]
+    bodies: dict[str, Body]
+    ruler: Ruler
+
+    def is_in(self, element: Node, state: str) -> bool:
+        """Whether an element of the storyboard is in a state, or just in a transition."""
+
+
+class Past:
+    """What a condition was at each look; there may be several in a step."""
+
+    def __init__(self) -> None:
+        self.steps: list[int] = []
+        self.values: list[bool] = []
+
+    def note(self, step: int, value: bool) -> None:
+        """Note a value; what was true in a step stays so in it."""
+        if self.steps and self.steps[-1] == step:
+            self.values[-1] = self.values[-1] or value
+        else:
+            self.steps.append(step)
+            self.values.append(value)
+
+    def at(self, step: int) -> bool:
+        """Return the value of a step; false before the first look."""
+        index = bisect_right(self.steps, step) - 1
+        return index >= 0 and self.values[index]
+
+
+class Conditions:
+    """Evaluates the triggers of a document."""
+
+    def __init__(self, world: World, dt: float, *, is_lazy: bool) -> None:
+        self.world, self.dt, self.is_lazy = world, dt, is_lazy
+        self.last: dict[Node, bool] = {}  # at the look before
+        self.edged: dict[Node, Past] = {}
+        self.named = {
+            (kind, node.get("name")): node
+            for kind, tag in KINDS.items()
+            for node in world.root.iter(tag)
+        }
+
+    def fires(self, trigger: Node | None) -> bool:
+        """Whether a trigger fires; all its conditions are looked at in each step.
+
+        A lazy tool looks at none behind a false one of its group, but at delayed ones.
+        """
+        groups = () if trigger is None else trigger.iterfind("ConditionGroup")
+        return any([self._all_hold(list(group)) for group in groups])
+
+    def _all_hold(self, conditions: list[Node]) -> bool:
+        result = True
+        for condition in conditions:
+            if result or not self.is_lazy or number(condition, "delay") > 0.0:
+                held = self._holds(condition)
+                result = result and held
+        return result
+
+    def _holds(self, condition: Node) -> bool:
+        step = self.world.step
+        value = self.test(condition[0])
+        before, edge = self.last.get(condition), condition.get("conditionEdge")
+        self.last[condition] = value
+        if edge == "none" and number(condition, "delay") == 0.0:
+            return value
+        if edge != "none":
+            rises, falls = value and before is False, not value and before is True
+            value = {"rising": rises, "falling": falls, "risingOrFalling": rises or falls}[edge]
+        delay = number(condition, "delay")
+        edged = self.edged.setdefault(condition, Past())
+        edged.note(step, value)
+        return edged.at(step - math.ceil(delay / self.dt - 1e-6))
+
+    def test(self, node: Node) -> bool:
+        """Whether a condition is met at the present step."""
+        if node.tag == "ByEntityCondition":
+            triggering = node.find("TriggeringEntities")
+            found = [
+                self._of_entity(self.world.bodies[ref.get("entityRef")], node[1][0])
+                for ref in triggering
+            ]
+            return any(found) if triggering.get("triggeringEntitiesRule") == "any" else all(found)
+        assert node.tag == "ByValueCondition", node.tag
+        node = node[0]
+        match node.tag:
+            case "SimulationTimeCondition":
+                return _compare(node, self.world.time)
+            case "VariableCondition" | "ParameterCondition":
+                name = node.get("variableRef") or node.get("parameterRef")
+                value, rule = self.world.variables[name], node.get("rule")
+                if rule in ("equalTo", "notEqualTo"):
+                    return (value == node.get("value")) is (rule == "equalTo")
+                return RULES[rule](float(value), float(node.get("value")))
+            case "StoryboardElementStateCondition":
+                key = node.get("storyboardElementType"), node.get("storyboardElementRef")
+                return self.world.is_in(self.named[key], node.get("state"))
+            case "TrafficSignalCondition":
+                return self.world.lights.get(node.get("name")) == node.get("state")
+        raise NotImplementedError(node.tag)
+
+    def _of_entity(self, body: Body, node: Node) -> bool:
+        world = self.world
+        match node.tag:
+            case "SpeedCondition":
+                return _compare(node, _part(node, body.v, body.rate))
+            case "AccelerationCondition":
+                if node.get("direction") == "lateral":
+                    raise NotImplementedError("lateral acceleration")
+                return _compare(node, body.a)
+            case "RelativeSpeedCondition":
+                other = world.bodies[node.get("entityRef")]
+                turned = other.here.h - body.here.h if node.get("direction") else 0.0
+                return _compare(node, body.v - other.v * math.cos(turned))
+            case "RelativeDistanceCondition":
+                other = world.bodies[node.get("entityRef")]
+                return _compare(node, world.ruler.relative(body, other, node))
+            case "DistanceCondition" | "ReachPositionCondition":
+                place, _ = place_of(node.find("Position")[0], world.bodies, world.ruler.map)
+                found = world.ruler.to_place(body, place, node)
+                if node.tag == "ReachPositionCondition":
+                    return found <= number(node, "tolerance")
+                return _compare(node, found)
+            case "RelativeClearanceCondition":
+                named = [ref.get("entityRef") for ref in node.iterfind("EntityRef")]
+                others = [each for each in world.bodies.values() if each is not body]
+                others = [each for each in others if not named or each.name in named]
+                return world.ruler.clear(body, others, node)
+            case "TimeHeadwayCondition":
+                other = world.bodies[node.get("entityRef")]
+                return self._time(node, world.ruler.relative(body, other, node), body.v)
+            case "TimeToCollisionCondition":
+                target = node.find("TimeToCollisionConditionTarget/EntityRef")
+                other = world.bodies[target.get("entityRef")]
+                speed = world.ruler.closing_speed(body, other, *asked(node))
+                return self._time(node, world.ruler.relative(body, other, node), speed)
+            case "StandStillCondition":
+                raise NotImplementedError("a duration of standing still")
+        raise NotImplementedError(node.tag)
+
+    @staticmethod
+    def _time(node: Node, distance: float, speed: float) -> bool:
+        """Whether a time to come compares; one that cannot be predicted does not."""
+        return speed > 0.0 and _compare(node, distance / speed)
+
+
+def _compare(node: Node, value: float) -> bool:
+    return RULES[node.get("rule")](value, number(node, "value"))
+
+
+def _part(node: Node, along: float, across: float) -> float:
+    match node.get("direction"):
+        case "longitudinal":
+            return along
+        case "lateral":
+            return across
+        case "vertical":
+            return 0.0
+    return abs(along)
+
+
+__all__ = ["Conditions", "World"]

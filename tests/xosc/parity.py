@@ -1,0 +1,83 @@
+"""Documents, evaluated by the standard's text, against what the embedded world does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.report import Grade
+from osc2tx.options import CompileOptions, XmlOptions
+from osc2tx_runtime import RunSettings
+from osc2tx_runtime.domain.routes.map_search import SHIPPED
+from osc2tx_runtime.opendrive import RoadMap, read_map
+from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
+from tests.xosc.played import Difference, Played, compare, with_values_of, world
+from tests.xosc.storyboard import Evaluator, map_of
+
+FINE = 0.01  # s
+NEAR = 0.1  # m: how far what is graded exact may be off at steps of `FINE`
+LONG = 400.0  # s: beyond the end of any document
+
+
+@dataclass(frozen=True)
+class Given:
+    """A source, and what it needs from outside."""
+
+    path: Path
+    settings: RunSettings = field(default_factory=lambda: RunSettings(dt=FINE), compare=False)
+    options: CompileOptions = PLAIN
+    xml: XmlOptions = field(default_factory=XmlOptions)
+    maps: tuple[Path, ...] = (SHIPPED,)
+
+
+@cache
+def road_map(path: Path) -> RoadMap:
+    """Return a map, read once."""
+    return read_map(path)
+
+
+def played(
+    xml: str, dt: float, maps: tuple[Path, ...] = (SHIPPED,), *, is_lazy: bool = False
+) -> Played:
+    """Return what the standard makes of a document."""
+    evaluator = Evaluator(xml, road_map(map_of(xml, maps)), dt, is_lazy=is_lazy)
+    end = evaluator.play(LONG)
+    return Played(end, evaluator.starts, evaluator.track)
+
+
+def scenarios(given: Given) -> tuple[XmlScenario, ...]:
+    """Return the scenarios of a source with their documents."""
+    return documents(compiled(given.path, given.options), given.xml)
+
+
+def is_exact(document: XmlScenario) -> bool:
+    """Whether all of a document is graded so."""
+    return document.xml is not None and all(
+        entry.grade is Grade.EXACT for entry in document.report.entries
+    )
+
+
+def difference(given: Given, document: XmlScenario, *, is_lazy: bool = False) -> Difference:
+    """Return how far a document is from the world, at the steps of its settings.
+
+    Raises:
+        AssertionError: An event has not happened, came too late, or in another order.
+    """
+    assert document.xml is not None
+    settings = with_values_of(document.xml, given.settings)
+    expected = world(given.path, document.name, settings, given.options)
+    found = played(document.xml, settings.dt, given.maps, is_lazy=is_lazy)
+    return compare(document, expected, found, settings.dt)
+
+
+def check(given: Given, document: XmlScenario, *, is_lazy: bool = False) -> None:
+    """Compare a document that is graded exact with the world.
+
+    Places may be off by `NEAR`, and by what it makes that events come some steps late.
+    """
+    found = difference(given, document, is_lazy=is_lazy)
+    for actor, (metres, t) in found.apart.items():
+        shifted = found.late * found.spread[actor]
+        assert metres < NEAR + shifted, f"{actor} is {metres:.3f} m off at {t} s"

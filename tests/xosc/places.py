@@ -1,0 +1,147 @@
+"""Positions of a document as places on a map."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.opendrive import LanePosition, RoadMap
+from tests.xosc.bodies import Body, Pose
+from tests.xosc.courses import Node, number
+
+Place = tuple[LanePosition | Pose, float | None]  # with the heading (rad), if it says one
+
+
+def place_of(node: Node, bodies: dict[str, Body], road_map: RoadMap) -> Place:
+    """Return the place of the element below `Position`."""
+    orientation = node.find("Orientation")
+    match node.tag:
+        case "LanePosition":
+            road, lane = node.get("roadId"), int(number(node, "laneId"))
+            # the t axis of a lane is that of its road
+            offset = number(node, "offset") * road_map.travel_direction(road, lane)
+            where: LanePosition | Pose = LanePosition(road, lane, number(node, "s"), offset)
+        case "RoadPosition":
+            road, s, t = node.get("roadId"), number(node, "s"), number(node, "t")
+            where = _flat(road_map.road_pose(road, s, t))
+        case "WorldPosition":
+            where = Pose(number(node, "x"), number(node, "y"), number(node, "h"))
+        case "RelativeWorldPosition":
+            x, y, h = bodies[node.get("entityRef")].here
+            where = Pose(x + number(node, "dx"), y + number(node, "dy"), h)
+        case "RelativeObjectPosition":
+            x, y, h = bodies[node.get("entityRef")].here
+            dx, dy = number(node, "dx"), number(node, "dy")
+            where = Pose(
+                x + dx * math.cos(h) - dy * math.sin(h), y + dx * math.sin(h) + dy * math.cos(h), h
+            )
+        case "RelativeRoadPosition":
+            lane_ = _lane_of(bodies[node.get("entityRef")], road_map)
+            t = centre(road_map, lane_) + number(node, "dt")
+            where = _flat(road_map.road_pose(lane_.road, lane_.s + number(node, "ds"), t))
+        case "RelativeLanePosition":
+            where = _beside(node, bodies[node.get("entityRef")], road_map)
+        case "GeoPosition":
+            latitude, longitude = (_degrees(node, name) for name in ("latitude", "longitude"))
+            where = Pose(*road_map.geo_reference.project(latitude, longitude), 0.0)
+        case _:
+            raise NotImplementedError(node.tag)
+    return where, _heading(orientation, where, node, bodies, road_map)
+
+
+def _degrees(node: Node, name: str) -> float:
+    degrees = node.get(f"{name}Deg")
+    return number(node, name) if degrees is None else math.radians(float(degrees))
+
+
+def _heading(
+    orientation: Node | None,
+    where: LanePosition | Pose,
+    node: Node,
+    bodies: dict[str, Body],
+    road_map: RoadMap,
+) -> float | None:
+    """Return the heading that a position says.
+
+    A relative orientation turns from the direction of the lane or the road, or of the reference.
+    """
+    if orientation is None:
+        return None
+    h = number(orientation, "h")
+    if orientation.get("type") == "absolute":
+        return h
+    if node.tag == "RelativeWorldPosition":
+        return h + bodies[node.get("entityRef")].here.h
+    if isinstance(where, Pose):
+        return h + where.h
+    pose = road_map.pose(where)
+    with_s = road_map.travel_direction(where.road, where.lane) > 0
+    return h + (pose.h if with_s else pose.h + math.pi)
+
+
+def _flat(pose: object) -> Pose:
+    return Pose(pose.x, pose.y, pose.h)  # type: ignore[attr-defined]
+
+
+def _lane_of(body: Body, road_map: RoadMap) -> LanePosition:
+    place = body.lane(road_map)
+    assert place is not None, f"{body.name} is on no lane"
+    return place
+
+
+def _beside(node: Node, body: Body, road_map: RoadMap) -> LanePosition:
+    """Return a place by lanes and metres from a reference.
+
+    With `dsLane` it counts along the lane of the reference, with `ds` along the road.
+    """
+    from_ = _lane_of(body, road_map)._replace(offset=0.0)
+    lane = beside(road_map, from_, body.along, int(number(node, "dLane")))
+    direction = road_map.travel_direction(from_.road, from_.lane) * body.along
+    if node.get("ds") is not None:
+        ahead = lane._replace(s=lane.s + number(node, "ds"))
+    else:
+        on = road_map.advance(from_, number(node, "dsLane") * body.along).position
+        if on.road == from_.road:
+            ahead = lane._replace(s=on.s)
+        else:
+            ahead = beside(road_map, on, body.along, int(number(node, "dLane")))
+    return ahead._replace(
+        offset=number(node, "offset")
+        * direction
+        * road_map.travel_direction(ahead.road, ahead.lane)
+    )
+
+
+def beside(road_map: RoadMap, from_: LanePosition, along: int, count: int) -> LanePosition:
+    """Return the place so many lanes to the left of an entity.
+
+    Lanes count by their numbers, of which 0 is none.
+
+    Args:
+        road_map: The map.
+        from_: Where the entity is.
+        along: 1 if it looks in the direction of travel, -1 against it.
+        count: Lanes to its left.
+
+    Raises:
+        AssertionError: There is no such lane.
+    """
+    up = road_map.travel_direction(from_.road, from_.lane) * along
+    target = from_.lane + count * up
+    if from_.lane * target <= 0:
+        target += up if count > 0 else -up
+    section = road_map.roads[from_.road].section_at(from_.s)
+    assert target in section.lanes, f"no lane {target} beside {from_}"
+    return LanePosition(from_.road, target, from_.s)
+
+
+def centre(road_map: RoadMap, place: LanePosition) -> float:
+    """Return the t of a place."""
+    section = road_map.roads[place.road].section_at(place.s)
+    lane = section.lanes[place.lane]
+    return lane.centre.value(place.s) + place.offset * lane.direction
+
+
+def offset_of(road_map: RoadMap, lane: LanePosition, pose: Pose) -> float:
+    """Return how far (m) a place lies to the left of a lane, in its direction of travel."""
+    at = road_map.pose(lane._replace(offset=0.0))
+    return (pose.y - at.y) * math.cos(at.h) - (pose.x - at.x) * math.sin(at.h)
