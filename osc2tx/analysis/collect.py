@@ -170,6 +170,10 @@ class Collector:
         if key in place.handed_in:
             yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
             return
+        if isinstance(type_, sym.ActorSymbol) and isinstance(node.default, ast.NameExpression):
+            # Another actor, of which its own declaration says all.
+            yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+            return
         is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
             t.origin != "library" for t in supertypes(type_)
         )
@@ -182,7 +186,7 @@ class Collector:
             inner = replace(place, owner=special, prefix=key, it=key)
             for statement in special.statements:
                 yield from self._of_statement(inner, special, statement, depth + 1)
-        if node.default is not None:
+        if node.default is not None and node.default not in self._model.quantities:
             yield self._setting(place, key, field.type, node.default, "default value")
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
 

@@ -7,13 +7,13 @@ import importlib.util
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 from osc2tx.support.real_paths import real_path
-from osc2tx_runtime import Scenario
+from osc2tx_runtime import Scenario, ScenarioError
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule
@@ -28,6 +28,9 @@ def scenarios_of_module(
     Args:
         module: The module.
         siblings: All modules that it needs.
+
+    Raises:
+        ScenarioError: A value of a type cannot be computed.
     """
     with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
         for each in (*siblings, module):
@@ -35,7 +38,12 @@ def scenarios_of_module(
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_text(each.python, encoding="utf-8")
             place.with_suffix(".map.json").write_text(each.source_map, encoding="utf-8")
-        with scenarios_of_file(place, Path(folder).name) as scenarios:
+        with ExitStack() as imported:
+            try:
+                scenarios = imported.enter_context(scenarios_of_file(place, Path(folder).name))
+            except ArithmeticError as error:
+                message = f"a value cannot be computed: {error}"
+                raise ScenarioError(message, module.source) from error
             yield scenarios
 
 

@@ -114,8 +114,12 @@ def _run_source(
     path = compilation.path
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
-    with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
-        return _run_one_of(scenarios, path, wanted, settings, reporter)
+    try:
+        with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
+            return _run_one_of(scenarios, path, wanted, settings, reporter)
+    except ScenarioError as error:
+        complain(f"{error.source}: error: {error.message}")
+        return Exit(error.exit_code)
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:

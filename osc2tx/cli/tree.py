@@ -39,12 +39,14 @@ def tree(
         return code
     if compilation.module is None:
         raise click.UsageError(f"{file} declares no scenario")
-    with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
-        chosen = choose_scenario(scenarios, scenario, file)
-        try:
+    place = str(file)
+    try:
+        with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
+            chosen = choose_scenario(scenarios, scenario, file)
+            place = chosen.source
             drawn = _FORMS[form](chosen().create_tree())
-        except ScenarioError as error:
-            complain(f"{error.source or chosen.source}: error: {error.message}")
-            return Exit(error.exit_code)
+    except ScenarioError as error:
+        complain(f"{error.source or place}: error: {error.message}")
+        return Exit(error.exit_code)
     put(drawn)
     return code

@@ -186,6 +186,9 @@ CODES = _table(
     Code("OSC623", "first-come", WARNING, "`until` or duration, whichever first.", "7.6.2.5.4"),
     Code("OSC624", "undeclared-model", WARNING, "A model of an actor is not declared.", "7.3"),
     Code("OSC625", "repeated-label", WARNING, "A label is used twice.", "7.3.13"),
+    Code("OSC626", "relaxed-layout", WARNING, "A line begins between two blocks.", "7.2.1.4"),
+    Code("OSC627", "argument-none", WARNING, "`None` stands for an argument that is left out."),
+    Code("OSC628", "caller-actor", WARNING, "An actor of the caller is used by its name."),
     # --- 7xx suppressions ---
     Code("OSC701", "unused-suppression", WARNING, "A suppression suppresses nothing."),
     Code("OSC702", "unknown-suppression", WARNING, "A suppression names an unknown code."),

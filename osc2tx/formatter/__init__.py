@@ -38,7 +38,7 @@ def format_source(source: SourceFile) -> str:
 
 
 def _scan(source: SourceFile) -> TokenTable:
-    return TokenSource(source, DiagnosticSink(), block_comments=True).scan()
+    return TokenSource(source, DiagnosticSink(), allow=("OSC111",)).scan()
 
 
 def _content(table: TokenTable) -> tuple[object, ...]:

@@ -10,6 +10,7 @@ from osc2tx import ir
 from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext, Receiver
+from osc2tx.lowering.external import listed_arguments
 from osc2tx.lowering.method_overriding import overriding_methods
 from osc2tx.lowering.methods import default_of, is_pure, is_undefined, method_name
 from osc2tx.lowering.shape_arguments import is_left_open
@@ -112,7 +113,11 @@ def _lower_own(
         arguments += tuple(_late_defaults(ctx, callee, arguments))
         return _in_place(ctx, node, callee, arguments)
     name, inside = callee.name, ctx
-    if not is_composed(callee.owner) and callee.owner is not None:
+    is_of_type = callee.owner is not None and not is_composed(callee.owner)
+    if is_of_type and callee.node is not None and listed_arguments(callee.node.body):
+        name = method_name(callee)
+        ctx.methods.setdefault(name, callee)
+    elif is_of_type and callee.owner is not None:
         name = method_name(callee)
         base = _receiver(ctx, node, binding.receiver)
         if base is None:

@@ -74,7 +74,7 @@ def path_declarations(
     field: sym.FieldSymbol,
     members: Sequence[PathMember],
     comments: tuple[str, ...],
-) -> tuple[ir.Declaration, ...]:
+) -> tuple[ir.Actor | ir.Struct, ...]:
     """Return the piece of road that a path stands for, below the map that it asks for."""
     own = [member.modifier for member in members if member.owner is field]
     for index, modifier in enumerate(own):

@@ -24,6 +24,21 @@ def has_behavior(behavior: Composed) -> bool:
     return any(isinstance(statement, ast.DoDirective) for statement in statements)
 
 
+def actor_type_of(behavior: sym.BehaviorSymbol) -> sym.ActorSymbol | None:
+    """Return the type whose objects carry out a behavior.
+
+    Dialect `carla` has a type that only names what scenarios are about, and of which there are no
+    objects: its scenarios have no actor.
+    """
+    actor = behavior.actor
+    return None if actor is None or is_placeholder(actor) else actor
+
+
+def is_placeholder(type_: sym.Symbol | None) -> bool:
+    """Whether a type has no objects: `dut` of dialect `carla`."""
+    return isinstance(type_, sym.ActorSymbol) and (type_.origin, type_.name) == ("prelude", "dut")
+
+
 def lineage_of(behavior: Composed) -> Iterator[Composed]:
     """Yield a behavior and its bases, up to the library."""
     current: Composed | None = behavior

@@ -6,15 +6,17 @@ from collections.abc import Iterator
 
 from osc2tx import ir
 from osc2tx.lowering.carla_paths import is_path, path_declarations, path_members
-from osc2tx.lowering.composed_behaviors import Composed
+from osc2tx.lowering.composed_behaviors import Composed, is_placeholder
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.fields import FieldLowering
 from osc2tx.lowering.methods import lower_method
+from osc2tx.lowering.references import alias_of
 from osc2tx.lowering.triggers import event_parameter, lower_trigger
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.conversions import symbol_of
 from osc2tx.syntax import ast
 
 
@@ -95,6 +97,10 @@ class DeclarationLowering:
         if isinstance(symbol, sym.FieldSymbol) and is_path(symbol.type):
             members = path_members(self._ctx, self._statements)
             return path_declarations(self._ctx, symbol, members, comments)
+        if isinstance(symbol, sym.FieldSymbol) and alias_of(self._ctx, symbol) is not None:
+            return ()
+        if isinstance(symbol, sym.FieldSymbol) and is_placeholder(symbol_of(symbol.type)):
+            return ()
         return present([self._field(statement, name, comments)])
 
     def _field(

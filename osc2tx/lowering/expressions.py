@@ -20,6 +20,8 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
     """Lower an expression; `None` if a part of it was refused."""
     span, type_ = node.span, lower_type(ctx.model.type_of(node))
     match node:
+        case ast.StringLiteral() if node in ctx.model.quantities:
+            return lower_expression(ctx, ctx.model.quantities[node])
         case (
             ast.BoolLiteral(value=value)
             | ast.IntegerLiteral(value=value)
@@ -95,6 +97,9 @@ def _is_sign(node: ast.Unary, operand: ast.Expression) -> bool:
     return is_minus and operand.span.start == node.span.start + 1
 
 
+LOGICAL = (ast.BinaryOperator.AND, ast.BinaryOperator.OR, ast.BinaryOperator.IMPLIES)
+
+
 def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | None:
     """Lower a chain of operators; its left spine may be long, so it is walked in a loop."""
     spine = [node]
@@ -106,7 +111,9 @@ def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | Non
         right = lower_expression(ctx, current.right)
         if left is None or right is None:
             return None
-        has_dates = has_dates or holds_date(right)
+        # Dates cancel out in sums and comparisons alone; a chain of `=>` is as deep as it is long.
+        is_logical = current.operator in LOGICAL
+        has_dates = not is_logical and (has_dates or holds_date(right))
         known = _known_logic(current.operator, left, right)
         if known is not None:
             left = known

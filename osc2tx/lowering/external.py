@@ -11,10 +11,27 @@ LANGUAGE = ("python",)
 ARGUMENTS = ("module", "name")
 
 
+def listed_arguments(body: ast.Node) -> tuple[ast.Argument, ...]:
+    """Return the arguments of an external body that list what its function gets."""
+    if not isinstance(body, ast.ExternalBody):
+        return ()
+    return tuple(
+        argument
+        for argument in body.arguments
+        if argument.name is not None
+        and argument.name.text not in ARGUMENTS
+        and isinstance(argument.value, ast.NameExpression)
+    )
+
+
 def lower_external(
     ctx: LoweringContext, method: sym.MethodSymbol, body: ast.ExternalBody
 ) -> ir.External | None:
-    """Lower `external python(module: "m", name: "f")`; the name may be left out."""
+    """Lower `external python(module: "m", name: "f")`; the name may be left out.
+
+    The function gets the object, if the method belongs to one, and the parameters of the method. It
+    gets the parameters alone where they stand behind the name, as in `param: x`.
+    """
     where = ".".join(body.path)
     if tuple(body.path) != LANGUAGE:
         ctx.unsupported(
@@ -25,7 +42,18 @@ def lower_external(
         )
         return None
     given: dict[str, str] = {}
-    for argument, expected in zip(body.arguments, (*ARGUMENTS, None, None), strict=False):
+    own = [parameter.name for parameter in method.parameters]
+    handed_on = listed_arguments(body)
+    if handed_on and [a.value.span.text for a in handed_on] != own:
+        ctx.unsupported(
+            "OSC512",
+            handed_on[0].span.to(handed_on[-1].span),
+            "the function gets the parameters of the method, in order",
+            help="leave this out",
+        )
+        return None
+    named = [argument for argument in body.arguments if argument not in handed_on]
+    for argument, expected in zip(named, (*ARGUMENTS, None, None), strict=False):
         name = expected if argument.name is None else argument.name.text
         if name not in ARGUMENTS or not isinstance(argument.value, ast.StringLiteral):
             ctx.unsupported(

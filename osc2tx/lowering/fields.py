@@ -7,6 +7,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.lowering.combined_types import add_types, lineage
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.list_constraints import lower_list
 from osc2tx.lowering.map_fields import reads_map
 from osc2tx.lowering.objects import ObjectLowering
@@ -14,6 +15,7 @@ from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.syntax import ast
 
 
 class FieldLowering:
@@ -42,6 +44,8 @@ class FieldLowering:
         """
         # A variable without initial value has one all the same (§7.3.6.1.2): from outside.
         match symbol.type:
+            case types.ActorType() if isinstance(symbol.default, ast.NameExpression):
+                return self._other_actor(symbol, symbol.default, span, comments)
             case types.ActorType():
                 actor = self._objects.types_of(symbol)
                 add_types(self._ctx, actor, span)
@@ -85,6 +89,27 @@ class FieldLowering:
                     "OSC501", span, f"a field of type `{symbol.type}` is not supported yet"
                 )
                 return None
+
+    def _other_actor(
+        self,
+        symbol: sym.FieldSymbol,
+        default: ast.NameExpression,
+        span: Span,
+        comments: tuple[str, ...],
+    ) -> ir.Parameter | None:
+        """Lower an actor that an invocation hands in, and else is another one."""
+        value = lower_expression(self._ctx, default)
+        if value is None:
+            return None
+        return ir.Parameter(
+            name=symbol.name,
+            span=span,
+            comments=comments,
+            type=lower_type(symbol.type),
+            value=value,
+            domain=None,
+            is_fixed=False,
+        )
 
     def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
         """Whether nothing but an invocation says what a struct is."""

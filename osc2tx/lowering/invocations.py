@@ -7,7 +7,12 @@ from osc2tx.analysis.operation_list import Key
 from osc2tx.ir.source_text import statement_name
 from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.carla_paths import start_on_path
-from osc2tx.lowering.composed_behaviors import Composed, has_behavior, is_composed
+from osc2tx.lowering.composed_behaviors import (
+    Composed,
+    actor_type_of,
+    has_behavior,
+    is_composed,
+)
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
@@ -75,12 +80,13 @@ class InvocationLowering:
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
         """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        callee = binding.callee
+        type_of_actor = actor_type_of(callee) if isinstance(callee, sym.BehaviorSymbol) else None
+        if type_of_actor is None:
+            return None
         if binding.receiver is not None:
             return lower_expression(self._ctx, binding.receiver)
-        callee = binding.callee
-        if not isinstance(callee, sym.ScenarioSymbol | sym.ActionSymbol) or callee.actor is None:
-            return None
-        type_ = ir.ValueType(ir.Kind.ACTOR, callee.actor.name)
+        type_ = ir.ValueType(ir.Kind.ACTOR, type_of_actor.name)
         return ir.FieldRef(span=node.span, type=type_, name="actor")
 
     def _scenario(

@@ -13,6 +13,7 @@ from osc2tx.lowering.global_names import field_name, global_name
 from osc2tx.lowering.map_fields import is_given_by_map
 from osc2tx.lowering.value_types import SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
@@ -29,6 +30,8 @@ def lower_name(
             return ir.EnumValue(span=node.span, type=enum_type, member=name, value=value)
         case sym.FieldSymbol(node=None, name="actor") if ctx.actor is not None:
             return replace(ctx.actor, span=node.span)
+        case sym.FieldSymbol() as field if (meant := alias_of(ctx, field)) is not None:
+            return ctx.lower(meant)
         case sym.FieldSymbol() if (given := _given(ctx, node)) is not None:
             return replace(given, span=node.span)
         case sym.FieldSymbol(node=None, name="actor"):
@@ -47,6 +50,20 @@ def lower_name(
         case _:
             ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")
             return None
+
+
+def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
+    """Return what a field is only another name for, and is not declared itself.
+
+    That is another actor (`other: vehicle = npc`) unless an invocation hands in one, or a quantity
+    that a dialect names by a text.
+    """
+    if isinstance(field.default, ast.StringLiteral):
+        return ctx.model.quantities.get(field.default)
+    is_actor = isinstance(field.type, types.ActorType) and field not in ctx.handed_in
+    if is_actor and isinstance(field.default, ast.NameExpression):
+        return field.default
+    return None
 
 
 def lower_member(
@@ -119,8 +136,10 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
     if not key:
         return ir.ScenarioSelf(span=span, type=SCENARIO)
     first, *rest = key
-    expression: ir.Expression
-    if isinstance(first, sym.FieldSymbol):
+    expression: ir.Expression | None
+    if isinstance(first, sym.FieldSymbol) and (meant := alias_of(ctx, first)) is not None:
+        expression = ctx.lower(meant)
+    elif isinstance(first, sym.FieldSymbol):
         type_, name = lower_type(first.type), field_name(ctx, first)
         expression = ir.FieldRef(span=span, type=type_, name=name)
     elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
@@ -131,7 +150,7 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
         )
         return None
     for field in rest:
-        if isinstance(field, sym.FieldSymbol):
+        if isinstance(field, sym.FieldSymbol) and expression is not None:
             expression = member_of(ctx, expression, field, span)
     return expression
 

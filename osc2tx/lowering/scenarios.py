@@ -10,7 +10,12 @@ from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.lowering.carla_paths import is_path_member
 from osc2tx.lowering.combined_types import lineage
-from osc2tx.lowering.composed_behaviors import Composed, is_composed, lineage_of
+from osc2tx.lowering.composed_behaviors import (
+    Composed,
+    actor_type_of,
+    is_composed,
+    lineage_of,
+)
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.coverage import lower_coverage
@@ -196,12 +201,13 @@ def _lower_scenario(
 
 def _own_actor(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Actor, ...]:
     """Return the implicit field `actor` of a scenario of an actor; its invoker fills it in."""
-    if scenario.actor is None:
+    actor = actor_type_of(scenario)
+    if actor is None:
         return ()
     span = scenario.node.name.span
-    names = lineage(scenario.actor)
-    ctx.types.append(scenario.actor)
-    fields = (field for each in user_lineage(scenario.actor) for field in user_fields(ctx, each))
+    names = lineage(actor)
+    ctx.types.append(actor)
+    fields = (field for each in user_lineage(actor) for field in user_fields(ctx, each))
     is_given = any(class_default(ctx, field) is None for field in fields)
     return (
         ir.Actor(
@@ -216,6 +222,21 @@ def _statements(scenario: Composed) -> tuple[ast.Statement, ...]:
     return tuple(statement for symbol in reversed(chain) for statement in symbol.statements)
 
 
+def _is_method_call(ctx: LoweringContext, statement: ast.ModifierApplication) -> bool:
+    """Whether a member calls a method, as a dialect lets it; without effect, if it computes."""
+    callee = ctx.model.binding_of(statement).callee
+    if not isinstance(callee, sym.MethodSymbol):
+        return False
+    if callee.node is not None and isinstance(callee.node.body, ast.ExternalBody):
+        ctx.unsupported(
+            "OSC503",
+            statement.span,
+            "an external method is called at a time of the scenario",
+            help=f"write `call {statement.span.text}` in its `do`",
+        )
+    return True
+
+
 def _member_placements(
     ctx: LoweringContext,
     statements: tuple[ast.Statement, ...],
@@ -227,6 +248,8 @@ def _member_placements(
         if not isinstance(statement, ast.ModifierApplication):
             continue
         if is_override(ctx, statement) or is_path_member(ctx, statement):
+            continue
+        if _is_method_call(ctx, statement):
             continue
         for applied in standing.of_member(statement):
             modifier, actor = applied.call, applied.actor

@@ -132,7 +132,9 @@ class StandingModifiers:
 
     def _lower(self, standing: Standing) -> tuple[Applied, ...]:
         key = (standing.node, standing.within)
-        if is_override(self._ctx, standing.node):
+        callee = self._ctx.model.binding_of(standing.node).callee
+        is_modifier = isinstance(callee, sym.ModifierSymbol)
+        if not is_modifier or is_override(self._ctx, standing.node):
             return ()
         if key not in self._lowered:
             ctx = self._ctx if standing.receiver is None else self._ctx.inside(standing.receiver)

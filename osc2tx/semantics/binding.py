@@ -12,7 +12,7 @@ from osc2tx.semantics.assignability import check_value
 from osc2tx.semantics.builtins import DURATION
 from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.exclusive import check_exclusive
-from osc2tx.semantics.member_lookup import parameters_of
+from osc2tx.semantics.member_lookup import lookup_value, parameters_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
@@ -130,6 +130,8 @@ def _match(
                 _note_prelude(r, parameter, callee, argument.span)
         if parameter is None:
             type_arguments(r, [argument], env)
+        elif _is_left_out(r, argument, env):
+            taken.add(parameter)
         elif parameter in taken:
             r.report("OSC403", argument.span, f"`{parameter.name}` is given twice")
             type_arguments(r, [argument], env)
@@ -144,6 +146,23 @@ def _match(
             taken.add(parameter)
             pairs.append((parameter, value))
     return tuple(pairs)
+
+
+def _is_left_out(r: Resolution, argument: ast.Argument, env: Environment) -> bool:
+    """Whether an argument has the value `None`, as ScenarioRunner's users write it."""
+    value = argument.value
+    return (
+        isinstance(value, ast.NameExpression)
+        and value.span.text == "None"
+        and lookup_value(r, value.name, env, quiet=True) is None
+        and r.relaxes(
+            "OSC627",
+            argument.span,
+            "`None` is no value; the argument is taken as left out",
+            key=argument.span.text,
+            help=f"leave `{argument.span.text}` out",
+        )
+    )
 
 
 def _positional(parameters: Sequence[Parameter], callee: Symbol) -> Sequence[Parameter]:

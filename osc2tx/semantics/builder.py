@@ -6,6 +6,7 @@ from collections import ChainMap
 from dataclasses import field
 
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.semantics.actors_by_name import hand_over_actors
 from osc2tx.semantics.check import check_bodies
 from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
 from osc2tx.semantics.dialects import Dialect, Relaxations
@@ -62,6 +63,7 @@ class ModelBuilder:
         _check_uses(resolution, walk.files)
         resolve_declarations(resolution, collector)
         check_bodies(resolution)
+        hand_over_actors(resolution)
         tell_types_apart(resolution.scope)
         return _model(root, tuple(walk.files), resolution, library)
 
@@ -140,6 +142,7 @@ def _model(
         references=ChainMap(r.references, below.references),
         bindings=ChainMap(r.bindings, below.bindings),
         units=ChainMap(r.units, below.units),
+        quantities=r.quantities,
         symbols=tuple(r.scope.declared),
         known_units=tuple(r.scope.all_units()),
     )

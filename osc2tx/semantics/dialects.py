@@ -38,7 +38,7 @@ ASAM = Dialect("asam")
 CARLA = Dialect(
     "carla",
     prelude="dialects/carla.osc",
-    relaxed=frozenset({"OSC111", *(f"OSC{number}" for number in range(601, 626))}),
+    relaxed=frozenset({"OSC111", *(f"OSC{number}" for number in range(601, 629))}),
     library_files=LIBRARY_FILES | {RUNNER_FILE},
     unprefixed_library=True,
 )

@@ -48,6 +48,7 @@ class SemanticModel:
         bindings: What an `Invocation`, `ModifierApplication`, `Call`, `CallDirective` or
             `EmitDirective` means.
         units: The unit of a `PhysicalLiteral`.
+        quantities: What the texts read that a dialect takes for quantities of actors.
         symbols: What the user's files declare, in source order, imported files first.
         known_units: Every unit, also those of the library.
     """
@@ -60,6 +61,7 @@ class SemanticModel:
     references: Mapping[ast.Node, Symbol] = field(default_factory=dict)
     bindings: Mapping[ast.Node, Binding] = field(default_factory=dict)
     units: Mapping[ast.PhysicalLiteral, UnitSymbol] = field(default_factory=dict)
+    quantities: Mapping[ast.StringLiteral, ast.MemberAccess] = field(default_factory=dict)
     symbols: tuple[Symbol, ...] = ()
     known_units: tuple[UnitSymbol, ...] = ()
 

@@ -18,6 +18,7 @@ from osc2tx.semantics.symbols import (
     FieldSymbol,
     ParameterSymbol,
     ScenarioSymbol,
+    StructSymbol,
     Symbol,
     TypeSymbol,
     UnitSymbol,
@@ -82,7 +83,9 @@ class Resolution:
         unimported: Gives the library if the program has not imported (all of) it.
         event_fields: The event behind each name that `as` bound.
         actor_fields: The implicit field `actor` per actor type.
-        implied_objects: The actors that a program has without declaring them, per type.
+        implied_objects: The objects that a program has without declaring them, per type.
+        quantities: What texts of ScenarioRunner such as `"npc_speed"` read.
+        adopted: Fields that stand for actors of the caller, which a dialect finds by their names.
         invoked: What the name in an invocation was found to be; `None` if it was reported.
     """
 
@@ -98,7 +101,9 @@ class Resolution:
     units: dict[ast.PhysicalLiteral, UnitSymbol] = field(default_factory=dict)
     event_fields: dict[Symbol, EventSymbol] = field(default_factory=dict)
     actor_fields: dict[ActorSymbol, FieldSymbol] = field(default_factory=dict)
-    implied_objects: dict[ActorSymbol, FieldSymbol] = field(default_factory=dict)
+    implied_objects: dict[ActorSymbol | StructSymbol, FieldSymbol] = field(default_factory=dict)
+    quantities: dict[ast.StringLiteral, ast.MemberAccess] = field(default_factory=dict)
+    adopted: set[FieldSymbol] = field(default_factory=set)
     invoked: dict[ast.Name, ScenarioSymbol | ActionSymbol | None] = field(default_factory=dict)
 
     def type_of(
@@ -121,13 +126,20 @@ class Resolution:
         self.sink.report(code, span, message, help=help, notes=notes, labels=labels)
 
     def relaxes(
-        self, code: str, span: Span, message: str, *, key: str = "", help: str | None = None
+        self,
+        code: str,
+        span: Span,
+        message: str,
+        *,
+        key: str = "",
+        help: str | None = None,
+        labels: Sequence[Label] = (),
     ) -> bool:
         """Whether the dialect lets something pass; then it is warned about, once per file."""
         if code not in self.relaxations.dialect.relaxed:
             return False
         if self.relaxations.is_new(code, span.source.name, key):
-            self.sink.report(code, span, message, help=help)
+            self.sink.report(code, span, message, help=help, labels=labels)
         return True
 
     def needs_standard(self, span: Span, what: str) -> None:

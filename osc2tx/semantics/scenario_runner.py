@@ -29,8 +29,7 @@ def reads_as_quantity(
 ) -> bool:
     """Whether a text stands for a quantity of an actor, as `"npc_speed"` for the speed of `npc`.
 
-    It changes during the run although a parameter holds it, which no backend can express: it is
-    refused here, as lowering would take it for a text.
+    It changes during the run, also where a parameter holds it: that is another name for it.
     """
     if not isinstance(expression, ast.StringLiteral) or not isinstance(target, PhysicalType):
         return False
@@ -41,24 +40,25 @@ def reads_as_quantity(
         name = ast.Name(span=expression.span, text=actor)
         field = lookup_value(r, name, env, quiet=True)
         if isinstance(field, FieldSymbol) and isinstance(field.type, ActorType):
-            return _read_quantity(r, expression, f"{actor}.{quantity}")
+            return _read_quantity(r, expression, name, quantity, env)
     return False
 
 
-def _read_quantity(r: Resolution, text: ast.StringLiteral, quantity: str) -> bool:
+def _read_quantity(
+    r: Resolution, text: ast.StringLiteral, actor: ast.Name, quantity: str, env: Environment
+) -> bool:
     read = r.relaxes(
         "OSC621",
         text.span,
-        f'the text `"{text.value}"` stands for `{quantity}`, whatever that is at the time',
+        f'the text `"{text.value}"` stands for `{actor}.{quantity}`, whatever that is at the time',
         key=text.value,
+        help=f"write `{actor}.{quantity}` where it is compared",
     )
     if read:
-        r.report(
-            "OSC503",
-            text.span,
-            "a text that stands for a quantity cannot be run yet",
-            help=f"write `{quantity}` where it is compared",
-        )
+        base = ast.NameExpression(span=text.span, name=actor)
+        name = ast.Name(span=text.span, text=quantity)
+        r.quantities[text] = ast.MemberAccess(span=text.span, base=base, name=name)
+        r.type_of(r.quantities[text], env)
     return read
 
 

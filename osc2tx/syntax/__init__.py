@@ -40,7 +40,8 @@ def parse(
         sink: Where diagnostics go.
         allow: Codes of deviations that are fine in the dialect at hand and not to be reported:
             OSC111 (block comments), OSC112 (empty blocks), OSC113 (`do:`), OSC114 (empty
-            parentheses). `use` as a statement is left to the next stage to judge.
+            parentheses), OSC626 (lines that begin between two blocks). `use` as a statement is
+            left to the next stage to judge.
 
     Returns:
         The AST of all that could be understood.
@@ -51,7 +52,7 @@ def parse(
     from osc2tx.syntax.token_source import TokenSource
 
     with room_for_trees():
-        table = TokenSource(source, sink, block_comments="OSC111" in allow).scan()
+        table = TokenSource(source, sink, allow=allow).scan()
         try:
             tree = parse_tokens(table, sink)
             return ASTTransformer(table, sink, allow).transform(tree)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.syntax import patterns
@@ -22,12 +23,12 @@ _REPLACEMENTS = {
 class LexicalErrors:
     """Reports lexical mistakes of one source, each once, not more than 100 of a kind."""
 
-    def __init__(self, table: TokenTable, sink: DiagnosticSink, *, block_comments: bool) -> None:
-        """Report into `sink`, unless `block_comments` are fine."""
+    def __init__(self, table: TokenTable, sink: DiagnosticSink, *, allow: Collection[str]) -> None:
+        """Report into `sink` what is not among the codes that are fine."""
         self._table = table
         self._text = table.source.text
         self._sink = sink
-        self._block_comments = block_comments
+        self._allow = allow
         self._reported: dict[str, int] = {}
         self.last_offset = 0
 
@@ -89,25 +90,35 @@ class LexicalErrors:
             end = len(self._text)
             self._report("OSC111", start, start + 2, "the block comment has no end `*/`")
             return end
-        if not self._block_comments:
+        if "OSC111" not in self._allow:
             message = "block comments are not part of OpenSCENARIO DSL"
             self._report("OSC111", start, start + 2, message, "begin each line with `#`")
         return close + 2
 
-    def inconsistent_dedent(self, at: int, width: int, opened: list[int]) -> None:
-        """Report a line that is indented like no block around it."""
+    def inconsistent_dedent(self, at: int, width: int, opened: list[int], taken: int) -> None:
+        """Report a line that is indented like no block around it.
+
+        ScenarioRunner takes such a line as one of the outer block, so a dialect may allow that.
+
+        Args:
+            at: Where the line begins.
+            width: Its indentation.
+            opened: The indentations of the blocks around it.
+            taken: That of the block it is taken to belong to.
+        """
         columns = [str(column + 1) for column in opened]
         listed = " and ".join([", ".join(columns[:-1]), columns[-1]] if columns[1:] else columns)
+        relaxed = "OSC626" in self._allow and taken < width
         line_start = self._table.line_start(at)
         blanks = self._text[line_start:at]
         mixed = re.search(r" .*\t|\t.* ", blanks) or "\t" in blanks
-        help_ = "tabs count up to the next multiple of 8; do not mix them with blanks"
+        tabs = "tabs count up to the next multiple of 8; do not mix them with blanks"
         self._report(
-            "OSC104",
+            "OSC626" if relaxed else "OSC104",
             line_start,
             max(at, line_start + 1),
             f"the line starts in column {width + 1}, but the open blocks start in {listed}",
-            help_ if mixed else None,
+            tabs if mixed else f"begin it in column {taken + 1}",
         )
 
     def nesting_too_deep(self, at: int, limit: int) -> None:

@@ -28,7 +28,7 @@ def find_suppressions(source: SourceFile) -> tuple[Suppression, ...]:
         return ()
     from osc2tx.syntax.token_source import TokenSource
 
-    comments = _Comments(TokenSource(source, DiagnosticSink(), block_comments=True).scan())
+    comments = _Comments(TokenSource(source, DiagnosticSink(), allow=("OSC111",)).scan())
     return tuple(
         Suppression(
             Span(source, match.start(), match.end()),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.syntax import patterns
 from osc2tx.syntax.identifiers import identifier_end
@@ -48,12 +50,12 @@ class TokenSource:
     """Scans one source text into a `TokenTable`; never fails, whatever the text."""
 
     def __init__(
-        self, source: SourceFile, sink: DiagnosticSink, *, block_comments: bool = False
+        self, source: SourceFile, sink: DiagnosticSink, *, allow: Collection[str] = frozenset()
     ) -> None:
-        """Prepare; `block_comments` accepts the comments of other languages silently."""
+        """Prepare; `allow` has the codes of deviations that are fine: see `parse`."""
         self.table = TokenTable(source)
         self._text = source.text
-        self._errors = LexicalErrors(self.table, sink, block_comments=block_comments)
+        self._errors = LexicalErrors(self.table, sink, allow=allow)
         self._candidates: list[tuple[int, int]] = []
         self._indents = [0]
         self._mistaken: dict[int, int] = {}  # columns of wrong dedents, and of the block meant
@@ -135,11 +137,11 @@ class TokenSource:
             self._append(DEDENT, at, at)
 
     def _nearest_block(self, width: int, at: int) -> int:
-        """Take a line between two open blocks as one of the inner block; report it once."""
+        """Take a line between two open blocks as one of the nearer block; report it once."""
         nearest = self._mistaken.get(width)
         if nearest is None or nearest not in self._indents:
-            self._errors.inconsistent_dedent(at, width, self._indents)
-            nearest = min(column for column in self._indents if column > width)
+            nearest = min(self._indents, key=lambda column: (abs(column - width), -column))
+            self._errors.inconsistent_dedent(at, width, self._indents, nearest)
             self._mistaken[width] = nearest
         return nearest
 

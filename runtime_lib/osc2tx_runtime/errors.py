@@ -92,13 +92,17 @@ class OwnCode:
     Args:
         what: Begins the message, which ends with what was raised.
         source: Place in the scenario.
+        error: What it becomes.
     """
 
-    __slots__ = ("source", "what")
+    __slots__ = ("error", "source", "what")
 
-    def __init__(self, what: str, source: str | None = None) -> None:
+    def __init__(
+        self, what: str, source: str | None = None, error: type[ScenarioError] = ScenarioError
+    ) -> None:
         self.what = what
         self.source = source
+        self.error = error
 
     def __enter__(self) -> None:
         """Begin."""
@@ -107,7 +111,7 @@ class OwnCode:
         """Translate what was raised."""
         if raised is None or isinstance(raised, ScenarioError | KeyboardInterrupt):
             return
-        raise ScenarioError(f"{self.what} {told(raised)}", self.source or None) from raised
+        raise self.error(f"{self.what} {told(raised)}", self.source or None) from raised
 
 
 def told(error: BaseException) -> str:

@@ -25,6 +25,7 @@ from osc2tx_runtime import Scenario, main
 from tests.corpus.report import compilation_of, manifest
 
 MAX_TIME = 20.0  # s of simulated time
+EXTERNAL = "math.sin"  # the only function that scenarios of the corpus call
 MAPS = ("carla-2020", "carla-2019", "esmini")
 STAND_IN = Path(osc2tx_runtime.__file__).parent / "maps" / "highway.xodr"
 VARIANTS = (
@@ -103,7 +104,12 @@ class Runs:
 
     def end(self, file: str, scenario: type[Scenario], variant: tuple[str, ...]) -> Ended:
         self.trace.unlink(missing_ok=True)
-        arguments = [f"--max-time={MAX_TIME}", f"--trace={self.trace}", *self.maps, *variant]
+        options = [
+            f"--max-time={MAX_TIME}",
+            f"--trace={self.trace}",
+            f"--allow-external={EXTERNAL}",
+        ]
+        arguments = [*options, *self.maps, *variant]
         said = StringIO()
         try:
             with redirect_stdout(said), redirect_stderr(said):

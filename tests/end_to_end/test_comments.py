@@ -54,7 +54,7 @@ class Source:
         self.text = text
         source = SourceFile("s.osc", text)
         self.rows = re.split(r"\r\n|\r|\n", text)
-        self._table = TokenSource(source, DiagnosticSink(), block_comments=True).scan()
+        self._table = TokenSource(source, DiagnosticSink(), allow=("OSC111",)).scan()
 
     @cached_property
     def lines(self) -> list[Line]:

@@ -6,6 +6,8 @@ import ast
 import os
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from traceback import extract_tb, format_exception
@@ -98,13 +100,21 @@ def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
 
 def _execute(module: GeneratedModule) -> None:
     """Run the scenarios of a module: to a verdict, or to an error that the runtime explains."""
-    with scenarios_of_module(module) as scenarios:
-        for scenario in scenarios.values():
-            try:
-                run_scenario(scenario, RunSettings(max_time=SIMULATED_SECONDS), keep_trace=False)
-            except ScenarioError as error:
-                if not error.message:
-                    raise Refuted("an error that says nothing") from error
+    settings = RunSettings(max_time=SIMULATED_SECONDS)
+    with ExitStack() as imported, explained():
+        for scenario in imported.enter_context(scenarios_of_module(module)).values():
+            with explained():
+                run_scenario(scenario, settings, keep_trace=False)
+
+
+@contextmanager
+def explained() -> Iterator[None]:
+    """Errors of a scenario that say what is wrong are an answer."""
+    try:
+        yield
+    except ScenarioError as error:
+        if not error.message:
+            raise Refuted("an error that says nothing") from error
 
 
 def _key(error: Exception) -> str:

@@ -258,7 +258,8 @@ class ScenarioWriter:
         write = self._calls.expressions.write
         if parameter.value is not None and parameter.is_fixed:
             return self._fixed(parameter.type, code(write(parameter.value)))
-        if parameter.value is not None and parameter.type.element is not None:
+        is_object = parameter.type.element is not None or parameter.type.kind is ir.Kind.ACTOR
+        if parameter.value is not None and is_object:
             name, value = code(literal(parameter.name)), code(write(parameter.value))
             return ArgumentView(call=CallView(_self("argument"), (name, value)))
         known_as = ir.setting_name(parameter.name) if parameter.is_global else parameter.name

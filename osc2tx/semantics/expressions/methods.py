@@ -16,6 +16,7 @@ from osc2tx.semantics.builtins import (
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.everyday_words import CONDITIONS
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
+from osc2tx.semantics.expressions.type_receivers import implied_object
 from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -118,6 +119,7 @@ def type_itself(
         help=f"declare a field of type `{symbol.name}`, and call it on that",
     ):
         r.types[receiver] = type_of_symbol(symbol)
+        r.references[receiver] = implied_object(r, symbol, receiver)
         return r.types[receiver]
     r.types[receiver] = ERROR
     r.report(
@@ -149,6 +151,14 @@ def call_by_statement(r: Resolution, node: ast.ModifierApplication, env: Environ
         return True
     r.references[node.modifier] = method
     bind_call(r, node, method, node.actor, node.modifier.span, env)
+    if method.node is not None and not isinstance(method.node.body, ast.ExternalBody):
+        r.relaxes(
+            "OSC618",
+            node.span,
+            f"the result of `{node.actor.span.text}.{node.modifier}()` is used nowhere",
+            key=str(node.span.start),
+            help="leave the line out",
+        )
     return True
 
 

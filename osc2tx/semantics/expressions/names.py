@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.semantics.actors_by_name import actor_of_caller
 from osc2tx.semantics.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
@@ -40,6 +41,8 @@ def infer_name(
         receiver = type_as_receiver(r, node, env)
         if receiver is not None:
             return receiver
+    if symbol is None and env.owner is not None:
+        symbol = actor_of_caller(r, node.name, env)
     if symbol is None:
         return _infer_unknown(r, node, env, expected)
     r.references[node] = symbol

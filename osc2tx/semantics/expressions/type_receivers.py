@@ -6,10 +6,11 @@ about the one object of the type.
 
 from __future__ import annotations
 
+from osc2tx.semantics.conversions import type_of_owner
 from osc2tx.semantics.member_lookup import actor_field
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import is_subtype, supertypes
-from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol
+from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol, StructSymbol
 from osc2tx.semantics.types import ERROR, ActorType, Type
 from osc2tx.syntax import ast
 
@@ -36,7 +37,7 @@ def type_as_receiver(r: Resolution, node: ast.NameExpression, env: Environment) 
         _report(r, node, actor, f"write {listed}")
     elif _is_singleton(actor):
         _warn(r, node, "it is taken as the one there is", declare)
-        return _refer(r, node, _implied(r, actor, node))
+        return _refer(r, node, implied_object(r, actor, node))
     elif actor.origin == "user" and r.relaxes(
         "OSC622",
         node.span,
@@ -44,7 +45,7 @@ def type_as_receiver(r: Resolution, node: ast.NameExpression, env: Environment) 
         key=actor.name,
         help=declare,
     ):
-        return _refer(r, node, _implied(r, actor, node))
+        return _refer(r, node, implied_object(r, actor, node))
     else:
         _report(r, node, actor, declare)
     return ERROR
@@ -72,9 +73,11 @@ def _is_singleton(actor: ActorSymbol) -> bool:
     return any(t.origin == "library" and t.name in SINGLETONS for t in supertypes(actor))
 
 
-def _implied(r: Resolution, actor: ActorSymbol, node: ast.NameExpression) -> FieldSymbol:
+def implied_object(
+    r: Resolution, named: ActorSymbol | StructSymbol, node: ast.NameExpression
+) -> FieldSymbol:
     """Return the object that a program has without declaring it: one for all scenarios."""
-    if actor not in r.implied_objects:
+    if named not in r.implied_objects:
         type_ = ast.NamedType(
             span=node.span, name=ast.BehaviorName(span=node.span, actor=None, name=node.name)
         )
@@ -82,17 +85,17 @@ def _implied(r: Resolution, actor: ActorSymbol, node: ast.NameExpression) -> Fie
             span=node.span, names=(node.name,), type=type_, default=None, constraints=()
         )
         symbol = FieldSymbol(
-            name=actor.name,
-            namespace=actor.namespace,
+            name=named.name,
+            namespace=named.namespace,
             span=node.span,
             owner=None,
-            type=ActorType(actor),
+            type=type_of_owner(named),
             node=declaration,
         )
         r.types[type_] = symbol.type
         r.scope.declared.append(symbol)
-        r.implied_objects[actor] = symbol
-    return r.implied_objects[actor]
+        r.implied_objects[named] = symbol
+    return r.implied_objects[named]
 
 
 def _refer(r: Resolution, node: ast.NameExpression, field: FieldSymbol) -> Type:

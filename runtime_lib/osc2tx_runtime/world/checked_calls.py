@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NoReturn, TypeVar
 
-from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, name_of
+from osc2tx_runtime.errors import OwnCode, ScenarioError, SimulatorError, is_own, name_of
 
 from .value_checks import problem_of
 
 __all__ = ["CheckedCalls"]
 
 T = TypeVar("T")
+_SIMULATORS = "osc2tx_runtime.simulators."
 
 
 class CheckedCalls:
@@ -19,12 +20,20 @@ class CheckedCalls:
 
     Args:
         part: What it is for the run: `plant`, `world`.
-        object_: The object; what one of this package raises is passed on as it is.
+        object_: The object. What the embedded world raises is passed on as it is; one that speaks
+            to a simulator fails as a rule for what that answered.
     """
 
     def __init__(self, part: str, object_: object) -> None:
         self._told = f"the {part} {name_of(type(object_))}"
-        self._is_own = is_own(type(object_))
+        self._error = self._translated(type(object_))
+
+    @staticmethod
+    def _translated(factory: type) -> type[ScenarioError] | None:
+        """What exceptions become; None for those of the embedded world, which are bugs."""
+        if is_own(factory):
+            return ScenarioError
+        return SimulatorError if factory.__module__.startswith(_SIMULATORS) else None
 
     def ask(self, name: str, call: Callable[[], T], wanted: Any) -> T:
         """Return the answer to a call.
@@ -37,10 +46,10 @@ class CheckedCalls:
         Raises:
             ScenarioError: It is no such thing, or code of the user's own raised something.
         """
-        if not self._is_own:
+        if self._error is None:
             found = call()
         else:
-            with OwnCode(f"{self._told} raised"):
+            with OwnCode(f"{self._told} raised", error=self._error):
                 found = call()
         if problem := problem_of(found, wanted):
             self.refuse(name, problem)

@@ -12,8 +12,11 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
+from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_runtime.simulators.carla.plant import CarlaPlant
+from osc2tx_runtime.world.checked_calls import CheckedCalls
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
 from osc2tx_runtime.world.measurement import Measurement
 from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
@@ -165,3 +168,18 @@ def test_below_a_threshold_it_stands(highway: RoadMap, make_spec: Spec) -> None:
     steps(world, 8.0)
     assert world.state("a").v == 0.0
     assert world.progress("a", LONGITUDINAL).done
+
+
+def test_what_a_plant_of_a_simulator_raises() -> None:
+    """The answer of a simulator that nobody expects: named, and no bug of the scenario."""
+    calls = CheckedCalls("plant", object.__new__(CarlaPlant))
+
+    def fails() -> float:
+        raise KeyError("skipped")
+
+    with pytest.raises(SimulatorError) as caught:
+        calls.ask("moved", fails, float)
+    assert caught.value.exit_code == 4
+    assert caught.value.message == (
+        "the plant osc2tx_runtime.simulators.carla.plant.CarlaPlant raised KeyError: 'skipped'"
+    )

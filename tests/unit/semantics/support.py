@@ -23,10 +23,10 @@ def build(
         if not path.is_file():
             return None
         text = path.read_text(encoding="utf-8")
-        return parse(SourceFile(path.name, text, path), sink)
+        return parse(SourceFile(path.name, text, path), sink, allow=DIALECTS[dialect].relaxed)
 
     builder = ModelBuilder(sink, standard=standard, dialect=DIALECTS[dialect], load=load)
-    return builder.build(parse(source, sink)), sink
+    return builder.build(parse(source, sink, allow=DIALECTS[dialect].relaxed)), sink
 
 
 def build_text(

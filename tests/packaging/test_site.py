@@ -1,0 +1,62 @@
+"""The pages that the hooks of the site make."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+from runpy import run_path
+from typing import Any
+
+from osc2tx.diagnostics import CODES
+from osc2tx.reference import entries, find
+
+TOOLS = Path(__file__).parents[2] / "tools"
+PAGES: dict[str, Any] = run_path(str(TOOLS / "site_pages.py"))
+SPLITS: dict[str, Any] = run_path(str(TOOLS / "site_splits.py"))
+
+
+def test_links_between_pages_lead_somewhere() -> None:
+    place: Callable[..., str] = PAGES["_place"]
+    known = {place(entry) for entry in entries()}
+    for entry in entries():
+        folder = PurePosixPath(place(entry)).parent
+        for target in re.findall(r"\]\(\.\./([^)]+)\)", PAGES["page_of"](entry)):
+            assert str(folder.parent / target) in known, (entry.key, target)
+
+
+def test_types_and_modifiers_are_linked() -> None:
+    (entry,) = find("action vehicle.change_lane")
+    page = PAGES["page_of"](entry)
+    assert "[`lane_change_side`](../enum/lane_change_side.md)" in page
+    assert "[`speed`](../type/speed.md)" in page
+    assert "[`speed`](../modifier/speed.md)" in page
+
+
+def test_what_the_runtime_carries_out_has_an_example() -> None:
+    """From scenarios that the tests run; some modifiers of the map are in none of them."""
+    acting = [e for e in entries() if e.xml and e.declaration.kind in ("action", "modifier")]
+    acting = [entry for entry in acting if not entry.declaration.name.startswith("map.")]
+    without = [entry.key for entry in acting if PAGES["example"](entry) is None]
+    assert without == []
+
+
+def test_every_code_has_a_page_with_its_remedy() -> None:
+    pages = SPLITS["_codes"]()
+    assert set(pages) == {code.lower() for code in CODES}
+    for code, text in pages.items():
+        explanation = CODES[code.upper()].explanation
+        assert explanation is None or explanation.faulty.strip() in text
+
+
+def test_the_chapters_of_the_coverage_page_lose_nothing() -> None:
+    whole = (SPLITS["DOCS"] / "coverage.md").read_text(encoding="utf-8")
+    kept = "".join(text for _, _, text in SPLITS["_chapters"]())
+    rows = [line for line in whole.splitlines() if line.startswith("|")]
+    assert rows == [line for line in kept.splitlines() if line.startswith("|")]
+
+
+def test_old_anchors_lead_to_the_new_pages() -> None:
+    lead = SPLITS["_TO_CHAPTER"].sub
+    text = "[a](../coverage.md#in-carla) [b](coverage.md#openscenario-xml)"
+    assert lead(SPLITS["_lead_to_chapter"], text) == (
+        "[a](../coverage-capabilities.md#in-carla) [b](coverage-openscenario-xml.md)"
+    )
