@@ -19,7 +19,7 @@ from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 
 from .conftest import OWN_MAPS
-from .runs import GENERATED
+from .runs import GENERATED, REPOSITORY
 from .stand_in.process import StandInProcess
 
 pytestmark = pytest.mark.slow
@@ -35,11 +35,17 @@ def server() -> Iterator[StandInProcess]:
         yield process
 
 
-def module(port: int, trace: Path, *options: str) -> subprocess.Popen[str]:
-    """Start a generated module in CARLA."""
+AS_MODULE = (str(CUT_IN),)
+AS_SOURCE = ("-m", "osc2tx", "run", str(REPOSITORY / "scenarios" / "cut_in.osc"))
+
+
+def module(
+    port: int, trace: Path, *options: str, program: tuple[str, ...] = AS_MODULE
+) -> subprocess.Popen[str]:
+    """Start a generated module, or its source, in CARLA."""
     given = ["--world", "carla", "--carla", f"127.0.0.1:{port}", "--trace", str(trace), *options]
     return subprocess.Popen(
-        [sys.executable, str(CUT_IN), "--carla-timeout", "2", *given],
+        [sys.executable, *program, "--carla-timeout", "2", *given],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -121,10 +127,13 @@ def test_a_server_that_freezes(server: StandInProcess, tmp_path: Path, wait: Unt
     wait(lambda: not server.ask("stand_in_synchronous"))
 
 
-def test_ctrl_c(server: StandInProcess, tmp_path: Path, wait: Until) -> None:
+@pytest.mark.parametrize("program", [AS_MODULE, AS_SOURCE], ids=["module", "osc2tx run"])
+def test_ctrl_c(
+    server: StandInProcess, tmp_path: Path, wait: Until, program: tuple[str, ...]
+) -> None:
     trace = tmp_path / "trace.jsonl"
     stop = begin_slowly(server)
-    run = module(server.port, trace)
+    run = module(server.port, trace, program=program)
     wait_for_steps(server, wait)
     stop()
     os.kill(server.pid, signal.SIGSTOP)  # the run cannot end before the signal is there
