@@ -12,7 +12,7 @@ Dialect: TypeAlias = Literal["asam", "carla"]
 OneOfPolicy: TypeAlias = Literal["race", "first", "seeded"]
 ProductName: TypeAlias = Literal["ast", "model", "ir", "py", "xosc"]
 Target: TypeAlias = Literal["all", "py", "xosc"]
-XmlVersion: TypeAlias = Literal["1.0", "1.1", "1.2", "1.3"]
+XmlVersion: TypeAlias = Literal["1.0", "1.1", "1.2", "1.3", "1.4"]
 XmlProfile: TypeAlias = Literal["generic", "esmini", "scenario_runner"]
 
 STANDARDS: tuple[Standard, ...] = ("2.1", "2.2")
@@ -20,7 +20,8 @@ DIALECTS: tuple[Dialect, ...] = ("asam", "carla")
 ONE_OF_POLICIES: tuple[OneOfPolicy, ...] = ("race", "first", "seeded")
 PRODUCT_NAMES: tuple[ProductName, ...] = ("ast", "model", "ir", "py", "xosc")  # of `--emit`
 TARGETS: tuple[Target, ...] = ("all", "py", "xosc")
-XML_VERSIONS: tuple[XmlVersion, ...] = ("1.0", "1.1", "1.2", "1.3")
+XML_VERSIONS: tuple[XmlVersion, ...] = ("1.0", "1.1", "1.2", "1.3", "1.4")
+DEFAULT_XML_VERSION: XmlVersion = "1.3"  # the newest that tools read
 ONLY_VERSIONS: Mapping[str, XmlVersion] = {"scenario_runner": "1.0"}  # of profiles that have one
 XML_PROFILES: tuple[XmlProfile, ...] = ("generic", "esmini", "scenario_runner")
 
@@ -38,7 +39,7 @@ class XmlOptions:
         map_path: Folders with maps, besides that of the source and the built-in ones.
     """
 
-    version: XmlVersion = "1.3"
+    version: XmlVersion = DEFAULT_XML_VERSION
     profile: XmlProfile = "generic"
     allow_approx: bool = False
     signals: tuple[str, ...] = ()

@@ -1,6 +1,7 @@
 """Writes `osc2tx/backends/xosc/xml/schema.json`: what each version of OpenSCENARIO XML has.
 
-Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`). One type a line:
+Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`); they end with 1.3, and
+`xosc_1_4.toml` adds what is new in 1.4. One type a line:
 
     "Event": {"attributes": {NAME: [TYPE, SINCE, UNTIL, REQUIRED]}, "children": {…}}
 
@@ -11,6 +12,7 @@ schema. `enums` holds the literals of each enumeration with the versions that ha
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
@@ -19,16 +21,48 @@ from typing import Any
 from lxml import etree
 
 TARGET = Path(__file__).parents[1] / "osc2tx" / "backends" / "xosc" / "xml" / "schema.json"
+ADDITIONS = Path(__file__).with_name("xosc_1_4.toml")
 SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
-VERSIONS = tuple(SCHEMAS)
+VERSIONS = (*SCHEMAS, "1.4")
 XSD = "{http://www.w3.org/2001/XMLSchema}"
 ROOT = "OpenSCENARIO"
 
 
 def schema_of(version: str) -> Any:
     """Return the root of the schema of a version."""
+    if version == "1.4":
+        return _with_additions(schema_of("1.3"))
     folder = files("qc_openscenario") / "schema" / SCHEMAS[version]
     return etree.fromstring((folder / f"{ROOT}.xsd").read_bytes())
+
+
+def _with_additions(root: Any) -> Any:
+    """Add to the schema of 1.3 what is new in 1.4; all of it can be left out."""
+    new = tomllib.loads(ADDITIONS.read_text(encoding="utf-8"))
+    for name, literals in new["literals"].items():
+        enum = next(_named(root, "simpleType", name).iter(f"{XSD}restriction"), None)
+        if enum is None:
+            enum = etree.SubElement(_named(root, "simpleType", name), f"{XSD}restriction")
+            enum.set("base", "xsd:string")
+        for literal in literals:
+            etree.SubElement(enum, f"{XSD}enumeration", value=literal)
+    for name, children in new["children"].items():
+        type_ = _named(root, "complexType", name)
+        if type_.find(f"{XSD}sequence") is None:
+            type_.insert(0, etree.Element(f"{XSD}sequence"))
+        for child, of in children.items():
+            etree.SubElement(type_[0], f"{XSD}element", name=child, type=of, minOccurs="0")
+    for name, attributes in new["attributes"].items():
+        for attribute, of in attributes.items():
+            type_ = _named(root, "complexType", name)
+            etree.SubElement(type_, f"{XSD}attribute", name=attribute, type=of)
+    return root
+
+
+def _named(root: Any, tag: str, name: str) -> Any:
+    """Return a type of a schema; a new one if it has none of this name."""
+    found = root.find(f"{XSD}{tag}[@name='{name}']")
+    return etree.SubElement(root, f"{XSD}{tag}", name=name) if found is None else found
 
 
 def _particles(node: Any, groups: dict[str, Any], *, optional: bool) -> Iterator[tuple[Any, bool]]:
@@ -90,7 +124,9 @@ def make() -> str:
                 _add(entry["children"], element.get("name"), type_, version, not optional)
             orders.setdefault(name, []).append(order)
         (element,) = (e for e in root.findall(f"{XSD}element") if e.get("name") == ROOT)
-        types.setdefault("", {"attributes": {}, "children": {ROOT: ["", "1.0", "1.3", []]}})
+        types.setdefault(
+            "", {"attributes": {}, "children": {ROOT: ["", VERSIONS[0], VERSIONS[-1], []]}}
+        )
         types[""]["children"][ROOT][0] = element.get("type")
     for name, found in orders.items():
         children = types[name]["children"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from osc2tx.options import (
+    DEFAULT_XML_VERSION,
     DIALECTS,
     ONE_OF_POLICIES,
     STANDARDS,
@@ -49,7 +50,11 @@ COMPILE_SETTINGS = (
     Setting("dialect", "Dialect of the sources.", DIALECTS),
     Setting("one_of", "Meaning of `one_of`.", ONE_OF_POLICIES),
     Setting("target", "What to make; `all`: modules, and XML where it is exact.", TARGETS),
-    Setting("xml_version", "Version of OpenSCENARIO XML.", tuple(reversed(XML_VERSIONS))),
+    Setting(
+        "xml_version",
+        "Version of OpenSCENARIO XML.",
+        (DEFAULT_XML_VERSION, *(v for v in reversed(XML_VERSIONS) if v != DEFAULT_XML_VERSION)),
+    ),
     Setting("xml_profile", "Tool that is to read the XML.", XML_PROFILES),
     Setting("allow_approx", "Write XML also where it means only nearly the same.", is_flag=True),
     Setting(

@@ -1,4 +1,4 @@
-"""The XML back end: IR in, OpenSCENARIO XML 1.0 to 1.3 and a loss report out.
+"""The XML back end: IR in, OpenSCENARIO XML 1.0 to 1.4 and a loss report out.
 
 Begin at `emitter`. In order of control flow: `document` (the skeleton), `entities`, `init_actions`
 (`Init`), `flatten` (the tree as acts and events) with `actions`, `conditions` and `events`; what

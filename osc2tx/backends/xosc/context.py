@@ -21,6 +21,8 @@ from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
 
+_NUMBERS = {"false": "0", "true": "1"}
+
 
 class Context:
     """One scenario on its way to the XML.
@@ -181,7 +183,9 @@ class Context:
 
     def declare(self, name: str, type_: str, value: str) -> None:
         """Declare a variable (a parameter before 1.2) if it is not there yet."""
-        self.variables.setdefault(name, (type_, value))
+        if type_ == "boolean" and not self.profile.has_booleans:
+            type_ = "integer"
+        self.variables.setdefault(name, (type_, self._known_value(value)))
 
     def variable_name(self, name: str) -> str:
         """Return the name of the variable for a name of the source; others have others."""
@@ -191,6 +195,7 @@ class Context:
 
     def set_variable(self, name: str, value: str) -> Element:
         """Return the action that sets a variable."""
+        value = self._known_value(value)
         if self.version >= "1.2":
             action = element("VariableAction", element("SetAction", value=value), variableRef=name)
         else:
@@ -201,11 +206,16 @@ class Context:
 
     def variable_is(self, name: str, rule: str, value: str) -> Element:
         """Return the condition on a variable."""
+        value = self._known_value(value)
         if self.version >= "1.2":
             condition = element("VariableCondition", variableRef=name, rule=rule, value=value)
         else:
             condition = element("ParameterCondition", parameterRef=name, rule=rule, value=value)
         return element("ByValueCondition", condition)
+
+    def _known_value(self, value: str) -> str:
+        """Return a value as the tool reads it."""
+        return value if self.profile.has_booleans else _NUMBERS.get(value, value)
 
     def mark(self, name: str) -> Element:
         """Return the action of an event that only keeps that something has come true.

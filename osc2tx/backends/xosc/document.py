@@ -36,14 +36,14 @@ def make_document(ctx: Context) -> Element:
     end = flattener.run()
     writer = StoryboardWriter(ctx.version)
     end = _end(ctx, end)
-    acts = adapted(ctx, flattener.acts, end)
+    acts, end = adapted(ctx, flattener.acts, end)
     ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}
     story = writer.story("story", acts)
     storyboard = element(
         "Storyboard",
         element("Init", element("Actions", *ctx.init_globals, *privates)),
         story,
-        writer.trigger("StopTrigger", end, "end"),
+        writer.trigger("StopTrigger", end, ctx.profile.stop_name or "end"),
     )
     major, minor = ctx.version.split(".")
     return element(

@@ -210,7 +210,7 @@ def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
         dLane=0,
         dsLane=along if newer else None,
         ds=None if newer else along,
-        offset=round(point.y, 6) or None,
+        offset=round(point.y, 6),
     )
 
 

@@ -116,7 +116,7 @@ def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: 
         dLane=lanes,
         dsLane=along if newer else None,
         ds=None if newer else along,
-        offset=offset or None,
+        offset=offset,
     )
 
 

@@ -84,7 +84,7 @@ def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Cha
         roadId=place.road,
         laneId=place.lane,
         s=round(place.s, 6),
-        offset=round(place.offset, 6) or None,
+        offset=round(place.offset, 6),
     )
     leaf.reached = (leaf.on_me(at_place(leaf.ctx, there)),)
     return ()

@@ -36,4 +36,6 @@ def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, Element]:
 
 
 def _in_lane(place: LanePosition) -> Element:
-    return element("LanePosition", roadId=place.road, laneId=place.lane, s=round(place.s, 6))
+    return element(
+        "LanePosition", roadId=place.road, laneId=place.lane, s=round(place.s, 6), offset=0.0
+    )

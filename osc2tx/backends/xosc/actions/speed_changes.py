@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_speed,
     way_by_acceleration,
 )
-from osc2tx.backends.xosc.report import Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, STEADY, ActorState, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -29,6 +29,8 @@ POINTS = 12
 
 
 PROFILE_ACTION = "SpeedProfileAction"
+RATE = "SpeedActionDynamics/rate"
+GENERIC = Remedy(profile="generic")
 
 
 def change_speed(
@@ -134,7 +136,28 @@ def _from_unknown(
     share = {"asap": 1.0, "smooth": COMFORT * GENTLE}.get(profile, COMFORT)
     rate = round(share * limit, 6) if peak is None else peak
     shape = "sinusoidal" if profile == "smooth" else "linear"
-    return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
+    if leaf.ctx.can(RATE, "1.0"):
+        return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
+    return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
+
+
+def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
+    """Return how long (s) a change takes at most, for tools that know no rates (m/s^2).
+
+    Raises:
+        Inexpressible: Nothing is known of the speed at its start.
+    """
+    speed, tool = leaf.state.speed, leaf.ctx.profile.name
+    if speed is None:
+        raise Inexpressible(
+            f"{tool} knows no rates, and nothing is known of the speed", None, GENERIC
+        )
+    farthest = max(speed.low, speed.high, key=lambda each: abs(target - each))
+    duration = course_of_speed(farthest, target, profile, rate, None, leaf.limits).duration
+    reason = f"{tool} knows no rates, and the speed at the start is only known in the run"
+    bound = f"it takes {duration:.3g} s, as from {farthest:.3g} m/s, the longest that it may take"
+    leaf.ctx.report.approximate(leaf.construct, leaf.node.span, reason, bound, GENERIC)
+    return duration
 
 
 def _curve(leaf: Leaf, profile: str) -> str:

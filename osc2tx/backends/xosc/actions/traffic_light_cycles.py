@@ -6,6 +6,7 @@ for how long, and for tools without controllers, they are written out as the swi
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import cycle as endless
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from osc2tx.backends.xosc.actions.traffic_lights import (
     States,
     infrastructure,
     lights_of_group,
+    roads_of,
     state_text,
     states_of,
     switch,
@@ -30,6 +32,19 @@ CONTROLLER = "TrafficSignalControllerAction"
 
 MOST_SWITCHES = 1000
 """Switches that are written out one by one."""
+
+
+# `semantic_traffic_light_state` (§8.15.3.1) -> literal.
+_MEANINGS: Mapping[str, str] = {
+    "attention": "attention_go",
+    "caution": "caution",
+    "go": "go",
+    "go_exclusive": "go",
+    "non_functional": "fallback",
+    "off": "fallback",
+    "stop": "stop",
+    "stop_attention": "attention_stop",
+}
 
 
 class _Phase(NamedTuple):
@@ -124,11 +139,25 @@ def _controller(ctx: Context, cycle: _Cycle) -> Element:
             text = state_text(ctx, signal, shown)
             states.append(element("TrafficSignalState", trafficSignalId=signal, state=text))
             ctx.lamps[signal] = None
-        phases.append(element("Phase", *states, name=phase.name, duration=phase.duration))
+        phases.append(
+            element(
+                "Phase",
+                *states,
+                name=phase.name,
+                duration=phase.duration,
+                semantics=_meaning(ctx, phase) if ctx.version >= "1.4" else None,
+            )
+        )
     delay = cycle.offset or None
     ctx.controllers.append(element("TrafficSignalController", *phases, name=name, delay=delay))
     first = cycle.phases[0].name
     return infrastructure(element(CONTROLLER, trafficSignalControllerRef=name, phase=first))
+
+
+def _meaning(ctx: Context, phase: _Phase) -> str | None:
+    """Return what all lights of a phase mean, if that is one thing."""
+    found = {_MEANINGS[roads_of(ctx).meaning_of(*shown)] for shown in phase.shown}
+    return found.pop() if len(found) == 1 else None
 
 
 def _written_out(ctx: Context, cycle: _Cycle, lasting: float) -> list[Element | Later]:

@@ -34,7 +34,7 @@ def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[E
     meaning = arguments.member("state", "off")
     actions = []
     for signal in _addressed(ctx, node, arguments):
-        states = _roads(ctx).meaning(signal, meaning)
+        states = roads_of(ctx).meaning(signal, meaning)
         if states is not None:  # a light that cannot say it goes on as it is
             actions.append(switch(ctx, signal, states))
     return tuple(actions)
@@ -127,7 +127,9 @@ def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str
 def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
     group = ctx.values.field(light.name, ("group",)) if isinstance(light, Named) else None
     return (
-        _roads(ctx).group_of(_map_id(ctx, light)) if group is None else lights_of_group(ctx, group)
+        roads_of(ctx).group_of(_map_id(ctx, light))
+        if group is None
+        else lights_of_group(ctx, group)
     )
 
 
@@ -136,7 +138,7 @@ def lights_of_group(ctx: Context, group: Constant | None) -> tuple[str, ...]:
     listed = ctx.values.field(group.name, ("traffic_lights",)) if isinstance(group, Named) else None
     if isinstance(listed, tuple):
         return tuple(_map_id(ctx, light) for light in listed)
-    return _roads(ctx).group(_map_id(ctx, group))
+    return roads_of(ctx).group(_map_id(ctx, group))
 
 
 def _map_id(ctx: Context, value: Constant | None) -> str:
@@ -146,7 +148,8 @@ def _map_id(ctx: Context, value: Constant | None) -> str:
     return id_
 
 
-def _roads(ctx: Context) -> Roads:
+def roads_of(ctx: Context) -> Roads:
+    """Return the map, which has the lights."""
     if ctx.roads is None:
         raise Inexpressible(
             f"traffic lights need the map {ctx.map_file}, which is not at hand: give its folder"
@@ -163,7 +166,7 @@ def _lamps(ctx: Context, signal: str) -> tuple[tuple[str, str], ...]:
             listed = ctx.values.field(light.name, ("bulbs",))
             if isinstance(listed, tuple) and ctx.values.field(light.name, ("map_id",)) == signal:
                 return tuple(_lamp(ctx, bulb) for bulb in listed)
-    return tuple((lamp.color, lamp.icon) for lamp in _roads(ctx).lamps(signal))
+    return tuple((lamp.color, lamp.icon) for lamp in roads_of(ctx).lamps(signal))
 
 
 def _lamp(ctx: Context, bulb: Constant) -> tuple[str, str]:
@@ -179,7 +182,7 @@ def states_of(ctx: Context, given: Constant | None, signal: str) -> States:
     if isinstance(given, MethodResult) and given.method == "semantic_state_to_state":
         meaning = given.get("state")
         name = meaning.name if isinstance(meaning, Member) else ""
-        states = _roads(ctx).meaning(signal, name)
+        states = roads_of(ctx).meaning(signal, name)
         if states is None:
             raise Inexpressible(f"traffic light {signal} has no lamps that mean {name}")
         return states

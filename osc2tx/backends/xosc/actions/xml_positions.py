@@ -78,7 +78,7 @@ def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     if not lane.removeprefix("-").isdecimal():
         raise Inexpressible(f"`{lane}` is no number of a lane")
     number = int(lane)
-    place = element("LanePosition", roadId=road, laneId=number, s=s, offset=t or None)
+    place = element("LanePosition", roadId=road, laneId=number, s=s, offset=t)
     if ctx.roads is None:
         return XmlPosition(place, None, None)
     on = ctx.roads.place(road, number, s, t)

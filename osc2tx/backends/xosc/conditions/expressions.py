@@ -53,13 +53,12 @@ def level_flow(ctx: Context, expression: ir.Expression) -> Flow:
 
 
 def _edge_flow(ctx: Context, expression: ir.Expression, *, rising: bool) -> Flow:
-    if not ctx.profile.has_edges:
-        raise Inexpressible(
-            f"{ctx.profile.name} does not look at edges", expression.span, Remedy(profile="generic")
-        )
     while isinstance(expression, ir.Unary) and expression.operator == "not":
         expression, rising = expression.operand, not rising
     if _is_light(expression):
+        if not ctx.profile.has_edges:
+            reason = f"{ctx.profile.name} does not look at edges"
+            raise Inexpressible(reason, expression.span, Remedy(profile="generic"))
         return _light_edge(ctx, expression, rising=rising)
     if not (isinstance(expression, ir.Binary) and expression.operator in RULES):
         raise Inexpressible(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.facts.actors import CATEGORIES, Limits, Shape, limits_of, shape_of
@@ -25,13 +24,6 @@ KINDS: Mapping[str, str] = {
     "traffic_participant": MISC,
     "physical_object": MISC,
 }
-
-
-class Choice(NamedTuple):
-    """A literal of the XML for a member of an enum, and what gets lost."""
-
-    literal: str
-    loss: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,57 +7,18 @@ from collections.abc import Mapping
 from osc2tx.backends.xosc.actions.behavioral_models import check_model
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.axles import axles
-from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember, Choice
+from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember
+from osc2tx.backends.xosc.entities.categories import (
+    NO_ROLE,
+    role_literal,
+    trailer_literal,
+    vehicle_literal,
+)
 from osc2tx.backends.xosc.entities.towing import couplings, towing
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Member
 from osc2tx.backends.xosc.xml.schema import has_attribute
 from osc2tx.backends.xosc.xml.tree import Element, element
-
-# `vehicle_category` (§8.7.16) -> literal; all ten literals exist in every version.
-VEHICLE_CATEGORIES: Mapping[str, Choice] = {
-    "car": Choice("car"),
-    "van": Choice("van"),
-    "bus": Choice("bus"),
-    "truck": Choice("truck"),
-    "heavy_truck": Choice("truck"),
-    "semi_tractor": Choice("truck", "there is no literal for a semi-tractor"),
-    "trailer": Choice("trailer"),
-    "semi_trailer": Choice("semitrailer"),
-    "motorcycle": Choice("motorbike"),
-    "bicycle": Choice("bicycle"),
-    "stand_up_scooter": Choice("bicycle", "there is no literal for a scooter"),
-    "micro_mobility_device": Choice("bicycle", "there is no literal for such a device"),
-    "vru_vehicle": Choice("bicycle", "there is no literal for such a vehicle"),
-    "wheelchair": Choice("bicycle", "there is no literal for a wheelchair among vehicles"),
-    "train": Choice("train"),
-    "tram": Choice("tram"),
-    "work_machine": Choice("car", "there is no literal for a work machine"),
-    "land_vehicle": Choice("car", "there is no literal for a land vehicle of any kind"),
-    "other": Choice("car", "there is no literal for another kind of vehicle"),
-}
-
-# `trailer_category` (§8.7.17) -> literal.
-TRAILER_CATEGORIES: Mapping[str, str] = {
-    "semi_trailer": "semitrailer",
-    "full_trailer": "trailer",
-    "central_axle_trailer": "trailer",
-}
-
-# `traffic_participant_role` (§8.7.20) -> literal, from 1.2 on; a property says it before, and where
-# there is no literal.
-ROLES: Mapping[str, str] = {
-    "civil": "civil",
-    "ambulance": "ambulance",
-    "fire": "fire",
-    "fire_brigade": "fire",
-    "military": "military",
-    "police": "police",
-    "public_transport": "publicTransport",
-    "road_assistance": "roadAssistance",
-    "roadside_assistance": "roadAssistance",
-}
 
 # `color` (§8.7) -> red, green, blue; the XML has no colours, tools read them from a property.
 COLORS: Mapping[str, str] = {
@@ -135,14 +96,8 @@ def _vehicle(ctx: Context, member: CastMember) -> Element:
 def _category(ctx: Context, member: CastMember) -> str:
     trailer = ctx.values.field(member.actor.name, ("trailer_category",))
     if isinstance(trailer, Member):
-        return TRAILER_CATEGORIES[trailer.name]
-    choice = VEHICLE_CATEGORIES.get(member.category)
-    if choice is None:
-        raise Inexpressible(f"there is no category for `{member.category}`", member.actor.span)
-    if choice.loss:
-        bound = f"it is called a {choice.literal}; size and limits are kept"
-        ctx.report.approximate("vehicle_category", member.actor.span, choice.loss, bound)
-    return choice.literal
+        return trailer_literal(trailer.name)
+    return vehicle_literal(ctx, member)
 
 
 def _pedestrian(ctx: Context, member: CastMember) -> Element:
@@ -186,7 +141,7 @@ def _role(ctx: Context, member: CastMember, kind: str) -> str | None:
     role = ctx.values.field(member.actor.name, ("role",))
     if not isinstance(role, Member) or not has_attribute(kind, "role", ctx.version):
         return None
-    return ROLES.get(role.name, "none")
+    return role_literal(ctx, role.name)
 
 
 def _bounding_box(ctx: Context, member: CastMember) -> Element:
@@ -212,7 +167,7 @@ def _properties(ctx: Context, member: CastMember) -> Element:
         found["color"] = color
     elif isinstance(color, Member) and color.name in COLORS:
         found["color"] = COLORS[color.name]
-    if isinstance(role, Member) and _role(ctx, member, member.kind) in (None, "none"):
+    if isinstance(role, Member) and _role(ctx, member, member.kind) in (None, NO_ROLE):
         found["role"] = role.name
     if isinstance(model, str) and _looks(ctx, member, member.kind) is None:
         found["model3d"] = model

@@ -150,7 +150,7 @@ def _in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[Element, 
         roadId=place.road,
         laneId=place.lane,
         s=place.s,
-        offset=round(sign * offset, 6) or None,
+        offset=round(sign * offset, 6),
     )
     known_lane = place if ctx.roads is not None else None
     return element_, ActorState(speed=known(0.0), offset=known(offset), lane=known_lane)
@@ -195,7 +195,7 @@ def _beside(ctx: Context, start: Start) -> tuple[Element, ActorState]:
                 entityRef=reference.name,
                 dLane=lanes,
                 dsLane=along,
-                offset=offset or None,
+                offset=offset,
             ),
             state,
         )
@@ -224,7 +224,7 @@ def _beside_in_1_0(
         entityRef=reference.name,
         dLane=lanes,
         ds=along,
-        offset=offset or None,
+        offset=offset,
     )
 
 

@@ -12,12 +12,12 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
 from osc2tx_runtime.domain.routes.map_search import DEFAULT_MAP, SUFFIXES, find_map
 from osc2tx_runtime.domain.routes.road_paths import way_through
-from osc2tx_runtime.enums import SemanticTrafficLightState
+from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
 from osc2tx_runtime.world.lane_neighbours import lane_with_number
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean
+from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.traffic_light_states import Signals
 
 __all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places", "roads_of"]
@@ -152,6 +152,10 @@ class Roads:
     def meaning(self, signal: str, meaning: str) -> tuple[str, ...] | None:
         """Return the states of lamps that mean something; `None` if a light cannot say it."""
         return lamps_that_mean(self.lamps(signal), cast("SemanticTrafficLightState", meaning))
+
+    def meaning_of(self, signal: str, states: Sequence[str]) -> str:
+        """Return what a light means that shows something; `non_functional` if nothing."""
+        return meaning_of(self.lamps(signal), cast("Sequence[BulbState]", states))
 
     def locate(self, x: float, y: float, z: float) -> LanePosition | None:
         """Return the driving lane that contains a point; `None` if there is none."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from osc2tx.backends.xosc.conditions.flow import Flow, Group, Test, at_time, single
+from osc2tx.backends.xosc.conditions.flow import Flow, Group, Test, at_time, single, state_of
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.storyboard import Act, Event
 from osc2tx.backends.xosc.report import Remedy
@@ -20,23 +20,24 @@ GENERIC = Remedy(profile="generic")
 CURVED = ("sinusoidal", "cubic")
 
 
-def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[Act, ...]:
-    """Return the acts as the tool understands them; what it cannot do is reported.
+def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ...], Flow]:
+    """Return acts and end as the tool understands them; what it cannot do is reported.
 
     Args:
         ctx: The context.
         acts: The acts, the outermost one last.
         end: When the scenario ends.
     """
-    if not ctx.profile.has_stop:  # the run ends with the last event, so one waits for the end
+    if ctx.profile.stop_name:
         name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span
         acts[-1].add(None, Event(name, (ctx.mark(name),), end, span))
+        end = single(state_of("event", name))
     for act in acts:
         for event in act.all_events():
             for part in (*event.actions, *_conditions(event)):
                 for node in _walk(part):
                     _check(ctx, event, node)
-    return tuple(acts) if ctx.profile.has_delays else _Watch(ctx).through(acts)
+    return (tuple(acts) if ctx.profile.has_delays else _Watch(ctx).through(acts)), end
 
 
 def _conditions(event: Event) -> Iterator[Element]:
@@ -68,8 +69,32 @@ def _check(ctx: Context, event: Event, node: Element) -> None:
         ctx.report.cannot(construct, span, reason, GENERIC)
     elif node.get("dynamicsShape") in CURVED and not profile.has_shapes:
         reason = f"{profile.name} does not look at the shape of a change"
-        bound = "start, end and length of the change are exact; between them it is even"
+        bound = (
+            "start and length of the change are exact; the new speed is its aim from the start on"
+        )
         ctx.report.approximate(construct, span, reason, bound, GENERIC)
+
+
+# What does not hold while a comparison does; where the two sides are equal, both may.
+_OPPOSITE_RULES = {"greaterThan": "lessThan", "lessThan": "greaterThan"}
+_OPPOSITE_VALUES = {"0": "1", "1": "0"}
+
+
+def _opposite(test: Test) -> Test:
+    """Return the test that holds while another one does not."""
+    return replace(test, edge="none", condition=_turned(test.condition))
+
+
+def _turned(node: Element) -> Element:
+    attributes = dict(node.attributes)
+    rule = attributes.get("rule")
+    if rule is None:
+        return replace(node, children=tuple(map(_turned, node.children)))
+    if rule == "equalTo":
+        attributes["value"] = _OPPOSITE_VALUES[attributes["value"]]
+    else:
+        attributes["rule"] = _OPPOSITE_RULES[rule]
+    return replace(node, attributes=tuple(attributes.items()))
 
 
 class _Watch:
@@ -88,7 +113,8 @@ class _Watch:
         return (*self._made, *acts)
 
     def _group(self, group: Group, event: Event) -> Group:
-        """Return a group in which all conditions stay true, and none is delayed."""
+        """Return a group in which all conditions stay true, and none is delayed or an edge."""
+        group = tuple(test for each in group for test in self._without_edge(each, group, event))
         lasting = tuple(self._undelayed(test, event) for test in group if test.latched)
         passing = tuple(test for test in group if not test.latched)
         if not passing or (all(test.reached == 0.0 for test in lasting) and len(passing) == 1):
@@ -99,6 +125,16 @@ class _Watch:
             self._ctx.report.cannot("condition", span, reason, GENERIC)
             return group
         return (self._mark((*lasting, *passing), Flow((lasting,)), Flow((passing,)), event),)
+
+    def _without_edge(self, test: Test, group: Group, event: Event) -> Group:
+        """Return tests for a change: that it was not so once the rest held, and that it is so."""
+        if test.edge == "none":
+            return (test,)
+        level, opposite = replace(test, edge="none"), _opposite(test)
+        if test.edge == "falling":
+            level, opposite = opposite, level
+        since = tuple(self._undelayed(each, event) for each in group if each.latched)
+        return (self._mark((*since, opposite), Flow((since,)), single(opposite), event), level)
 
     def _undelayed(self, test: Test, event: Event) -> Test:
         if test.delay == 0.0:

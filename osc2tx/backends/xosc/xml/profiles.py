@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from osc2tx.options import XmlProfile, XmlVersion
+from osc2tx.options import XML_VERSIONS, XmlProfile, XmlVersion
 from osc2tx.support.light_dataclass import dataclass
 
 
@@ -17,12 +17,14 @@ class ToolProfile:
         versions: What it reads.
         unsupported: Names of actions, conditions and other elements that it does not carry out,
             with what it does instead.
-        has_edges: It looks at `conditionEdge`.
+        has_edges: It looks at `conditionEdge`, and starts events again.
         has_delays: `delay` counts from when the condition came true, as in the standard, and a
             condition that is no longer true does not count.
         has_act_stop: It ends acts by their stop triggers.
-        has_stop: It ends a run by the stop trigger of the storyboard; else with its last act.
+        stop_name: What the condition is called by which the storyboard stops, if the tool wants it
+            to be one condition with a name of its own, on the state of an element.
         has_shapes: It looks at the shape of the dynamics.
+        has_booleans: It compares variables with `true` and `false`, not only with numbers.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
             standard it begins without any.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
@@ -32,13 +34,14 @@ class ToolProfile:
     """
 
     name: XmlProfile
-    versions: tuple[XmlVersion, ...] = ("1.0", "1.1", "1.2", "1.3")
+    versions: tuple[XmlVersion, ...] = XML_VERSIONS
     unsupported: Mapping[str, str]
     has_edges: bool = True
     has_delays: bool = True
     has_act_stop: bool = True
-    has_stop: bool = True
+    stop_name: str = ""
     has_shapes: bool = True
+    has_booleans: bool = True
     carries_acceleration: bool = False
     ego_property: str = ""
     signal_name: str = "{}"
@@ -72,7 +75,12 @@ _SCENARIO_RUNNER_IGNORES = {
 
 PROFILES: Mapping[XmlProfile, ToolProfile] = {
     "generic": ToolProfile(name="generic", unsupported={}),
-    "esmini": ToolProfile(name="esmini", unsupported=_ESMINI_IGNORES, carries_acceleration=True),
+    "esmini": ToolProfile(
+        name="esmini",
+        versions=("1.0", "1.1", "1.2", "1.3"),
+        unsupported=_ESMINI_IGNORES,
+        carries_acceleration=True,
+    ),
     "scenario_runner": ToolProfile(
         name="scenario_runner",
         versions=("1.0",),
@@ -80,8 +88,9 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         has_edges=False,
         has_delays=False,
         has_act_stop=False,
-        has_stop=False,
+        stop_name="criteria_end",
         has_shapes=False,
+        has_booleans=False,
         ego_property="ego_vehicle",
         signal_name="id={}",
         knows_towns=True,

@@ -8,8 +8,6 @@ lead nowhere, events that can never start, acts that can never end.
 import os
 from collections import Counter
 from collections.abc import Iterator
-from functools import cache
-from importlib.resources import files
 from pathlib import Path
 
 from lxml import etree
@@ -18,8 +16,8 @@ from qc_openscenario import constants
 from qc_openscenario.main import run_checks
 
 from osc2tx.backends.xosc import XmlScenario
+from tests.unit.backends.xosc.schemas import validator
 
-SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
 NAMED = ("Story", "Act", "ManeuverGroup", "Maneuver", "Event", "Action", "Condition")
 LOCAL = ("ManeuverGroup", "Maneuver", "Action", "Condition")
 KINDS = {
@@ -33,15 +31,9 @@ KINDS = {
 NEVER_ENDS = ".//*[@continuous='true']", ".//CustomCommandAction"
 
 
-@cache
-def _schema(version: str) -> etree.XMLSchema:
-    path = files("qc_openscenario") / "schema" / SCHEMAS[version] / "OpenSCENARIO.xsd"
-    return etree.XMLSchema(etree.fromstring(path.read_bytes()))
-
-
 def schema_errors(xml: str, version: str) -> list[str]:
     """Return what the schema of a version has to say."""
-    schema = _schema(version)
+    schema = validator(version)
     schema.validate(etree.fromstring(xml.encode()))
     return [f"{error.line}: {error.message}" for error in schema.error_log]
 

@@ -16,13 +16,13 @@ NOTHING: tuple[XmlVersion, ...] = ()
 LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C01_action_lifecycle": NOTHING,  # it asks for a lane that the map does not have
     "C02_actor_parts": NOTHING,  # sizes that are read during the run
-    "C05_towing": ("1.3",),
-    "C05_trailer": ("1.3",),
-    "C07_acceleration_control": ("1.2", "1.3"),  # a course of the speed
+    "C05_towing": ("1.3", "1.4"),
+    "C05_trailer": ("1.3", "1.4"),
+    "C07_acceleration_control": ("1.2", "1.3", "1.4"),  # a course of the speed
     "C13_careful_following": NOTHING,  # care for others
     "C14_gap_in_time": NOTHING,  # how long it takes
-    "C14_space_gap": ("1.1", "1.2", "1.3"),  # the side of a gap
-    "C16_automatic_lights": ("1.3",),  # a light
+    "C14_space_gap": ("1.1", "1.2", "1.3", "1.4"),  # the side of a gap
+    "C16_automatic_lights": ("1.3", "1.4"),  # a light
     "C16_fog": NOTHING,  # care for others
     "C16_weather": NOTHING,  # humidity
     "C16_weather_readings": NOTHING,  # conditions on the weather
@@ -30,25 +30,25 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C17_careful_crossing": NOTHING,  # care for others
     "C17_light_bulbs": NOTHING,  # care for others
     "C17_traffic_signals": NOTHING,  # care for others
-    "C18_braking_distances": ("1.1", "1.2", "1.3"),  # units of rain
-    "C18_road_conditions": ("1.1", "1.2", "1.3"),  # units of rain
+    "C18_braking_distances": ("1.1", "1.2", "1.3", "1.4"),  # units of rain
+    "C18_road_conditions": ("1.1", "1.2", "1.3", "1.4"),  # units of rain
     "C18_sudden_ice": NOTHING,  # what becomes of an action that has begun
     "C19_own_shape": NOTHING,  # a shape of its own
-    "C20_acceleration_shape": ("1.2", "1.3"),
+    "C20_acceleration_shape": ("1.2", "1.3", "1.4"),
     "C21_position_shape": NOTHING,  # a course of the place
     "C22_lateral_speeds": NOTHING,  # a speed across
     "C26_pitch_and_roll": NOTHING,  # a pitch in a condition
     "C27_world_coordinates": NOTHING,  # where a walker comes to a stand
-    "C28_relative_coordinates": ("1.1", "1.2", "1.3"),  # a distance across
-    "C29_route_coordinates": ("1.1", "1.2", "1.3"),  # `>=`
-    "C29_route_points": ("1.1", "1.2", "1.3"),  # `<=`
-    "C32_conditional_triggers": ("1.2", "1.3"),  # the sign of a distance along
-    "C32_measures": ("1.2", "1.3"),
-    "C32_motion_readings": ("1.2", "1.3"),  # an acceleration across
+    "C28_relative_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # a distance across
+    "C29_route_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # `>=`
+    "C29_route_points": ("1.1", "1.2", "1.3", "1.4"),  # `<=`
+    "C32_conditional_triggers": ("1.2", "1.3", "1.4"),  # the sign of a distance along
+    "C32_measures": ("1.2", "1.3", "1.4"),
+    "C32_motion_readings": ("1.2", "1.3", "1.4"),  # an acceleration across
     "C33_custom_action": NOTHING,  # an action of its own without a known end
-    "C35_semantic_validation": ("1.1", "1.2", "1.3"),  # a range
+    "C35_semantic_validation": ("1.1", "1.2", "1.3", "1.4"),  # a range
     "C36_one_of": NOTHING,  # an acceleration that is taken over
-    "C38_fall": ("1.2", "1.3"),
+    "C38_fall": ("1.2", "1.3", "1.4"),
 }
 """Versions that say a scenario exactly; all of them where it is not named."""
 

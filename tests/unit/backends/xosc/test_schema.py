@@ -1,9 +1,7 @@
 """The table of the schemas is what the schemas say, and documents are held against it."""
 
 import json
-import runpy
 from importlib.resources import files
-from pathlib import Path
 
 import pytest
 from lxml import etree
@@ -12,14 +10,13 @@ from osc2tx.backends.xosc.xml.schema import element_type, has_attribute, literal
 from osc2tx.backends.xosc.xml.tree import element, number_text, serialize
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XML_VERSIONS, XmlVersion
+from tests.unit.backends.xosc.schemas import OFFICIAL_1_4, schema_of, tool
 
-TOOL = Path(__file__).parents[4] / "tools" / "make_xosc_schema.py"
 XSD = "{http://www.w3.org/2001/XMLSchema}"
-SCHEMAS = {"1.0": "1.0.0", "1.1": "1.1.1", "1.2": "1.2.0", "1.3": "1.3.0"}
 
 
 def test_the_table_is_up_to_date() -> None:
-    made = runpy.run_path(str(TOOL))["make"]()
+    made = tool()["make"]()
     shipped = (files("osc2tx.backends.xosc.xml") / "schema.json").read_text(encoding="utf-8")
     assert json.loads(shipped) == json.loads(made)
     assert shipped == made
@@ -28,8 +25,7 @@ def test_the_table_is_up_to_date() -> None:
 @pytest.mark.parametrize("version", XML_VERSIONS)
 def test_every_part_of_a_schema_is_in_the_table(version: XmlVersion) -> None:
     """Counted with plain XPath, not with the code that makes the table."""
-    folder = files("qc_openscenario") / "schema" / SCHEMAS[version]
-    root = etree.fromstring((folder / "OpenSCENARIO.xsd").read_bytes())
+    root = tool()["schema_of"](version)
     checked = 0
     for type_ in root.iter(f"{XSD}complexType"):
         name = type_.get("name")
@@ -42,6 +38,25 @@ def test_every_part_of_a_schema_is_in_the_table(version: XmlVersion) -> None:
         table = element_type(name).attributes
         assert named == {each for each in table if has_attribute(name, each, version)}
     assert checked > 200
+
+
+def parts(root: etree._Element) -> set[tuple[str, ...]]:
+    """Return all types of a schema with what they consist of."""
+    return {
+        (type_.get("name"), part.tag, part.get("name") or part.get("value"), part.get("type"))
+        for type_ in root.iter(f"{XSD}complexType", f"{XSD}simpleType")
+        if type_.get("name")
+        for part in type_.iter(f"{XSD}element", f"{XSD}attribute", f"{XSD}enumeration")
+    }
+
+
+@pytest.mark.skipif(OFFICIAL_1_4 is None, reason="OSC2TX_XML_SCHEMA_1_4 names no schema of 1.4")
+def test_additions_of_1_4_are_those_of_its_schema() -> None:
+    ours, theirs = parts(tool()["schema_of"]("1.4")), parts(schema_of("1.4"))
+    assert ours - theirs == set()
+    left_out = {f"{type_}/{name}" for type_, _, name, _ in theirs - ours}
+    topics = ("Layer", "layer", "TrafficDistribution", "tailLights")
+    assert {each for each in left_out if not any(topic in each for topic in topics)} == set()
 
 
 @pytest.mark.parametrize(

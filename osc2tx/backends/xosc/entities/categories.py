@@ -1,0 +1,123 @@
+"""What vehicles are and whom they serve, as literals of the XML."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+
+HARMONIZED = "1.4"
+"""First version whose literals are those of the DSL; it deprecates the older ones."""
+
+
+class _Category(NamedTuple):
+    """A literal.
+
+    Attributes:
+        literal: From 1.4 on.
+        older: Before; `None` if vehicles of this kind could not be said.
+        loss: What the older one does not say.
+    """
+
+    literal: str
+    older: str | None
+    loss: str = ""
+
+
+# `vehicle_category` (§8.7.16); the older literals exist in every version.
+_CATEGORIES: Mapping[str, _Category] = {
+    "aircraft": _Category("aircraft", None),
+    "bicycle": _Category("bicycle", "bicycle"),
+    "bus": _Category("bus", "bus"),
+    "car": _Category("car", "car"),
+    "heavy_truck": _Category("heavyTruck", "truck"),
+    "land_vehicle": _Category(
+        "landVehicle", "car", "there is no literal for a land vehicle of any kind"
+    ),
+    "micro_mobility_device": _Category(
+        "micromobilityDevice", "bicycle", "there is no literal for such a device"
+    ),
+    "motorcycle": _Category("motorcycle", "motorbike"),
+    "other": _Category("other", "car", "there is no literal for another kind of vehicle"),
+    "semi_tractor": _Category("semitractor", "truck", "there is no literal for a semi-tractor"),
+    "semi_trailer": _Category("semitrailer", "semitrailer"),
+    "stand_up_scooter": _Category("standupScooter", "bicycle", "there is no literal for a scooter"),
+    "trailer": _Category("trailer", "trailer"),
+    "train": _Category("train", "train"),
+    "tram": _Category("tram", "tram"),
+    "truck": _Category("heavyTruck", "truck"),
+    "van": _Category("van", "van"),
+    "vru_vehicle": _Category(
+        "micromobilityDevice", "bicycle", "there is no literal for such a vehicle"
+    ),
+    "watercraft": _Category("watercraft", None),
+    "wheelchair": _Category(
+        "wheelchair", "bicycle", "there is no literal for a wheelchair among vehicles"
+    ),
+    "work_machine": _Category("workMachine", "car", "there is no literal for a work machine"),
+}
+
+# `trailer_category` (§8.7.17).
+_TRAILERS: Mapping[str, str] = {
+    "semi_trailer": "semitrailer",
+    "full_trailer": "trailer",
+    "central_axle_trailer": "trailer",
+}
+
+NO_ROLE = "none"
+
+# `traffic_participant_role` (§8.7.20) -> literal from 1.4 on, and in 1.2 and 1.3.
+_ROLES: Mapping[str, tuple[str, str]] = {
+    "agriculture": ("agriculture", NO_ROLE),
+    "ambulance": ("ambulance", "ambulance"),
+    "civil": ("civil", "civil"),
+    "construction": ("construction", NO_ROLE),
+    "dangerous_goods_transport": ("dangerousGoodsTransport", NO_ROLE),
+    "fire": ("fireBrigade", "fire"),
+    "fire_brigade": ("fireBrigade", "fire"),
+    "freight_transport": ("freightTransport", NO_ROLE),
+    "garbage_collection": ("garbageCollection", NO_ROLE),
+    "military": ("military", "military"),
+    "other": ("other", NO_ROLE),
+    "police": ("police", "police"),
+    "public_transport": ("publicTransport", "publicTransport"),
+    "road_assistance": ("roadsideAssistance", "roadAssistance"),
+    "road_construction": ("construction", NO_ROLE),
+    "roadside_assistance": ("roadsideAssistance", "roadAssistance"),
+    "special_transport": ("specialTransport", NO_ROLE),
+    "traffic_control": ("trafficControl", NO_ROLE),
+}
+
+
+def vehicle_literal(ctx: Context, member: CastMember) -> str:
+    """Return what kind of vehicle an actor is; what gets lost is reported.
+
+    Raises:
+        Inexpressible: The version has no literal that comes near.
+    """
+    category, span = _CATEGORIES.get(member.category), member.actor.span
+    if category is None:
+        raise Inexpressible(f"there is no category for `{member.category}`", span)
+    if ctx.version >= HARMONIZED:
+        return category.literal
+    better = Remedy(version=HARMONIZED)
+    if category.older is None:
+        raise Inexpressible(f"there is no category for `{member.category}`", span, better)
+    if category.loss:
+        bound = f"it is called a {category.older}; size and limits are kept"
+        ctx.report.approximate("vehicle_category", span, category.loss, bound, better)
+    return category.older
+
+
+def trailer_literal(category: str) -> str:
+    """Return what kind of trailer a `trailer_category` is."""
+    return _TRAILERS[category]
+
+
+def role_literal(ctx: Context, role: str) -> str:
+    """Return a role, in versions that have roles; `NO_ROLE` where they have no literal for it."""
+    newer, older = _ROLES[role]
+    return newer if ctx.version >= HARMONIZED else older

@@ -1,0 +1,1 @@
+"""OpenSCENARIO XML in ScenarioRunner itself, which ticks its tree over CARLA's client library."""

@@ -1,0 +1,37 @@
+"""The parser of `scenariogeneration`, by which many read OpenSCENARIO XML in Python."""
+
+import warnings
+from pathlib import Path
+
+import pytest
+from scenariogeneration.xosc import NotAValidElement, ParseOpenScenario
+
+ROOT = Path(__file__).parents[4]
+WRITTEN = [
+    *(path for path in (ROOT / "generated").rglob("*.xosc") if ".params." not in path.name),
+    *(ROOT / "tests" / "golden" / "xosc").glob("*/expected/scenario.xosc"),
+]
+UNKNOWN = "<RelativeClearanceCondition"
+"""The parser has no word for it."""
+
+
+def parsed(path: Path) -> ParseOpenScenario:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return ParseOpenScenario(str(path))
+
+
+def test_it_loads_every_document_that_it_has_words_for() -> None:
+    loaded = 0
+    for path in WRITTEN:
+        text = path.read_text(encoding="utf-8")
+        if UNKNOWN in text:
+            with pytest.raises(NotAValidElement):
+                parsed(path)
+            continue
+        found = parsed(path)
+        names = [each.name for each in found.entities.scenario_objects]
+        assert all(f'<ScenarioObject name="{name}"' in text for name in names), path
+        assert len(names) == text.count("<ScenarioObject "), path
+        loaded += 1
+    assert loaded > len(WRITTEN) // 2
