@@ -12,7 +12,7 @@ endif
 .PHONY: coverage docs docs-diagnostics docs-config demo demo-carla test test-carla test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
-	$(BIN)/osc2tx build scenarios/ -o generated/
+	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
 	$(BIN)/osc2tx run scenarios/cut_in_and_evade.osc --trace out/cut_in_and_evade.jsonl --report out/cut_in_and_evade.html
 	@echo "Open out/cut_in_and_evade.html in a browser."
 

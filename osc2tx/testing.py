@@ -117,6 +117,11 @@ class Run:
     lines: tuple[Line, ...]
     warnings: tuple[str, ...]
 
+    def __repr__(self) -> str:
+        """Return one line, for messages of assertions: the trace has thousands."""
+        reason = f": {self.reason}" if self.reason else ""
+        return f"<Run: {self.status} after {self.time:.2f} s{reason}>"
+
     def of_kind(self, kind: str) -> list[Line]:
         """Return the lines of a kind, in order."""
         return [line for line in self.lines if line["kind"] == kind]

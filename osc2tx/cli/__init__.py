@@ -23,8 +23,10 @@ import click
 from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, report_failure
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.version import __version__
-from osc2tx_text import READER_HAS_GONE, OutputError, complain, explain, put
+from osc2tx_text import READER_HAS_GONE, OutputError, complain, put
+from osc2tx_text import explain as explain_output
 
 # Command -> where it is, and its line in the help page.
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -53,6 +55,16 @@ class Commands(click.Group):
         """Write the list of commands without loading them."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, help) for name, (_, help) in COMMANDS.items()])
+
+    def resolve_command(
+        self, context: click.Context, arguments: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that a command line names; offer the nearest if there is none."""
+        name = arguments[0]
+        if name not in COMMANDS and not name.startswith("-"):
+            meant = did_you_mean(name, COMMANDS)
+            context.fail(f"there is no command `{name}`" + (f"; {meant}" if meant else ""))
+        return super().resolve_command(context, arguments)
 
     def get_command(self, context: click.Context, name: str) -> click.Command | None:
         """Return a command by its name."""
@@ -83,7 +95,7 @@ def _exit_code(arguments: Sequence[str]) -> int:
     try:
         return _run(arguments, session)
     except OutputError as error:
-        return explain(error)
+        return explain_output(error)
 
 
 def _run(arguments: Sequence[str], session: Session) -> int:

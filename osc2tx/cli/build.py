@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
 from osc2tx.cli.diff_output import print_diff, read_text
 from osc2tx.cli.options import compile_options, target_options
+from osc2tx.cli.places import seen_from, stated_sources
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
@@ -129,18 +129,10 @@ def _places(paths: tuple[str, ...], out_dir: Path | None) -> tuple[tuple[str, ..
         return paths, out_dir
     here = Path.cwd()
     project = ConfigFiles().for_folder(here)
-    sources = paths or tuple(str(_relative(path, here)) for path in project.sources)
-    if not sources:
-        raise click.UsageError("say what to build: name a file or folder, or set `sources`")
+    sources = paths or stated_sources(project, "build")
     if out_dir is None and project.out is None:
         raise click.UsageError("say where the modules go, as in `-o generated`, or set `out`")
-    return sources, out_dir or _relative(project.out or here, here)
-
-
-def _relative(path: Path, folder: Path) -> Path:
-    """Return a path as somebody who works in a folder would write it."""
-    path = Path(os.path.normpath(path))
-    return path.relative_to(folder) if path.is_relative_to(folder) else path
+    return sources, out_dir or seen_from(project.out or here, here)
 
 
 def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:

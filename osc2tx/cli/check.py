@@ -9,18 +9,23 @@ import click
 from osc2tx.building.checks import check_jobs
 from osc2tx.building.jobs import find_jobs
 from osc2tx.cli.options import compile_options, target_options
+from osc2tx.cli.places import sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.config import ConfigFiles, GivenOptions
 
 
 @click.command()
-@click.argument("paths", metavar="PATH...", nargs=-1, required=True, type=click.Path())
+@click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
 @compile_options
 @target_options
 @click.option("--no-cache", is_flag=True, help="Check also what is as it was at the last check.")
 @report_options
 def check(paths: tuple[str, ...], given: GivenOptions, no_cache: bool, reporter: Reporter) -> Exit:
-    """Report what is wrong with scenario files; folders are searched for .osc files."""
+    """Report what is wrong with scenario files; folders are searched for .osc files.
+
+    Without PATH, `sources` of the settings file count.
+    """
+    paths = sources_or_stated(paths, "check")
     configs = ConfigFiles()
     results = check_jobs(find_jobs(paths, given, configs), remember=not no_cache)
     code, report = reporter.report(results, [result.bug for result in results if result.bug])

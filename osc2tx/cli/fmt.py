@@ -10,6 +10,7 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.write import replace_file
 from osc2tx.cli.diff_output import print_diff
 from osc2tx.cli.options import compile_options
+from osc2tx.cli.places import sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
@@ -18,7 +19,7 @@ from osc2tx_text import complain
 
 
 @click.command()
-@click.argument("paths", metavar="PATH...", nargs=-1, required=True, type=click.Path())
+@click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
 @click.option("--check", "check_only", is_flag=True, help="Write nothing; fail if a file differs.")
 @click.option("--diff", "show_diff", is_flag=True, help="Write nothing; print what would change.")
 @compile_options
@@ -32,11 +33,12 @@ def fmt(
 ) -> Exit:
     """Lay scenario files out in the style of the standard; folders are searched for .osc files.
 
-    Tokens and comments stay what they are. Files with syntax errors are not touched.
+    Tokens and comments stay what they are. Files with syntax errors are not touched. Without PATH,
+    `sources` of the settings file count.
     """
     if show_diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
-    compilations = compile_all(paths, given)
+    compilations = compile_all(sources_or_stated(paths, "format"), given)
     formatted: dict[Path, str] = {}
 
     def format_one(compilation: Compilation) -> None:

@@ -17,6 +17,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import click
 
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
+from osc2tx.diagnostics import Severity
 from osc2tx.diagnostics.report import Report, make_report
 from osc2tx.version import __version__
 from osc2tx_text import complain, is_watched, put, put_document, say
@@ -63,12 +64,14 @@ class Reporter:
         is_strict: Whether warnings count for the exit code.
         most_shown: How many diagnostics of one file are shown, 0 for all; `None` leaves it to
             the form: readers are spared an avalanche, programs are not.
+        is_quiet: Whether people are told of errors alone.
     """
 
     session: Session
     form: OutputFormat = "text"
     is_strict: bool = False
     most_shown: int | None = None
+    is_quiet: bool = False
 
     def report(
         self, compilations: Sequence[Reportable], bugs: Sequence[str] = ()
@@ -107,7 +110,7 @@ class Reporter:
 
         They are told once each, before all that is not a diagnostic.
         """
-        for sentence in sentences:
+        for sentence in () if self.is_quiet else sentences:
             complain(f"warning: {sentence}")
         return Exit.WARNINGS if self.is_strict and sentences else Exit.OK
 
@@ -121,11 +124,16 @@ class Reporter:
 
     def say(self, line: str) -> None:
         """Print a line that sums up, where it does not disturb."""
+        if not self.is_quiet:
+            self.say_anyway(line)
+
+    def say_anyway(self, line: str) -> None:
+        """Print a line that also those want to see who asked for silence."""
         (say if self.form == "text" else complain)(line)
 
     def _print(self, report: Report, *, failed: bool) -> None:
         if self.form == "text":
-            _print_text(report)
+            _print_text(_errors_of(report) if self.is_quiet else report)
         elif self.form != "github" and self.session.has_document:
             return  # a second document would spoil the first, as in the rounds of --watch
         else:
@@ -153,10 +161,11 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
         output_format: OutputFormat,
         strict: bool,
         max_diagnostics: int | None,
+        quiet: bool,
         **more: Any,
     ) -> Any:
         session = click.get_current_context().find_object(Session) or Session()
-        reporter = Reporter(session, output_format, strict, max_diagnostics)
+        reporter = Reporter(session, output_format, strict, max_diagnostics, quiet)
         return command(*args, reporter=reporter, **more)
 
     options = (
@@ -166,6 +175,7 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
             default="text",
             help="Form of diagnostics; all but `text` go to standard output.",
         ),
+        click.option("-q", "--quiet", is_flag=True, help="Print errors alone."),
         click.option("--strict", is_flag=True, help="Exit with 1 if there are warnings."),
         click.option(
             "--max-diagnostics",
@@ -215,6 +225,11 @@ def _document(report: Report, form: OutputFormat, *, failed: bool) -> str:
             return render.render_github(report)
         case "text":
             raise ValueError("a text for people is no document")
+
+
+def _errors_of(report: Report) -> Report:
+    errors = tuple(d for d in report.diagnostics if d.severity is Severity.ERROR)
+    return replace(report, diagnostics=errors)
 
 
 def _print_text(report: Report) -> None:

@@ -112,6 +112,7 @@ def _run_source(
         return code
     module = compilation.module
     path = compilation.path
+    wanted = wanted or only_one_to_run(compilation)
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
     try:
@@ -120,6 +121,25 @@ def _run_source(
     except ScenarioError as error:
         complain(f"{error.source}: error: {error.message}")
         return Exit(error.exit_code)
+
+
+def only_one_to_run(compilation: Compilation) -> str | None:
+    """Return the scenario of a file that no other one of it invokes, if there is just one."""
+    own = (
+        [each for each in compilation.ir.scenarios if not each.is_imported]
+        if (compilation.ir is not None)
+        else []
+    )
+    names = [each.name for each in own if not each.is_invoked and not each.is_action]
+    is_named = any(each.name in ("top", "main") for each in own)
+    return names[0] if len(names) == 1 and not is_named else None
+
+
+def _as_given(source: str | None, scenario: type[Scenario], path: Path) -> str:
+    """Return a place in a source by the path of the command line, if it is that file."""
+    if path.suffix == ".osc" and (source is None or source.startswith(scenario.source)):
+        return f"{path}{(source or '').removeprefix(scenario.source)}"
+    return source or scenario.source
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
@@ -146,14 +166,15 @@ def _run_one_of(
     try:
         result = _run_with_progress(scenario, settings)
     except ScenarioError as error:
-        complain(f"{error.source or scenario.source}: error: {error.message}")
+        complain(f"{_as_given(error.source, scenario, path)}: error: {error.message}")
         return Exit(error.exit_code)
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
         return Exit.INTERRUPTED
+    succeeded = result.status == "success"
     for line in verdict(scenario.name, result):
-        reporter.say(line)
-    return Exit.OK if result.status == "success" else Exit.FAILED
+        (reporter.say if succeeded else reporter.say_anyway)(line)
+    return Exit.OK if succeeded else Exit.FAILED
 
 
 def choose_scenario(

@@ -1,4 +1,4 @@
-"""Finds diagnostic codes by number or slug: `OSC203`, `osc203`."""
+"""Finds diagnostic codes by number or slug: `OSC203`, `osc203`, `203`."""
 
 from __future__ import annotations
 
@@ -9,12 +9,16 @@ from osc2tx.diagnostics.suggestions import did_you_mean
 
 
 def find_code(written: str) -> Code | None:
-    """Return the code of that name or slug, in capitals or not."""
+    """Return the code of that number, name or slug, in capitals or not."""
+    if written.isdecimal():
+        written = f"OSC{written}"
     return CODES.get(written.upper()) or _by_slug().get(written.lower())
 
 
 def meant_code(written: str) -> str | None:
     """Return a line of help that offers the code or slug that was probably meant."""
+    if written.isdecimal():
+        written = f"OSC{written}"
     return did_you_mean(written.upper(), CODES, 0.8) or did_you_mean(written.lower(), _by_slug())
 
 

@@ -6,7 +6,7 @@ GitHub's workflows). Each is a function of the report alone: same report, same b
 `explanation` prints what there is to say about a code.
 """
 
-from osc2tx.diagnostics.render.explanation import render_explanation
+from osc2tx.diagnostics.render.explanation import explanation_data, render_explanation
 from osc2tx.diagnostics.render.github import render_github, render_remark
 from osc2tx.diagnostics.render.json_report import render_json
 from osc2tx.diagnostics.render.sarif import render_sarif
@@ -15,6 +15,7 @@ from osc2tx.diagnostics.report import display_name
 
 __all__ = [
     "display_name",
+    "explanation_data",
     "render_all",
     "render_explanation",
     "render_github",

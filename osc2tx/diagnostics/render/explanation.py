@@ -23,6 +23,22 @@ def render_explanation(entry: Code) -> str:
     return "\n\n".join(parts)
 
 
+def explanation_data(entry: Code) -> dict[str, str | None]:
+    """Return what there is to say of a code, for other programs."""
+    explanation = entry.explanation
+    return {
+        "code": entry.code,
+        "name": entry.slug,
+        "severity": entry.severity.value,
+        "summary": entry.summary,
+        "section": entry.section,
+        "options": explanation.options if explanation else None,
+        "remedy": explanation.remedy if explanation else None,
+        "faulty": explanation.faulty if explanation else None,
+        "fixed": explanation.fixed if explanation else None,
+    }
+
+
 def code_block(source: str) -> str:
     """Return a source text as a code block of Markdown."""
     fence = "```" if "```" not in source else "````"

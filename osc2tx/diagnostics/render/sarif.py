@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import json
 import os
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -19,6 +22,7 @@ from osc2tx.diagnostics.report import Report, display_name
 from osc2tx.diagnostics.source import SourceFile, Span
 from osc2tx_text import in_json, visible
 
+FINGERPRINT = "osc2tx/v1"  # of the code, the file, the text of the line, and which one of those
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 )
@@ -39,8 +43,13 @@ def render_sarif(report: Report, *, version: str, failed: bool = False) -> str:
         "rules": [_rule(CODES[code]) for code in codes],
     }
     results = [
-        _result(diagnostic, codes.index(diagnostic.code), report.folder)
-        for diagnostic in report.diagnostics
+        {
+            **_result(diagnostic, codes.index(diagnostic.code), report.folder),
+            "partialFingerprints": {FINGERPRINT: fingerprint},
+        }
+        for diagnostic, fingerprint in zip(
+            report.diagnostics, _fingerprints(report.diagnostics, report.folder), strict=True
+        )
     ]
     invocation: dict[str, Any] = {"executionSuccessful": not failed}
     if report.failure is not None:
@@ -54,6 +63,23 @@ def render_sarif(report: Report, *, version: str, failed: bool = False) -> str:
     }
     document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
     return in_json(json.dumps(document, indent=2)) + "\n"
+
+
+def _fingerprints(diagnostics: Sequence[Diagnostic], folder: Path | None) -> Iterator[str]:
+    """Yield what tells diagnostics apart, and stays when other lines come or go."""
+    seen: Counter[tuple[str, ...]] = Counter()
+    for diagnostic in diagnostics:
+        span = diagnostic.primary
+        place = () if span is None else (display_name(span.source, folder), _line_of(span))
+        key = (diagnostic.code, *place)
+        seen[key] += 1
+        yield sha256("\0".join((*key, str(seen[key]))).encode("utf-8", "replace")).hexdigest()[:32]
+
+
+def _line_of(span: Span) -> str:
+    text = span.source.text
+    start = text.rfind("\n", 0, span.start) + 1
+    return text[start:].partition("\n")[0].strip()
 
 
 def _rule(entry: Code) -> dict[str, Any]:

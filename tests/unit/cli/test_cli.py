@@ -1,5 +1,6 @@
 """What all commands share: help, explanations, exit codes, and what is loaded."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import click
 import pytest
 
 from osc2tx import __version__, cli
+from osc2tx.diagnostics import CODES
 from tests.unit.cli.shell import DRIVE, Shell
 
 HEAVY = ("black", "pint", "numpy", "lxml", "rich", "py_trees", "jinja2", "osc2tx_runtime")
@@ -79,3 +81,32 @@ def test_a_reader_that_goes_away_is_no_bug(tmp_path: Path) -> None:
     )
     assert ended.stderr == ""
     assert ended.returncode in (0, 141)
+
+
+def test_explain_takes_numbers_and_lists(shell: Shell) -> None:
+    assert shell("explain", "104").out == shell("explain", "OSC104").out
+    listed = shell("explain").out.splitlines()
+    assert [line[:6] for line in listed] == list(CODES)
+    data = json.loads(shell("explain", "--all", "--json").out)
+    assert {entry["code"]: entry["name"] for entry in data} == {
+        c.code: c.slug for c in CODES.values()
+    }
+    assert shell("explain", "--all", "104").code == 2
+
+
+def test_unknown_commands_suggest(shell: Shell) -> None:
+    assert "did you mean `build`?" in shell("biuld").err
+
+
+def test_sources_of_the_settings(
+    shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "osc2tx.toml").write_text('sources = ["own"]\n', encoding="utf-8")
+    (tmp_path / "own").mkdir()
+    text = "scenario s:\n    do nothing()\n"
+    (tmp_path / "own" / "a.osc").write_text(text, encoding="utf-8")
+    assert "own/a.osc:2:8: error" in shell("check").err
+    quiet = shell("check", "--quiet")
+    assert (quiet.code, quiet.out) == (3, "")
+    assert "0 of 1 file formatted" in shell("fmt").out
