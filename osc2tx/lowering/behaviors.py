@@ -17,6 +17,7 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.invocations import InvocationLowering, label_of, name_of_member
 from osc2tx.lowering.node_names import composition_name
 from osc2tx.lowering.open_durations import with_open_duration
+from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.lowering.triggers import declares_event, lower_trigger, lower_until
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -45,10 +46,13 @@ class _CompositionFields(TypedDict):
 class BehaviorLowering:
     """Lowers the tree of one scenario."""
 
-    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """Take the checked program, and what the constraints of the scenario say."""
+    def __init__(
+        self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
+    ) -> None:
+        """Take the checked program, and what the constraints and members of the scenario say."""
         self._ctx = ctx
-        self._invocations = InvocationLowering(ctx, constraints)
+        self._standing = standing
+        self._invocations = InvocationLowering(ctx, constraints, standing)
 
     def lower_do(self, node: ast.DoDirective, *, is_phase: bool) -> ir.Behavior | None:
         """Lower a `do`; the compositions right below its member are phases."""
@@ -132,11 +136,11 @@ class BehaviorLowering:
         is_phase: bool,
         is_root: bool,
     ) -> ir.Behavior | None:
-        lowered = [self.lower(member, below_root=is_root) for member in node.members]
+        with self._standing.inside(node):
+            lowered = [self.lower(member, below_root=is_root) for member in node.members]
         members: tuple[ir.Behavior, ...] = present(lowered)
         if not members:
             return None
-        self._invocations.refuse_movement(node, None, None, "a composition")
         arguments = self._composition_arguments(node)
         kept = {
             argument.parameter: argument.value

@@ -91,10 +91,14 @@ class ConstraintLowering:
         """Yield what is known of the members of an object; any value of an enum is something."""
         depth = len(object_)
         for key, mentioned in self.found.by_key.items():
-            if len(key) > depth and key[:depth] == object_ and isinstance(key[-1], sym.FieldSymbol):
-                setting = self.setting(key, key[-1].type)
+            below = key[depth:] if key[:depth] == object_ else ()
+            fields = [part for part in below if isinstance(part, sym.FieldSymbol)]
+            if fields and len(fields) == len(below):
+                setting = self.setting(key, fields[-1].type)
                 if setting.is_empty:
-                    setting = replace(setting, domain=all_values(key[-1].type, mentioned[0].span))
+                    setting = replace(
+                        setting, domain=all_values(fields[-1].type, mentioned[0].span)
+                    )
                 if not setting.is_empty:
                     yield key, setting
 

@@ -9,6 +9,7 @@ from osc2tx.lowering.behaviors import BehaviorLowering, boundary_of
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present
+from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.syntax import ast
 
 
@@ -17,6 +18,7 @@ def lower_body(
     scenario: Composed,
     statements: tuple[ast.Statement, ...],
     constraints: ConstraintLowering,
+    standing: StandingModifiers,
 ) -> ir.Behavior | None:
     """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
     directives = [s for s in statements if isinstance(s, ast.DoDirective)]
@@ -28,7 +30,7 @@ def lower_body(
                 f"scenario `{scenario.name}` has no `do`",
             )
         return None
-    lowering = BehaviorLowering(ctx, constraints)
+    lowering = BehaviorLowering(ctx, constraints, standing)
     body = _lower_directives(lowering, scenario, directives)
     on = [s for s in statements if isinstance(s, ast.OnDirective)]
     reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s) is None])

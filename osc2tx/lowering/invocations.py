@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
 from osc2tx.ir.source_text import statement_name
@@ -23,6 +21,7 @@ from osc2tx.lowering.node_names import invocation_name
 from osc2tx.lowering.objects import ObjectLowering
 from osc2tx.lowering.open_durations import with_open_duration
 from osc2tx.lowering.parameter_settings import Instance, Setting
+from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.lowering.triggers import lower_until
 from osc2tx.lowering.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.user_modifiers import ModifierLowering
@@ -30,17 +29,19 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
-from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.syntax import ast
 
 
 class InvocationLowering:
     """Lowers the invocations of one scenario."""
 
-    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """Take the checked program, and what the constraints of the scenario say."""
+    def __init__(
+        self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
+    ) -> None:
+        """Take the checked program, and what the constraints and members of the scenario say."""
         self._ctx = ctx
         self._constraints = constraints
+        self._standing = standing
 
     def lower(
         self, node: ast.Invocation, comments: tuple[str, ...]
@@ -107,11 +108,11 @@ class InvocationLowering:
         arguments = self._arguments(node, actor)
         self.refuse_movement(node, actor, callee, "an invoked scenario")
         for whose in (actor, *(argument.value for argument in arguments)):
-            for statement in self._of_all_actions(whose):
+            for modifier in self._standing.of(whose):
                 self._ctx.unsupported(
                     "OSC508",
-                    statement.span,
-                    f"`{statement.span.text}` would modify what `{callee.qualified_name}` does",
+                    modifier.span,
+                    f"`{modifier.span.text}` would modify what `{callee.qualified_name}` does",
                     help="apply it in the `with` of the actions in it",
                 )
         span = callee.node.name.span
@@ -230,28 +231,7 @@ class InvocationLowering:
                         modifiers += lowering.lower(member)
                 case ast.KeepConstraint() | ast.RemoveDefault() | ast.UntilDirective():
                     pass
-        for statement in self._of_all_actions(actor):
-            target = self._ctx.model.binding_of(statement).callee
-            assert isinstance(target, sym.ModifierSymbol)
-            if target.target is None or is_subtype(action, target.target):
-                modifiers += lowering.lower(statement)
-        return tuple(modifiers)
-
-    def _of_all_actions(self, actor: ir.Expression | None) -> Iterator[ast.ModifierApplication]:
-        """Yield the members of the scenario that modify all that an actor does."""
-        owner = self._constraints.found.owner
-        if owner is None or not isinstance(actor, ir.FieldRef):
-            return
-        for ancestor in reversed(list(supertypes(owner))):
-            for statement in ancestor.statements:
-                if not isinstance(statement, ast.ModifierApplication):
-                    continue
-                if not modifies_actions(self._ctx, statement):
-                    continue
-                whose = statement.actor and lower_expression(self._ctx, statement.actor)
-                name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
-                if name == actor.name:
-                    yield statement
+        return (*modifiers, *self._standing.of(actor, action))
 
 
 def _written(actor: ir.Expression | None) -> str | None:
@@ -278,10 +258,3 @@ def label_of(node: ast.BehaviorMember) -> str | None:
 
 def _is_until(member: ast.WithMember) -> bool:
     return isinstance(member, ast.UntilDirective)
-
-
-def modifies_actions(ctx: LoweringContext, node: ast.ModifierApplication) -> bool:
-    """Whether a member of a scenario modifies actions of its actor, but for their start."""
-    callee = ctx.model.binding_of(node).callee
-    is_start = any(a.name is not None and a.value.span.text == "start" for a in node.arguments)
-    return isinstance(callee, sym.ModifierSymbol) and callee.target is not None and not is_start

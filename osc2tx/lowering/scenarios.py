@@ -30,11 +30,11 @@ from osc2tx.lowering.initial_placement import (
     merged,
     owner_of,
 )
-from osc2tx.lowering.invocations import modifies_actions
 from osc2tx.lowering.method_overriding import object_types
 from osc2tx.lowering.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.override_modifiers import lower_overrides
+from osc2tx.lowering.standing_modifiers import StandingModifiers, stands
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.user_actions import lower_actions
 from osc2tx.lowering.user_enums import lower_enums
@@ -44,7 +44,6 @@ from osc2tx.lowering.user_fields import (
     user_fields,
     user_lineage,
 )
-from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.user_types import lower_types
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import SemanticModel, types
@@ -162,7 +161,8 @@ def _lower_scenario(
     declarations = lowering.lower()
     shared = GlobalLowering(ctx, scenario, constraints)
     methods = lowering.lower_methods()
-    tree = lower_body(ctx, scenario, statements, constraints)
+    standing = StandingModifiers(ctx, constraints)
+    tree = lower_body(ctx, scenario, statements, constraints, standing)
     if tree is None:
         return None
     placements, body = PlacementLowering(ctx).split(labelled_once(tree, set()))
@@ -188,7 +188,7 @@ def _lower_scenario(
             (*methods, *type_methods),
         ),
         methods=(*methods, *type_methods),
-        placements=merged((*_member_placements(ctx, statements, constraints), *placements)),
+        placements=merged((*_member_placements(ctx, statements, standing), *placements)),
         body=body,
         end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
         overrides=lower_overrides(ctx, statements),
@@ -240,7 +240,7 @@ def _is_method_call(ctx: LoweringContext, statement: ast.ModifierApplication) ->
 def _member_placements(
     ctx: LoweringContext,
     statements: tuple[ast.Statement, ...],
-    constraints: ConstraintLowering,
+    standing: StandingModifiers,
 ) -> tuple[ir.Placement, ...]:
     """Lower modifiers that stand as members: only those that place an actor."""
     placements = []
@@ -251,12 +251,11 @@ def _member_placements(
             continue
         if _is_method_call(ctx, statement):
             continue
-        what = statement.actor.span.text if statement.actor else "actor"
-        actor = lower_expression(ctx, statement.actor) if statement.actor else None
-        for modifier in ModifierLowering(ctx, constraints, what, actor, None).lower(statement):
+        for applied in standing.of_member(statement):
+            modifier, actor = applied.call, applied.actor
             is_start = modifier.at == "start" and can_place(modifier)
             is_placing = is_start or bool(owner_of(modifier))
-            if not is_placing and modifies_actions(ctx, statement):
+            if stands(modifier):
                 continue  # it stands with each of them
             if not is_placing or not isinstance(actor, ir.FieldRef):
                 ctx.unsupported(

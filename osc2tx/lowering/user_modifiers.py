@@ -30,6 +30,21 @@ EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)
 
 
 @dataclass(frozen=True, slots=True)
+class Applied:
+    """A modifier of the library, where it is applied.
+
+    Attributes:
+        call: What it says.
+        target: The behavior that it is one of; `None` for modifiers of actors.
+        actor: Whose behavior it modifies; `None` if that is the actor of the scenario.
+    """
+
+    call: ir.ModifierCall
+    target: sym.BehaviorSymbol | None
+    actor: ir.Expression | None
+
+
+@dataclass(frozen=True, slots=True)
 class ModifierLowering:
     """Lowers the modifiers of one invocation, or of one actor of a scenario.
 
@@ -41,6 +56,7 @@ class ModifierLowering:
         action: What is invoked; `None` for modifiers of a whole scenario.
         it: What `it` is in the body: what is modified.
         chain: The applications around this one, the outermost first.
+        within: The object of whose type it is a member.
     """
 
     ctx: LoweringContext
@@ -50,15 +66,21 @@ class ModifierLowering:
     action: sym.BehaviorSymbol | None
     it: Key | None = None
     chain: tuple[ast.ModifierApplication, ...] = ()
+    within: Key = ()
 
     def lower(self, node: ast.ModifierApplication) -> tuple[ir.ModifierCall, ...]:
         """Return a modifier of the library, or those that one of the user stands for."""
+        return tuple(applied.call for applied in self.applied(node))
+
+    def applied(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
+        """Return the same, and what each of them is about."""
         callee = self.ctx.model.binding_of(node).callee
         assert isinstance(callee, sym.ModifierSymbol)
         if not self._applies(node, callee):
             return ()
         if callee.origin != "user":
-            return (lower_modifier(self.ctx, node, self.what),)
+            call = lower_modifier(self.ctx, node, self.what)
+            return (Applied(call, callee.target, self._actor_of(node)),)
         if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
             self._refuse(
                 node,
@@ -71,14 +93,14 @@ class ModifierLowering:
             return ()
         inner = self._inside(node, callee)
         inner.bind(callee)
-        calls = tuple(call for statement in callee.statements for call in inner.part(statement))
-        if not calls:
+        parts = tuple(part for statement in callee.statements for part in inner.part(statement))
+        if not parts:
             return ()
         self.ctx.modifiers.append(callee)
         application = application_of(callee, node, inner.values_of(callee))
-        calls = tuple(replace(call, applied=(application, *call.applied)) for call in calls)
-        first = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
-        return (first, *calls[1:])
+        calls = [replace(p.call, applied=(application, *p.call.applied)) for p in parts]
+        calls[0] = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
+        return tuple(replace(p, call=call) for p, call in zip(parts, calls, strict=True))
 
     def prepare(self, node: ast.ModifierApplication) -> None:
         """Find out what the parameters of a modifier are: arguments may depend on them."""
@@ -86,15 +108,22 @@ class ModifierLowering:
         if isinstance(callee, sym.ModifierSymbol) and callee.origin == "user":
             self._inside(node, callee).bind(callee)
 
+    def _actor_of(self, node: ast.ModifierApplication) -> ir.Expression | None:
+        """Return whose behavior is modified."""
+        return self.actor if node.actor is None else lower_expression(self.ctx, node.actor)
+
     def _inside(
         self, node: ast.ModifierApplication, callee: sym.ModifierSymbol
     ) -> ModifierLowering:
         chain = (*self.chain, node)
-        place = Place(model=self.ctx.model, owner=callee, prefix=chain, it=self.it)
+        prefix = (*self.within, *chain)
+        place = Place(model=self.ctx.model, owner=callee, prefix=prefix, it=self.it)
+        actor = self._actor_of(node)
         return replace(
             self,
-            ctx=replace(self.ctx.at(place), actor=self.actor),
-            constraints=self.constraints.with_actor(self.actor),
+            ctx=replace(self.ctx.at(place), actor=actor, receiver=None),
+            constraints=self.constraints.with_actor(actor),
+            actor=actor,
             what=f"{self.what}.{node.modifier.text}",
             chain=chain,
         )
@@ -102,13 +131,15 @@ class ModifierLowering:
     def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
         """Return what `bind` found."""
         fields = parameters_of(callee)
-        values = ((field, self.ctx.given.get((*self.chain, field))) for field in fields)
+        values = (
+            (field, self.ctx.given.get((*self.within, *self.chain, field))) for field in fields
+        )
         return {field: value for field, value in values if value is not None}
 
     def bind(self, callee: sym.ModifierSymbol) -> None:
         """Find out what the parameters are here."""
         for field in parameters_of(callee):
-            key: Key = (*self.chain, field)
+            key: Key = (*self.within, *self.chain, field)
             if key in self.ctx.given:
                 continue
             setting = self.constraints.setting(key, field.type)
@@ -127,7 +158,7 @@ class ModifierLowering:
                 help="give it as an argument, or a default",
             )
 
-    def part(self, statement: ast.Statement) -> tuple[ir.ModifierCall, ...]:
+    def part(self, statement: ast.Statement) -> tuple[Applied, ...]:
         """Lower one statement of the body."""
         match statement:
             case ast.ParameterDeclaration() | ast.RemoveDefault():
@@ -137,7 +168,7 @@ class ModifierLowering:
             case ast.KeepConstraint():
                 pass  # the constraints of the scenario hold it, for this application
             case ast.ModifierApplication() if self._is_known(statement):
-                return self.lower(statement)
+                return self.applied(statement)
             case ast.ModifierApplication():
                 pass  # one of its parameters has no value, which is reported
             case _:
@@ -153,7 +184,7 @@ class ModifierLowering:
         place = self.ctx.place
         assert place is not None
         used = (place.locate(n) for n in nodes_below(node) if isinstance(n, ast.NameExpression))
-        own = [key for key in used if key and key[:-1] == self.chain]
+        own = [key for key in used if key and key[:-1] == (*self.within, *self.chain)]
         return all(
             key in self.ctx.given or (isinstance(key[-1], sym.Symbol) and key[-1].name == "actor")
             for key in own

@@ -118,7 +118,7 @@ def _check_composition(r: Resolution, node: ast.Composition, env: Environment) -
     for member in node.members:
         check_do_member(r, member, env)
     inner = env.with_it(BehaviorType(COMPOSITION))
-    check_with(r, node.with_members, inner, None, None)
+    check_with(r, node.with_members, inner, None, env.actor, is_composition=True)
     if "duration" in seen:
         _note_first_come(r, node)
 
@@ -274,8 +274,19 @@ def check_with(
     env: Environment,
     invoked: CallableBehavior | None,
     actor: ActorSymbol | None,
+    *,
+    is_composition: bool = False,
 ) -> None:
-    """Check a `with` block."""
+    """Check a `with` block.
+
+    Args:
+        r: The state of the pass.
+        members: What is in it.
+        env: Where it stands.
+        invoked: The behavior that it belongs to.
+        actor: The actor that modifiers may leave out.
+        is_composition: It is that of a composition: its modifiers are as those of a scenario.
+    """
     for member in members:
         match member:
             case ast.KeepConstraint():
@@ -283,7 +294,7 @@ def check_with(
             case ast.RemoveDefault():
                 check_remove_default(r, member, env)
             case ast.ModifierApplication():
-                check_modifier(r, member, env, invoked, actor)
+                check_modifier(r, member, env, invoked, actor, is_member=is_composition)
             case ast.UntilDirective():
                 check_event(r, member.event, env)
             case _:

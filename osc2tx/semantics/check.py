@@ -118,7 +118,7 @@ def _check_applied_modifier(
             is_member = isinstance(owner, ScenarioSymbol)
             check_modifier(r, node, env, owner, env.actor, is_member=is_member)
         case ActorSymbol():
-            check_modifier(r, node, env, None, owner)
+            check_modifier(r, node, env, None, owner, is_member=True)
         case _:
             check_modifier(r, node, env, None, None)
 

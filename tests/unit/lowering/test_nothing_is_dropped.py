@@ -53,12 +53,11 @@ OBJECT = {
         "def y() -> int is expression x * 44", text="* 44", do="wait it_.y() > 1"
     ),
     ast.CoverageDeclaration: Case("cover(x)", code="OSC501"),
-    ast.ModifierApplication: Case("keep_lane()", code="OSC406"),
 }
 
 CASES = {
     "struct": {**OBJECT, ast.ModifierApplication: Case("keep_lane()", code="OSC108")},
-    "actor": OBJECT,
+    "actor": {**OBJECT, ast.ModifierApplication: Case("speed(7mps)", text="speed(7 * mps)")},
     "action": {
         ast.EventDeclaration: Case(
             "event seen",
