@@ -22,7 +22,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.processes import HANGING
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
-from tests.unit.backends.xosc.played import Played, compare, world
+from tests.xosc.played import Played, compare, world
 
 CHECKOUT = os.environ.get("OSC2TX_SCENARIO_RUNNER", "")
 pytestmark = [

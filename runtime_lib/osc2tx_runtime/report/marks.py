@@ -103,6 +103,7 @@ _WORDS: Mapping[str, Callable[[Json], str]] = {
     "cover": _sample,
     "record": _sample,
     "size": _size,
+    "jack_knife": lambda line: f"at {_values(line.get('angle'))}° to {text(line.get('tow'))}",
     "simulator_collision": lambda line: f"{text(line.get('actor'))} and {text(line.get('other'))}",
     "simulator_size": _box,
     "criterion": lambda line: text(line.get("what")),

@@ -33,7 +33,7 @@ class FakeWorld:
 
     def __init__(self, ids: tuple[str, ...] = (), dt: float = 0.05) -> None:
         self.dt = dt
-        self.map = SimpleNamespace(name="fake")
+        self.map = SimpleNamespace(name="fake", remarks=(), seams=tuple)
         self.k = 0
         self.ids = ids
         self.x = dict.fromkeys(ids, 0.0)
