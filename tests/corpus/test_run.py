@@ -27,6 +27,7 @@ from tests.corpus.report import compilation_of, manifest
 MAX_TIME = 20.0  # s of simulated time
 EXTERNAL = "math.sin"  # the only function that scenarios of the corpus call
 MAPS = ("carla-2020", "carla-2019", "esmini")
+OPEN = r"the scenario leaves (\S+) open: give it a value"
 STAND_IN = Path(osc2tx_runtime.__file__).parent / "maps" / "highway.xodr"
 VARIANTS = (
     ("--seed=0",),
@@ -123,6 +124,9 @@ class Runs:
 
     def all(self, file: str, scenario: type[Scenario]) -> Iterator[Ended]:
         first = self.end(file, scenario, VARIANTS[0])
+        given = tuple(f"--set={name}=given" for name in re.findall(OPEN, first.said))
+        if given:
+            first = self.end(file, scenario, (*VARIANTS[0], *given))
         yield first
         missing = re.search(r"map `([^`]+)` not found", first.said)
         if missing:
@@ -130,7 +134,7 @@ class Runs:
             shutil.copy(STAND_IN, self.stand_ins / name)
             yield self.end(file, scenario, VARIANTS[0])
         for variant in VARIANTS[1:]:
-            yield self.end(file, scenario, variant)
+            yield self.end(file, scenario, (*variant, *given))
 
 
 @pytest.fixture(scope="module")

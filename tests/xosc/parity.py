@@ -13,7 +13,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
-from tests.xosc.played import Difference, Played, compare, with_values_of, world
+from tests.xosc.played import Difference, Played, compare, world
 from tests.xosc.storyboard import Evaluator, map_of
 
 FINE = 0.01  # s
@@ -66,10 +66,9 @@ def difference(given: Given, document: XmlScenario, *, is_lazy: bool = False) ->
         AssertionError: An event has not happened, came too late, or in another order.
     """
     assert document.xml is not None
-    settings = with_values_of(document.xml, given.settings)
-    expected = world(given.path, document.name, settings, given.options)
-    found = played(document.xml, settings.dt, given.maps, is_lazy=is_lazy)
-    return compare(document, expected, found, settings.dt)
+    expected = world(given.path, document, given.settings, given.options)
+    found = played(document.xml, given.settings.dt, given.maps, is_lazy=is_lazy)
+    return compare(document, expected, found, given.settings.dt)
 
 
 def check(given: Given, document: XmlScenario, *, is_lazy: bool = False) -> None:

@@ -66,10 +66,18 @@ def module(path: Path, options: CompileOptions) -> GeneratedModule:
     return draft(module_of(compiled(path, options)))
 
 
-def world(path: Path, name: str, settings: RunSettings, options: CompileOptions) -> Played:
-    """Return what the embedded world does."""
+def world(
+    path: Path, document: XmlScenario, settings: RunSettings, options: CompileOptions
+) -> Played:
+    """Return what the embedded world does with the values that a document stands for."""
     with scenarios_of_module(module(path, options)) as scenarios:
-        result = run_scenario(scenarios[name], settings)
+        scenario = scenarios[document.name]
+        values = {
+            name: value
+            for name, value in values_of(document).items()
+            if name in scenario.parameters  # others hold what an event carries
+        }
+        result = run_scenario(scenario, replace(settings, set={**values, **settings.set}))
     assert result.status == "success", result.reason
     starts: dict[str, float] = {}
     track: dict[str, list[Row]] = {}
@@ -82,11 +90,11 @@ def world(path: Path, name: str, settings: RunSettings, options: CompileOptions)
     return Played(result.time, starts, track)
 
 
-def with_values_of(document: str, settings: RunSettings) -> RunSettings:
-    """Return the settings of the run that a document stands for: with its parameters."""
-    declared = etree.fromstring(document.encode()).iterfind("ParameterDeclarations/*")
-    values = {node.get("name"): float(node.get("value")) for node in declared if _is_number(node)}
-    return replace(settings, set={**values, **settings.set})
+def values_of(document: XmlScenario) -> dict[str, float]:
+    """Return the numbers that a document declares as parameters."""
+    assert document.xml is not None
+    declared = etree.fromstring(document.xml.encode()).iterfind("ParameterDeclarations/*")
+    return {node.get("name"): float(node.get("value")) for node in declared if _is_number(node)}
 
 
 def _is_number(node: etree._Element) -> bool:
