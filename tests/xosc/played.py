@@ -75,7 +75,7 @@ def world(
         values = {
             name: value
             for name, value in values_of(document).items()
-            if name in scenario.parameters  # others hold what an event carries
+            if name in scenario(settings).parameters  # others hold what an event carries
         }
         result = run_scenario(scenario, replace(settings, set={**values, **settings.set}))
     assert result.status == "success", result.reason
