@@ -57,8 +57,18 @@ class Running:
 class Stage:
     """The bodies of a document, and the actions at work on them."""
 
-    def __init__(self, root: Node, bodies: dict[str, Body], road_map: RoadMap, dt: float) -> None:
+    def __init__(
+        self,
+        root: Node,
+        bodies: dict[str, Body],
+        road_map: RoadMap,
+        dt: float,
+        *,
+        carries: bool = False,
+    ) -> None:
         self.root, self.bodies, self.map, self.dt = root, bodies, road_map, dt
+        self.carries = carries
+        self._speeds: dict[str, float] = {}  # of the next step, as far as they are known
         self.ruler = Ruler(road_map)
         self.time = 0.0
 
@@ -173,7 +183,8 @@ class Stage:
                 courses.append(None)
                 continue
             peak = limit("maxAcceleration" if end > v else "maxDeceleration")
-            course, time = with_jerk(v, end, peak, limit("maxAccelerationRate"))
+            rate = self._carried(body) if self.carries and not courses else 0.0
+            course, time = with_jerk(v, end, peak, limit("maxAccelerationRate"), rate)
             courses.append(course)
             points.append((begin + time, end))
 
@@ -184,6 +195,12 @@ class Stage:
             return between(points, t)
 
         return Running(body, (LONGITUDINAL,), self.time, points[-1][0], speed=value)
+
+    @staticmethod
+    def _carried(body: Body) -> float:
+        """Return the acceleration (m/s^2) that an entity takes into its next action."""
+        run = body.actions.get(LONGITUDINAL)
+        return 0.0 if run is None or run.done else body.a
 
     # --- across it --------------------------------------------------------------------------------
 
@@ -300,8 +317,9 @@ class Stage:
 
     def advance(self) -> None:
         """Move everything by one step."""
-        before = {name: body.v for name, body in self.bodies.items()}
-        speeds = {name: self._next_speed(body) for name, body in self.bodies.items()}
+        before = {name: (body.v, body.pose) for name, body in self.bodies.items()}
+        self._speeds = {}
+        speeds = {name: self._speed_of(body) for name, body in self.bodies.items()}
         for name, body in self.bodies.items():
             if body.pose is not None and body.behind is None:
                 self._move(body, speeds[name])
@@ -309,7 +327,17 @@ class Stage:
             if body.behind is not None:
                 body.trail()
         for name, body in self.bodies.items():
-            body.a = (body.v - before[name]) / self.dt
+            v, pose = before[name]
+            body.a = (body.v - v) / self.dt
+            if pose is not None:
+                body.note_motion(pose, self.dt)
+
+    def _speed_of(self, body: Body) -> float:
+        """Return the next speed of a body; it may need that of another one."""
+        if body.name not in self._speeds:
+            self._speeds[body.name] = body.v  # who follows who follows it
+            self._speeds[body.name] = self._next_speed(body)
+        return self._speeds[body.name]
 
     def _next_speed(self, body: Body) -> float:
         run = body.actions.get(LONGITUDINAL)
@@ -317,7 +345,7 @@ class Stage:
             return body.v
         time = self.time + self.dt - run.begun
         if run.relative is not None:
-            return self._target_speed(run.relative.find("SpeedActionTarget")[0])
+            return self._nearing(body, run.relative)
         if run.gap is not None:
             return self._closing(body, run)
         assert run.speed is not None and run.length is not None
@@ -372,6 +400,8 @@ class Stage:
         wanted = number(node, "distance")
         if node.get("timeGap") is not None:
             wanted = number(node, "timeGap") * (body.v if is_behind else leader.v)
+        if limits is None and node.get("continuous") == "true":
+            return self._rigid(body, leader, gap, number(node, "timeGap"), is_behind=is_behind)
         if node.get("freespace") == "true":
             wanted += body.front + leader.rear if is_behind else body.rear + leader.front
         error = gap - (wanted if is_behind else -wanted)
@@ -384,6 +414,35 @@ class Stage:
             return body.v
         rate = 2.0 * error + 2.0 * math.sqrt(2.0) * (leader.v - body.v) * body.along * leader.along
         return body.v + min(max(rate, -low), high) * self.dt
+
+    def _nearing(self, body: Body, action: Node) -> float:
+        """Return the next speed of an entity that keeps one relative to that of another one.
+
+        The dynamics say how it is reached: at a rate, or in a step.
+        """
+        target = self._target_speed(action.find("SpeedActionTarget")[0])
+        dynamics = action.find("SpeedActionDynamics")
+        if dynamics.get("dynamicsShape") == "step":
+            return target
+        assert dynamics.get("dynamicsDimension") == "rate", "no length goes with continuous"
+        most = number(dynamics, "value") * self.dt
+        return body.v + min(max(target - body.v, -most), most)
+
+    def _rigid(
+        self, body: Body, leader: Body, gap: float, time: float, *, is_behind: bool
+    ) -> float:
+        """Return the next speed of an entity that keeps its distance without any limits."""
+        speed = self._speed_of(leader)
+        if not time or not is_behind:
+            return speed
+        ways = 0.5 * (leader.v + speed - body.v) * self.dt
+        space = body.front + leader.rear if self._is_between_ends(body) else 0.0
+        return (gap - space + ways) / (time + 0.5 * self.dt)
+
+    @staticmethod
+    def _is_between_ends(body: Body) -> bool:
+        run = body.actions[LONGITUDINAL]
+        return run.gap is not None and run.gap.get("freespace") == "true"
 
     def _keep_aside(self, body: Body, run: Running, way: float) -> None:
         node, limits = run.gap, run.gap.find("DynamicConstraints")

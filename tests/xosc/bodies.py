@@ -42,6 +42,8 @@ class Body:
         v: m/s.
         a: m/s^2, along its axis.
         rate: m/s to its left.
+        velocity: m/s in the world.
+        swing: m/s^2 to its left.
         actions: At work, by domain.
         behind: Which body tows it, with the metres from that one's reference point back to the
             hitch, and from the coupler to its own reference point.
@@ -60,6 +62,8 @@ class Body:
     v: float = 0.0
     a: float = 0.0
     rate: float = 0.0
+    velocity: tuple[float, float] = (0.0, 0.0)
+    swing: float = 0.0
     actions: dict[str, Running] = field(default_factory=dict)
     behind: tuple[Body, float, float] | None = None
 
@@ -124,6 +128,13 @@ class Body:
         pose = road_map.pose(self.place)
         turned = math.atan2(aside * self.along, abs(onward)) if onward else 0.0
         self.pose = Pose(pose.x, pose.y, (pose.h if self.along > 0 else pose.h + math.pi) + turned)
+
+    def note_motion(self, before: Pose, dt: float) -> None:
+        """Take down velocity and lateral acceleration over a step."""
+        x, y, h = self.here
+        vx, vy = (x - before.x) / dt, (y - before.y) / dt
+        ax, ay = (vx - self.velocity[0]) / dt, (vy - self.velocity[1]) / dt
+        self.velocity, self.swing = (vx, vy), ay * math.cos(h) - ax * math.sin(h)
 
     def trail(self) -> None:
         """Draw it straight towards the hitch of what tows it."""

@@ -134,9 +134,7 @@ class Conditions:
             case "SpeedCondition":
                 return _compare(node, _part(node, body.v, body.rate))
             case "AccelerationCondition":
-                if node.get("direction") == "lateral":
-                    raise NotImplementedError("lateral acceleration")
-                return _compare(node, body.a)
+                return _compare(node, _part(node, body.a, body.swing))
             case "RelativeSpeedCondition":
                 other = world.bodies[node.get("entityRef")]
                 turned = other.here.h - body.here.h if node.get("direction") else 0.0
@@ -185,7 +183,7 @@ def _part(node: Node, along: float, across: float) -> float:
             return across
         case "vertical":
             return 0.0
-    return abs(along)
+    return math.hypot(along, across)
 
 
 __all__ = ["Conditions", "World"]

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 from lxml import etree
@@ -22,19 +22,33 @@ RULES: dict[str, Callable[[float, float], bool]] = {
 
 def number(node: Node, name: str, default: float = 0.0) -> float:
     text = node.get(name)
-    return default if text is None else value_of(text, node.getroottree().getroot())
+    return default if text is None else float(text)
 
 
-def value_of(text: str, root: Node) -> float:
-    """Return the value of an attribute: a number, `$name` or `${arithmetic}`."""
-    if not text.startswith("$"):
-        return float(text)
+def with_parameters(root: Node, given: Mapping[str, str]) -> Node:
+    """Put the values of the parameters into all attributes: `$name` and `${arithmetic}`.
+
+    Args:
+        root: The document.
+        given: Values to take instead of those of the declarations.
+    """
+    for node in root.iter("ParameterDeclaration"):
+        node.set("value", given.get(node.get("name"), node.get("value")))
     declared = {node.get("name"): node.get("value") for node in root.iter("ParameterDeclaration")}
-    plain = re.sub(r"\$(\w+)", lambda found: f"({declared[found[1]]})", text.strip("${}"))
+    for node in root.iter():
+        for name, text in node.attrib.items():
+            if text.startswith("$"):
+                node.set(name, _value_of(text, declared))
+    return root
+
+
+def _value_of(text: str, declared: dict[str, str]) -> str:
     if not text.startswith("${"):
-        return float(declared[text[1:]])
+        return declared[text[1:]]
+    inner = text.removeprefix("${").removesuffix("}")
+    plain = re.sub(r"\$(\w+)", lambda found: f"({declared[found[1]]})", inner)
     assert re.fullmatch(r"[-+*/(). 0-9e]+", plain), text
-    return float(eval(plain))
+    return repr(float(eval(plain)))
 
 
 def shaped(shape: str, start: float, end: float, time: float) -> Course:
@@ -53,26 +67,31 @@ def shaped(shape: str, start: float, end: float, time: float) -> Course:
     return course
 
 
-def with_jerk(start: float, end: float, limit: float, jerk: float) -> tuple[Course, float]:
+def with_jerk(
+    start: float, end: float, limit: float, jerk: float, rate: float = 0.0
+) -> tuple[Course, float]:
     """Return the fastest course within limits of acceleration and jerk, and its length.
 
-    A trapezoid of the acceleration, which is zero at both ends; a triangle where the limit is not
-    reached.
+    The acceleration begins with a rate, comes to its peak, stays there, and is zero at the end.
     """
-    change = abs(end - start)
-    peak = min(limit, math.sqrt(change * jerk))
-    ramp = peak / jerk
-    flat = change / peak - ramp if peak else 0.0
-    time = flat + 2.0 * ramp
+    left = end - start - rate * abs(rate) / (2.0 * jerk)  # if the rate is just brought to zero
+    sign = math.copysign(1.0, left)
+    change, rate = sign * (end - start), sign * rate
+    peak = max(min(limit, math.sqrt(max(change * jerk + 0.5 * rate * rate, 0.0))), 0.0)
+    up, down = abs(peak - rate) / jerk, peak / jerk
+    ramped = 0.5 * (rate + peak) * up + 0.5 * peak * down
+    flat = max(change - ramped, 0.0) / peak if peak else 0.0
+    time = up + flat + down
+    steep = math.copysign(jerk, peak - rate)
 
     def gained(t: float) -> float:
-        if t <= ramp:
-            return 0.5 * jerk * t * t if ramp else 0.0
-        if t <= ramp + flat:
-            return peak * (t - 0.5 * ramp)
+        if t <= up:
+            return rate * t + 0.5 * steep * t * t
+        if t <= up + flat:
+            return 0.5 * (rate + peak) * up + peak * (t - up)
         return change - 0.5 * jerk * (time - t) ** 2 if t < time else change
 
-    return lambda t: start + math.copysign(gained(t), end - start), time
+    return lambda t: start + sign * gained(t), time
 
 
 def between(points: list[tuple[float, float]], at: float) -> float:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.report import Grade
+from osc2tx.backends.xosc.xml.profiles import PROFILES
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
 from tests.xosc.played import Difference, Played, compare, world
-from tests.xosc.storyboard import Evaluator, map_of
+from tests.xosc.storyboard import NOTHING, Evaluator, map_of
 
 FINE = 0.01  # s
 NEAR = 0.1  # m: how far what is graded exact may be off at steps of `FINE`
@@ -39,11 +41,36 @@ def road_map(path: Path) -> RoadMap:
 
 
 def played(
-    xml: str, dt: float, maps: tuple[Path, ...] = (SHIPPED,), *, is_lazy: bool = False
+    xml: str,
+    dt: float,
+    maps: tuple[Path, ...] = (SHIPPED,),
+    *,
+    is_lazy: bool = False,
+    carries_acceleration: bool = False,
+    given: Mapping[str, str] = NOTHING,
+    most: float = LONG,
 ) -> Played:
-    """Return what the standard makes of a document."""
-    evaluator = Evaluator(xml, road_map(map_of(xml, maps)), dt, is_lazy=is_lazy)
-    end = evaluator.play(LONG)
+    """Return what the standard makes of a document.
+
+    Args:
+        xml: The document.
+        dt: Length of a step (s).
+        maps: Folders with its map.
+        is_lazy: Of a group of conditions a tool looks at none behind a false one.
+        carries_acceleration: A profile of speeds begins with the present acceleration, which is
+            not what the standard says.
+        given: Values of parameters, instead of those that the document has for them.
+        most: Seconds after which it is left.
+    """
+    evaluator = Evaluator(
+        xml,
+        road_map(map_of(xml, maps)),
+        dt,
+        is_lazy=is_lazy,
+        carries_acceleration=carries_acceleration,
+        given=given,
+    )
+    end = evaluator.play(most)
     return Played(end, evaluator.starts, evaluator.track)
 
 
@@ -67,7 +94,15 @@ def difference(given: Given, document: XmlScenario, *, is_lazy: bool = False) ->
     """
     assert document.xml is not None
     expected = world(given.path, document, given.settings, given.options)
-    found = played(document.xml, given.settings.dt, given.maps, is_lazy=is_lazy)
+    carries = PROFILES[given.xml.profile].carries_acceleration
+    found = played(
+        document.xml,
+        given.settings.dt,
+        given.maps,
+        is_lazy=is_lazy,
+        carries_acceleration=carries,
+        given=expected.choices,
+    )
     return compare(document, expected, found, given.settings.dt)
 
 

@@ -8,8 +8,9 @@ time. Then everything moves by one step.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from lxml import etree
 
@@ -17,10 +18,11 @@ from osc2tx_runtime.opendrive import RoadMap
 from tests.xosc.actions import Running, Stage
 from tests.xosc.bodies import Body, body_of, couple
 from tests.xosc.conditions import Conditions
-from tests.xosc.courses import Node, number
+from tests.xosc.courses import Node, number, with_parameters
 from tests.xosc.distances import Ruler
 
 Row = tuple[float, float, float, float]  # t, x, y, v
+NOTHING: Mapping[str, str] = MappingProxyType({})
 SETTLES = 1000  # passes of an instant
 
 
@@ -34,14 +36,23 @@ class Evaluator:
         track: Motion of each entity.
     """
 
-    def __init__(self, xml: str, road_map: RoadMap, dt: float, *, is_lazy: bool = False) -> None:
-        self.root = etree.fromstring(xml.encode())
+    def __init__(
+        self,
+        xml: str,
+        road_map: RoadMap,
+        dt: float,
+        *,
+        is_lazy: bool = False,
+        carries_acceleration: bool = False,
+        given: Mapping[str, str] = NOTHING,
+    ) -> None:
+        self.root = with_parameters(etree.fromstring(xml.encode()), given)
         self.dt, self.step = dt, 0
         self.bodies: dict[str, Body] = {}
         for node in self.root.iter("ScenarioObject"):
             body = body_of(node)
             self.bodies[body.name] = body
-        self.stage = Stage(self.root, self.bodies, road_map, dt)
+        self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries_acceleration)
         self.ruler = Ruler(road_map)
         declared = ("VariableDeclaration", "ParameterDeclaration")
         self.variables: dict[str, str] = {

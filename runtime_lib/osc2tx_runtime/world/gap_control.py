@@ -61,7 +61,9 @@ class GapRun:
         if error == 0.0 and low < high:
             goal = me.v if low < here < high else goal  # anywhere in the range will do
         blend = 1.0 - math.exp(-2.0 * pace * inputs.dt)
-        speed = towards(me.v, me.v + blend * (goal - me.v), self._limits, 1.0, inputs.dt)
+        # Its acceleration counts as its own: who has the gap keeps it while the other one changes.
+        wanted = me.v + other.a * inputs.dt + blend * (goal - me.v - other.a * inputs.dt)
+        speed = towards(me.v, max(wanted, 0.0), self._limits, 1.0, inputs.dt)
         close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
         near = abs(error) < _GAP_TOLERANCE and close
         self._held = self._held + inputs.dt if near else 0.0

@@ -7,62 +7,24 @@ there is, which the XML cannot ask for: it has to be known from what stands befo
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import inf
+from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.gap_elements import SIDES, Gap, reach
+from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
-from osc2tx.backends.xosc.actions.speed_changes import longitudinal
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.flattening.adjacent_members import predecessor
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.backends.xosc.report import Inexpressible
 
-HOW = "how it closes the gap is up to the tool; the gap itself is exact"
-"""What reports say about gaps: the standard has no law for their control."""
-
-SIDES = {
-    "ahead": "leadingReferencedEntity",
-    "behind": "trailingReferencedEntity",
-    "left": "leftToReferencedEntity",
-    "right": "rightToReferencedEntity",
-}
 OPPOSITE = {"ahead": "behind", "behind": "ahead", "left": "right", "right": "left"}
-
-
-@dataclass(frozen=True, slots=True)
-class Gap:
-    """A distance to another actor.
-
-    Attributes:
-        reference: The other one.
-        side: On which side of it the actor is: `ahead`, `behind`, `left` or `right`.
-        size: Metres, or seconds.
-        is_time: It is in seconds.
-        is_headway: It counts from front to front.
-    """
-
-    reference: CastMember
-    side: str
-    size: float
-    is_time: bool
-    is_headway: bool
-
-    @property
-    def is_lateral(self) -> bool:
-        """Whether it counts across the road."""
-        return self.side in ("left", "right")
 
 
 @action("change_space_gap", "change_time_gap", "change_space_headway", "change_time_headway")
 def _change_gap(leaf: Leaf) -> Performance:
     gap = _asked_for(leaf, leaf.node, leaf.arguments)
     change = reach(leaf, gap, keeps=False)
-    leaf.ctx.report.exact(leaf.construct, leaf.node.span, HOW)
     if leaf.node.duration is not None:
         leaf.ctx.report.approximate(
             leaf.construct,
@@ -81,15 +43,17 @@ def _keep_gap(leaf: Leaf) -> Performance:
         raise Inexpressible("it names no actor", leaf.node.span)
     is_time, is_headway = "_time_" in leaf.node.action, leaf.node.action.endswith("headway")
     found = _reached_before(leaf, reference, direction, is_time, is_headway)
+    missing: float | None = 0.0
     if found is None and direction == "longitudinal" and leaf.is_start:
         found = _at_start(leaf, reference, is_time, is_headway)
+        same = leaf.state.speed == leaf.ctx.at_start[reference.name].speed
+        missing = 0.0 if same else None
     if found is None:
         raise Inexpressible(
             "the present gap is not known before the run, and the XML has no action that keeps it",
             leaf.node.span,
         )
-    change = reach(leaf, found, keeps=True)
-    leaf.ctx.report.exact(leaf.construct, leaf.node.span, HOW)
+    change = reach(leaf, found, keeps=True, missing=missing)
     return Performance((change, *apply_modifiers(leaf)), "open")
 
 
@@ -143,147 +107,8 @@ def _at_start(leaf: Leaf, reference: CastMember, is_time: bool, is_headway: bool
     behind, ahead = (me, other) if side == "behind" else (other, me)
     size = abs(apart) - behind.front + (ahead.front if is_headway else -ahead.rear)
     if is_time:
-        trailing = leaf.state if side == "behind" else leaf.ctx.states[reference.name]
+        trailing = leaf.state if side == "behind" else leaf.ctx.at_start[reference.name]
         if trailing.speed is None or not trailing.speed.is_known or trailing.speed.low <= 0.0:
             return None
         size /= trailing.speed.low
     return Gap(reference, side, max(size, 0.0), is_time, is_headway)
-
-
-# --- elements -----------------------------------------------------------------------------------
-
-
-def reach(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
-    """Return the control that reaches a gap, or keeps one."""
-    if gap.is_lateral:
-        return _reach_sideways(leaf, gap, keeps=keeps)
-    distance, time, freespace = _measured(leaf, gap)
-    return hold(leaf, gap, distance, time, freespace=freespace, keeps=keeps)
-
-
-def hold(
-    leaf: Leaf,
-    gap: Gap,
-    distance: float | None,
-    time: float | None,
-    *,
-    freespace: bool,
-    keeps: bool,
-) -> Change:
-    """Return the control of a distance (m) or time (s) along the road, as the XML counts it."""
-    if time is not None:
-        leaf.ctx.require_support("LongitudinalDistanceAction/timeGap", leaf.node.span)
-    newer = leaf.ctx.version >= "1.1"
-    _require_side(leaf, gap)
-    limits = leaf.limits
-    action = longitudinal(
-        element(
-            "LongitudinalDistanceAction",
-            element(
-                "DynamicConstraints",
-                maxAcceleration=limits.acceleration,
-                maxDeceleration=limits.deceleration,
-                maxSpeed=None if newer else TOP_SPEED,
-            ),
-            entityRef=gap.reference.name,
-            distance=distance,
-            timeGap=time,
-            freespace=freespace,
-            continuous=keeps,
-            displacement=SIDES[gap.side] if newer else None,
-            coordinateSystem="lane" if newer else None,
-        )
-    )
-    # Tools reach a gap at some speed; what follows has to say which one it wants.
-    during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    return Change(LONGITUDINAL, (action,), inf if keeps else None, during, during)
-
-
-def _measured(leaf: Leaf, gap: Gap) -> tuple[float | None, float | None, bool]:
-    """Return distance, time and whether they count between the facing ends."""
-    if not gap.is_headway:
-        size = round(gap.size, 6)
-        return (None, size, True) if gap.is_time else (size, None, True)
-    behind, ahead = leaf.member.shape, gap.reference.shape
-    if gap.side == "ahead":
-        behind, ahead = ahead, behind
-    overhang = behind.front - ahead.front  # from fronts to reference points
-    if not gap.is_time:
-        return round(gap.size + overhang, 6), None, False
-    if abs(overhang) > 1e-6:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
-            "a time in the XML counts between reference points, not between fronts",
-            f"off by the time for {abs(overhang):.2g} m",
-        )
-    return None, round(gap.size, 6), False
-
-
-def _require_side(leaf: Leaf, gap: Gap) -> None:
-    """See to it that 1.0, which cannot say on which side a gap is, does not have to."""
-    ctx = leaf.ctx
-    if ctx.version >= "1.1":
-        return
-    known_side = _side_at_start(leaf, gap)
-    if known_side == gap.side:
-        return
-    if known_side is not None:
-        raise Inexpressible(
-            "OpenSCENARIO XML 1.0 does not say on which side a distance is kept",
-            leaf.node.span,
-            Remedy(version="1.1"),
-        )
-    ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
-        "OpenSCENARIO XML 1.0 does not say on which side a distance is kept",
-        f"differs only if it is not on the side `{gap.side}` when it begins",
-        Remedy(version="1.1"),
-    )
-
-
-def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:
-    """Return the side on which an actor is, where nothing has changed it since the start."""
-    before = predecessor(leaf.ctx.scenario.body, leaf.node)
-    if before is not None and before.action.startswith(("change_space_", "change_time_")):
-        return gap.side if leaf.node.action.startswith("keep_") else None
-    if not leaf.is_start or gap.is_lateral:
-        return None
-    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
-    if apart is None:
-        return None
-    return "behind" if apart > 0.0 else "ahead"
-
-
-def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
-    if gap.is_time:
-        raise Inexpressible("there is no time across the road in OpenSCENARIO XML", leaf.node.span)
-    _require_side(leaf, gap)
-    newer = leaf.ctx.version >= "1.1"
-    limits = leaf.limits
-    action = element(
-        "LateralDistanceAction",
-        element(
-            "DynamicConstraints",
-            maxAcceleration=limits.lateral,
-            maxDeceleration=limits.lateral,
-            maxSpeed=LATERAL_SPEED,
-        ),
-        entityRef=gap.reference.name,
-        distance=round(gap.size, 6),
-        freespace=True,
-        continuous=keeps,
-        displacement=SIDES[gap.side] if newer else None,
-        coordinateSystem="road" if newer else None,
-    )
-    after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
-    return Change(LATERAL, (_lateral(action),), inf if keeps else None, after, after)
-
-
-LATERAL_SPEED = 3.0
-"""m/s across the road; the DSL says none."""
-
-
-def _lateral(action: Element) -> Element:
-    return element("PrivateAction", element("LateralAction", action))

@@ -57,7 +57,7 @@ class Performance:
         changes: By domain.
         ends: At its goal, at once, or never by itself.
         lasts: Seconds after which it is over, if that does not follow from its elements.
-        reached: Conditions that hold when it is over, likewise; any of them is enough.
+        reached: Conditions that hold when it is over, likewise; all of them have to.
     """
 
     changes: tuple[Change, ...]

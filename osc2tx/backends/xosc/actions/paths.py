@@ -11,6 +11,7 @@ from itertools import pairwise
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.path_steering import note_schedule, note_steering
 from osc2tx.backends.xosc.actions.points_and_lines import (
     Line,
     line_of,
@@ -18,7 +19,7 @@ from osc2tx.backends.xosc.actions.points_and_lines import (
     relative_line,
 )
 from osc2tx.backends.xosc.actions.registry import action, modifier
-from osc2tx.backends.xosc.actions.routes import assign_route
+from osc2tx.backends.xosc.actions.routes import assign_route, lane_position
 from osc2tx.backends.xosc.actions.speed_modifiers import may_jump
 from osc2tx.backends.xosc.actions.xml_positions import at_place
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
@@ -83,7 +84,8 @@ def _along_segment(
         raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
     action, goal = assign_route(leaf, segment)
     if leaf.duration is None:
-        leaf.reached = (leaf.on_me(at_place(leaf.ctx, goal)),)
+        there = at_place(leaf.ctx, lane_position(goal), goal, leaf.construct, leaf.node.span)
+        leaf.reached = tuple(map(leaf.on_me, there))
     after = replace(leaf.state, lane=None).finished(LATERAL)
     return (Change(LATERAL, (action,), None, after, after),)
 
@@ -103,6 +105,10 @@ def along_line(
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
+    if line.is_timed and not is_exact:
+        note_schedule(leaf, corners)
+    elif not is_exact:
+        note_steering(leaf, line, corners, offsets)
     action = follow(leaf, vertices, line.is_timed, is_exact)
     end = corners[-1]
     if line.is_timed:

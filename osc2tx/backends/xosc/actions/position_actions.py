@@ -7,18 +7,19 @@ from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.path_steering import note_steering
 from osc2tx.backends.xosc.actions.paths import follow
-from osc2tx.backends.xosc.actions.points_and_lines import xml_position
+from osc2tx.backends.xosc.actions.points_and_lines import Line, xml_position
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.actions.xml_positions import (
-    REACHED,
     XmlPosition,
     at_place,
     world_position,
 )
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE
+from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
@@ -181,9 +182,9 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     change = Change(
         LATERAL, (element("PrivateAction", acquire),), None, replace(state, lane=None), after
     )
-    leaf.ctx.report.exact(leaf.construct, leaf.node.span, f"it is there within {REACHED:g} m")
-    reached = at_place(leaf.ctx, target.element)
-    return Performance((change, *apply_modifiers(leaf)), "goal", reached=(leaf.on_me(reached),))
+    there = at_place(leaf.ctx, target.element, target.lane, leaf.construct, leaf.node.span)
+    reached = tuple(map(leaf.on_me, there))
+    return Performance((change, *apply_modifiers(leaf)), "goal", reached=reached)
 
 
 def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
@@ -210,6 +211,7 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
     changes = apply_modifiers(leaf)
     is_timed = time is not None and v is not None and not changes
     length = time / v if time is not None and v is not None else None
+    _note_turn(leaf, here, there, v)
     vertices = [(0.0, start), (length or 1.0, goal)]
     move = follow(leaf, vertices, is_timed, False)
     after = ActorState(
@@ -228,3 +230,17 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
         ),
         "goal",
     )
+
+
+def _note_turn(leaf: Leaf, here: Pose | None, there: Pose, speed: float | None) -> None:
+    """Report by how much the curve in which an actor turns to its place is beside the line."""
+    if here is None:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "how it looks when it sets out is only known during the run, so it turns at once",
+            "at most the circle in which it turns, and later by the time that this takes",
+        )
+        return
+    ends = [Waypoint(0.0, each.x, each.y, each.z) for each in (here, there)]
+    note_steering(leaf, Line(tuple(ends), False, False), ends, (0.0, 0.0), speed)

@@ -5,18 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.gaps import Gap, hold
+from osc2tx.backends.xosc.actions.gap_elements import Gap, hold, missing_at_start
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
-from osc2tx.backends.xosc.actions.xml_positions import REACHED, at_place
-from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
+from osc2tx.backends.xosc.actions.xml_positions import at_place
 from osc2tx.backends.xosc.facts.actors import Linear
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.xml.tree import element
-from osc2tx.catalogue import catalogue
 
 
 @modifier("position")
@@ -54,7 +53,8 @@ def _size(arguments: Arguments, name: str) -> float | None:
 
 def _held(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
     distance, time = (None, gap.size) if gap.is_time else (gap.size, None)
-    return hold(leaf, gap, distance, time, freespace=False, keeps=keeps)
+    missing = None if distance is None else missing_at_start(leaf, gap, distance, freespace=False)
+    return hold(leaf, gap, distance, time, freespace=False, keeps=keeps, missing=missing)
 
 
 def _at_point(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
@@ -63,8 +63,8 @@ def _at_point(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     arguments.get("project_on_route")
     if call.at != "end" or leaf.duration is not None:
         raise Inexpressible("a point that is not the end of the way", call.span)
-    leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
-    leaf.reached = (leaf.on_me(at_place(leaf.ctx, point.element)),)
+    there = at_place(leaf.ctx, point.element, point.lane, f"modifier {call.name}", call.span)
+    leaf.reached = tuple(map(leaf.on_me, there))
     return ()
 
 
@@ -78,15 +78,15 @@ def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Cha
     place = roads.from_entry(lane, distance)
     if place is None:
         raise Inexpressible(f"the road ends before {distance:g} m", call.span)
-    leaf.ctx.report.exact(f"modifier {call.name}", call.span, f"it is there within {REACHED:g} m")
-    there = element(
+    goal = element(
         "LanePosition",
         roadId=place.road,
         laneId=place.lane,
         s=round(place.s, 6),
         offset=round(place.offset, 6),
     )
-    leaf.reached = (leaf.on_me(at_place(leaf.ctx, there)),)
+    there = at_place(leaf.ctx, goal, place, f"modifier {call.name}", call.span)
+    leaf.reached = tuple(map(leaf.on_me, there))
     return ()
 
 
@@ -146,35 +146,3 @@ def _in_time(leaf: Leaf, call: ir.ModifierCall, gap: Gap) -> Change:
         through_points(arrival) if can_draw else speed_action(round(end, 9), "linear", "time", time)
     )
     return Change(LONGITUDINAL, (action,), time, during, after)
-
-
-def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
-    """Return the speed (m/s) that an actor has all the time; `None` if it may change."""
-    start = leaf.ctx.at_start[actor.name].speed
-    if start is None or not start.is_known:
-        return None
-    for node in ir.walk_behaviors(leaf.ctx.scenario.body):
-        if isinstance(node, ir.InvokeScenario):
-            return None
-        if not isinstance(node, ir.Invoke) or not isinstance(node.actor, ir.FieldRef):
-            continue
-        if node.actor.name == actor.actor.name and not _leaves_speed(leaf, node, start.low):
-            return None
-    return start.low
-
-
-def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
-    entry = catalogue().actions.get(node.qualified_name)
-    if entry is None or (entry.paces and node.action != "keep_speed"):
-        return False
-    for call in node.modifiers:
-        if call.name in ("keep_speed", "keep_lane", "lane", "lateral", "change_lane"):
-            continue
-        if call.name != "speed":
-            return False
-        arguments = Arguments(leaf.ctx, call.arguments, call)
-        if any(name in arguments for name in ("faster_than", "slower_than", "same_as")):
-            return False
-        if arguments.number("speed") != speed:
-            return False
-    return True

@@ -13,8 +13,8 @@ from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 
-def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, Element]:
-    """Return the action that gives an actor a route, and the position of its end."""
+def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, LanePosition]:
+    """Return the action that gives an actor a route, and the place of its end."""
     roads = required_roads(leaf.ctx)
     begin, end = begin_of(roads, segment), end_of(roads, segment)
     lane = leaf.state.lane
@@ -23,19 +23,19 @@ def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, Element]:
             LanePosition(each.road, lane.lane, each.s) if each.road == lane.road else each
             for each in (begin, end)
         )
-    goal = _in_lane(end)
     waypoints = (
         element("Waypoint", element("Position", place), routeStrategy="shortest")
-        for place in (_in_lane(begin), goal)
+        for place in (lane_position(begin), lane_position(end))
     )
     route = element(
         "Route", *waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False
     )
     assign = element("RoutingAction", element("AssignRouteAction", route))
-    return element("PrivateAction", assign), goal
+    return element("PrivateAction", assign), end
 
 
-def _in_lane(place: LanePosition) -> Element:
+def lane_position(place: LanePosition) -> Element:
+    """Return the element of the middle of a lane at a place."""
     return element(
         "LanePosition", roadId=place.road, laneId=place.lane, s=round(place.s, 6), offset=0.0
     )

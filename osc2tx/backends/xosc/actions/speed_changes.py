@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.leaf import Change, Course, Leaf
+from osc2tx.backends.xosc.actions.speed_notes import GENERIC, note_acceleration
 from osc2tx.backends.xosc.facts.actors import (
     COMFORT,
     COSINE_PEAK,
@@ -21,10 +22,9 @@ from osc2tx.backends.xosc.facts.actors import (
     Profile,
     course_of_speed,
     fastest,
-    way_by_acceleration,
 )
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, STEADY, ActorState, Interval, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 POINTS = 12
@@ -33,7 +33,6 @@ POINTS = 12
 
 PROFILE_ACTION = "SpeedProfileAction"
 RATE = "SpeedActionDynamics/rate"
-GENERIC = Remedy(profile="generic")
 
 
 def change_speed(
@@ -96,31 +95,10 @@ def _from_known(
         return speed_action(target, "linear", "time", course.duration)
     if isinstance(course, Cosine):
         return speed_action(target, _curve(leaf, profile), "time", course.duration)
-    _note_acceleration(leaf, target, profile, peak)
+    note_acceleration(leaf, target, profile, peak)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, profile, peak)
     return speed_action(target, "linear", "time", course.duration)
-
-
-def _note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | None) -> None:
-    """Report that a change takes over an acceleration: that of the XML begins without any."""
-    rate, speed, limits = leaf.state.rate, leaf.state.speed, leaf.limits
-    rates = leaf.state.pending if rate is None else known(rate)
-    if rates == STEADY or leaf.ctx.profile.carries_acceleration:
-        return
-    if speed is None:
-        time = max(map(abs, rates)) / limits.jerk
-        bound = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
-    else:
-        ways = [way_by_acceleration(v, target, profile, peak, rates, limits) for v in speed]
-        bound = f"at most {max(ways):.2g} m ahead or behind"
-    leaf.ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
-        "it takes over the acceleration of the change before; one of the XML begins without any",
-        bound,
-        Remedy(profile="esmini"),
-    )
 
 
 def _accelerations(leaf: Leaf, target: float, profile: str, peak: float | None) -> Interval:
@@ -143,7 +121,7 @@ def _from_unknown(
         shape = "linear" if profile == "constant" else _curve(leaf, profile)
         return speed_action(target, shape, "time", duration)
     if profile in ("none", "asap"):
-        _note_acceleration(leaf, target, profile, peak)
+        note_acceleration(leaf, target, profile, peak)
     if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, limits, profile, peak)
     limit = _limit_towards(leaf, target, profile)

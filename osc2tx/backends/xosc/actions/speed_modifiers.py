@@ -15,7 +15,9 @@ from osc2tx.backends.xosc.actions.speed_changes import (
     longitudinal,
     speed_action,
 )
+from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.user_shapes import speed_by, user_shape
+from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
@@ -139,8 +141,7 @@ def _relative(
     is_factor = factor not in (None, 1.0)
     follows = call.at != "end"
     in_time = not follows and leaf.duration is not None
-    limits = leaf.limits
-    rate = COMFORT * min(limits.acceleration, limits.deceleration)
+    rate = _rate_towards(leaf, call, reference, factor if is_factor else None, difference)
     goal = element(
         "RelativeTargetSpeed",
         entityRef=reference.name,
@@ -161,6 +162,38 @@ def _relative(
     after = replace(leaf.state, speed=None).finished(LONGITUDINAL)
     time = inf if follows else leaf.duration
     return Change(LONGITUDINAL, (longitudinal(action),), time, after, after)
+
+
+def _rate_towards(
+    leaf: Leaf, call: ir.ModifierCall, reference: CastMember, factor: float | None, more: float
+) -> float:
+    """Return the rate (m/s^2) of the way to a speed relative to another one.
+
+    The world speeds up and brakes at different rates, the XML has one: that of the first change,
+    which has to do for what the other one does later.
+    """
+    limits, mine = leaf.limits, leaf.state.speed
+    faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
+    states = leaf.ctx.at_start if leaf.is_start else leaf.ctx.states
+    theirs = states[reference.name].speed
+    if mine is None or theirs is None or not (mine.is_known and theirs.is_known):
+        bound = "until the speed is reached; the speed itself is exact"
+    else:
+        missing = (theirs.low * factor if factor is not None else theirs.low + more) - mine.low
+        steady = steady_speed(leaf, reference)
+        if abs(missing) < 1e-6 and steady is None:
+            return max(faster, slower)
+        if steady is not None:
+            return faster if missing > 0.0 else slower
+        bound = f"until the speed is reached, from which {abs(missing):.2g} m/s are missing"
+    leaf.ctx.report.approximate(
+        f"modifier {call.name}",
+        call.span,
+        f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
+        " the XML, and another one for braking in the world",
+        bound,
+    )
+    return min(faster, slower)
 
 
 @modifier("change_speed")

@@ -10,9 +10,17 @@ from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.diagnostics import Span
 
 REACHED = 1.0
-"""Metres from a place that count as being there; a step of a run is about as long."""
+"""Metres from a place that count as being there where it cannot be said more exactly."""
+
+BEFORE = 5.0
+"""Metres before a place where another one lies: who is near the one and so far from the other has
+come to it. No step is as long."""
+
+SURE = 0.001
+"""Metres by which a distance may be short, as 1.0 cannot say `at least`."""
 
 GLOBE = "GeoPosition"
 
@@ -42,14 +50,43 @@ def at_world(ctx: Context, x: float, y: float, z: float) -> XmlPosition:
     return XmlPosition(world_position(pose), lane, pose)
 
 
-def at_place(ctx: Context, place: Element) -> Element:
-    """Return the condition to be at a place."""
+def at_place(
+    ctx: Context, place: Element, lane: LanePosition | None, construct: str, span: Span
+) -> tuple[Element, ...]:
+    """Return the conditions to have come to a place along its lane; all have to hold.
+
+    Args:
+        ctx: The context.
+        place: The place.
+        lane: The same on a lane of the map; `None` if that is not known.
+        construct: What is reported where they say it nearly only.
+        span: Where that stands.
+    """
+    before = None if lane is None or ctx.roads is None else ctx.roads.ahead(lane, -BEFORE)
+    if before is None or ctx.profile.latches_conditions:
+        bound = f"it counts as there at most {REACHED:g} m before the place"
+        ctx.report.approximate(construct, span, "a place is a circle about a point", bound)
+        return (_distance(ctx, place, REACHED, "lessThan"),)
+    there = element(
+        "LanePosition",
+        roadId=before.road,
+        laneId=before.lane,
+        s=round(before.s, 6),
+        offset=round(before.offset, 6) or 0.0,
+    )
+    return (
+        _distance(ctx, place, BEFORE, "lessThan"),
+        _distance(ctx, there, BEFORE - SURE, "greaterThan"),
+    )
+
+
+def _distance(ctx: Context, place: Element, metres: float, rule: str) -> Element:
     return element(
         "DistanceCondition",
         element("Position", place),
-        value=REACHED,
+        value=metres,
         freespace=False,
-        rule="lessThan",
+        rule=rule,
         alongRoute=False if ctx.version == "1.0" else None,
     )
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.start_orientations import note_turn
 from osc2tx.backends.xosc.entities.start_positions import position_of
 from osc2tx.backends.xosc.entities.start_statements import (
     Start,
@@ -44,6 +45,7 @@ def _private(ctx: Context, start: Start) -> Element:
     actions = [element("PrivateAction", element("TeleportAction", element("Position", position)))]
     speed = speed_at_start(ctx, start)
     ctx.states[member.name] = replace(state, speed=known(speed))
+    note_turn(ctx, start, ctx.states[member.name])
     if speed != 0.0:
         actions.append(speed_action(speed, "step", "time", 0.0))
     tows = start.modifiers.get("tow_trailer")

@@ -9,14 +9,19 @@ from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start
+from osc2tx.backends.xosc.facts.actors import Linear, apart, course_of_shift
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 """Angle (rad) between the lines that `yaw_measure_by` names."""
 
 at_start("yaw", "orientation")
+
+NEAR = 0.05
+"""Metres beside its lane that count as in it."""
 
 
 def turned(ctx: Context, start: Start, along: float) -> tuple[float, float | None, float | None]:
@@ -65,3 +70,24 @@ def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) 
     return element(
         "Orientation", type="absolute", h=round(heading, 9), p=pitch or None, r=roll or None
     )
+
+
+def note_turn(ctx: Context, start: Start, state: ActorState) -> None:
+    """Report that who moves and is turned in its lane comes into its direction in a curve."""
+    given = start.modifiers.get("yaw") or start.modifiers.get("orientation")
+    if given is None or state.lane is None or ctx.roads is None or not state.speed:
+        return
+    along = ctx.roads.pose(state.lane).h
+    angle = math.remainder(turned(ctx, start, along)[0] - along, math.tau)
+    rate = state.speed.low * math.sin(angle)
+    if start.member.walks or rate == 0.0:
+        return
+    course = course_of_shift(0.0, "none", None, None, start.member.limits, rate)
+    off = apart(course, Linear(0.0, 0.0, 0.0))
+    if off > NEAR:
+        ctx.report.approximate(
+            "orientation at the start",
+            given.source.span,
+            "it comes into the direction of its lane in a curve; a tool may turn it at once",
+            f"at most {off:.2g} m beside its lane",
+        )

@@ -12,8 +12,9 @@ from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
+from osc2tx_runtime.world.curve import Curve
 
-__all__ = ["Waypoint", "sample_curve"]
+__all__ = ["Waypoint", "curve_through", "sample_curve", "thinned"]
 
 
 class Waypoint(NamedTuple):
@@ -59,13 +60,8 @@ def sample_curve(
     Raises:
         Inexpressible: There is no such way.
     """
-    poses = tuple(WayPose(p.x, p.y, p.z, yaw=p.h) for p in points)
-    joined: Literal["smooth", "straight_line"] = "smooth" if is_smooth else "straight_line"
     try:
-        if is_timed:
-            curve = Trajectory(poses, [p.time for p in points], joined).curve
-        else:
-            curve = Way(poses, joined).curve
+        curve = curve_through(points, is_timed=is_timed, is_smooth=is_smooth)
         low, high = interval_between_offsets(curve, *offsets)
     except PathError as error:
         raise Inexpressible(error.message) from None
@@ -88,6 +84,19 @@ def sample_curve(
         h = curve.heading(place) if h is None and is_even else h
         found.append(Waypoint(place - begin, x, y, z, h))
     return thinned(found, is_timed=is_timed) if is_smooth else tuple(found)
+
+
+def curve_through(points: Sequence[Waypoint], *, is_timed: bool, is_smooth: bool) -> Curve:
+    """Return the curve of the runtime through points.
+
+    Raises:
+        PathError: There is none.
+    """
+    poses = tuple(WayPose(p.x, p.y, p.z, yaw=p.h) for p in points)
+    joined: Literal["smooth", "straight_line"] = "smooth" if is_smooth else "straight_line"
+    if is_timed:
+        return Trajectory(poses, [p.time for p in points], joined).curve
+    return Way(poses, joined).curve
 
 
 def thinned(points: Sequence[Waypoint], *, is_timed: bool) -> tuple[Waypoint, ...]:

@@ -81,7 +81,7 @@ def _ends(
 ) -> Flow:
     """Return when an action is over: at its goal, or when others end it."""
     if performance.reached:
-        at_place = Flow(tuple((Test(condition),) for condition in performance.reached))
+        at_place = Flow((tuple(map(Test, performance.reached)),))
         return goal & at_place | builder.until(node, start)
     if performance.lasts is not None:
         return start.later(performance.lasts) | builder.until(node, start)

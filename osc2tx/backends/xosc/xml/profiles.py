@@ -20,6 +20,7 @@ class ToolProfile:
         has_edges: It looks at `conditionEdge`, and starts events again.
         has_delays: `delay` counts from when the condition came true, as in the standard, and a
             condition that is no longer true does not count.
+        latches_conditions: Of a group it wants each condition once, not all at one time.
         has_act_stop: It ends acts by their stop triggers.
         stop_name: What the condition is called by which the storyboard stops, if the tool wants it
             to be one condition with a name of its own, on the state of an element.
@@ -40,6 +41,7 @@ class ToolProfile:
     unsupported: Mapping[str, str]
     has_edges: bool = True
     has_delays: bool = True
+    latches_conditions: bool = False
     has_act_stop: bool = True
     stop_name: str = ""
     needs_lane_range: bool = False
@@ -71,6 +73,7 @@ _SCENARIO_RUNNER_IGNORES = {
     "RoutePosition": "it raises an error",
     "SpeedProfileAction": "the action is not known",
     "VisibilityAction": "the action is not known",
+    "LongitudinalDistanceAction/rigid": "it wants to know a highest speed",
     "LongitudinalDistanceAction/timeGap": "it raises an error",
     "Vertex/time": "times of vertices are ignored",
     "state/runningState": "it raises an error",
@@ -91,6 +94,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         unsupported=_SCENARIO_RUNNER_IGNORES,
         has_edges=False,
         has_delays=False,
+        latches_conditions=True,
         has_act_stop=False,
         stop_name="criteria_end",
         has_shapes=False,

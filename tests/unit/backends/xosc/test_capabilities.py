@@ -19,9 +19,14 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C05_towing": ("1.3", "1.4"),
     "C05_trailer": ("1.3", "1.4"),
     "C07_acceleration_control": ("1.2", "1.3", "1.4"),  # a course of the speed
+    "C11_change_position": NOTHING,  # how a walker turns
+    "C11_follow_path": NOTHING,  # corners of a path
+    "C12_along_trajectory": NOTHING,  # a speed that jumps
     "C13_careful_following": NOTHING,  # care for others
+    "C13_time_gap": NOTHING,  # how a gap is closed
     "C14_gap_in_time": NOTHING,  # how long it takes
-    "C14_space_gap": ("1.1", "1.2", "1.3", "1.4"),  # the side of a gap
+    "C14_space_gap": NOTHING,  # how a gap is closed
+    "C15_headway": NOTHING,  # how a gap is closed
     "C16_automatic_lights": ("1.3", "1.4"),  # a light
     "C16_fog": NOTHING,  # care for others
     "C16_weather": NOTHING,  # humidity
@@ -34,14 +39,17 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C18_road_conditions": ("1.1", "1.2", "1.3", "1.4"),  # units of rain
     "C18_sudden_ice": NOTHING,  # what becomes of an action that has begun
     "C19_own_shape": NOTHING,  # a shape of its own
+    "C19_speed_modifier": NOTHING,  # how a relative speed is taken up
     "C20_acceleration_shape": ("1.2", "1.3", "1.4"),
     "C21_position_shape": NOTHING,  # a course of the place
     "C22_lateral_speeds": NOTHING,  # a speed across
     "C26_pitch_and_roll": NOTHING,  # a pitch in a condition
     "C27_world_coordinates": NOTHING,  # where a walker comes to a stand
     "C28_relative_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # a distance across
+    "C29_crossing": NOTHING,  # corners of a way
     "C29_route_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # `>=`
     "C29_route_points": ("1.1", "1.2", "1.3", "1.4"),  # `<=`
+    "C29_route_values": NOTHING,  # corners of a way
     "C32_conditional_triggers": ("1.2", "1.3", "1.4"),  # the sign of a distance along
     "C32_measures": ("1.2", "1.3", "1.4"),
     "C32_motion_readings": ("1.2", "1.3", "1.4"),  # an acceleration across
