@@ -54,7 +54,7 @@ _STILL = 1e-9  # m/s
 _ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 
-@dataclass(slots=True)
+@dataclass
 class MovingActor:
     """An actor over its steps, with its commands at work.
 
@@ -111,7 +111,7 @@ class MovingActor:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
         speed = state.v if self._speed is None else self._speed.speed_after(state, inputs)
-        path = self._speed.path if isinstance(self._speed, PlacedRun) else None
+        path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.limited:
             way = curvature_ahead(road_map, self.bound, self.route)
             speed = self.wheels.held(speed, state, way, dt)
