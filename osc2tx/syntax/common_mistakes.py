@@ -198,10 +198,8 @@ def _misspelt_composition(place: Place) -> Advice | None:
     follows = place.table.text(index - 1) in ("do", ":")
     begins = follows or (word not in t.KEYWORDS and index == place.line)
     if place.kind() == t.NEWLINE and place.kind(1) == t.INDENT and index == end - 1 and begins:
-        opened = (
-            "a block is opened by `serial:`, `parallel:` or `one_of:`; a label stands before it"
-        )
-        return Advice(f"`{word}` is no composition", opened, index)
+        block = "a block is block by `serial:`, `parallel:` or `one_of:`; a label stands before it"
+        return Advice(f"`{word}` is no composition", block, index)
     if place.kind() == t.NEWLINE and index < end - 1:
         name = place.table.source.text[place.table.starts[place.line] : place.table.ends[end - 1]]
         help_ = f"write `{name} with:`" if len(name) <= 40 and "\n" not in name else None
