@@ -244,7 +244,7 @@ class BaseScenario(ScenarioParts):
         try:
             return method()
         except ArithmeticError as error:
-            raise ScenarioError(f"a value cannot be computed: {error}", self.source) from error
+            raise self._not_computed(error) from error
 
     if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
 

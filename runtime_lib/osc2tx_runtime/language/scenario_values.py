@@ -12,7 +12,7 @@ from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
-from osc2tx_runtime.language.tree.module_text import call_arguments
+from osc2tx_runtime.language.tree.module_text import call_arguments, failing_part
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 
 __all__ = ["ATTEMPTS", "ScenarioValues"]
@@ -217,10 +217,10 @@ class ScenarioValues:
             try:
                 return declare()
             except ArithmeticError as error:
-                place = self._source_map.file
-                raise ScenarioError(f"a value cannot be computed: {error}", place) from error
+                if self._is_last_draw:
+                    raise self._not_computed(error) from error
             except _NotKeptError as broken:
-                if not self._draws or self._attempt == ATTEMPTS - 1:
+                if self._is_last_draw:
                     raise self._error(broken) from None
             for name in vars(self).keys() - members:
                 del self.__dict__[name]
@@ -229,6 +229,23 @@ class ScenarioValues:
             self._shared.update(shared)
             self._shared_objects.clear()
             self._shared_objects.update(objects)
+
+    @property
+    def _is_last_draw(self) -> bool:
+        """Whether another draw would not help, or was tried too often."""
+        return not self._draws or self._attempt == ATTEMPTS - 1
+
+    def _not_computed(self, error: ArithmeticError) -> ScenarioError:
+        """Return what to say of a value that has no result."""
+        text, member = failing_part(error)
+        place = self._source_map.of_field(member.removesuffix("_"))
+        if member in self._source_map.fields:
+            place = self._source_map.of_field(member)
+        elif member == "keep":
+            place = self._source_map.of_constraint(self._kept)
+        what = f"`{text}`" if text else "a value"
+        tried = f" in {ATTEMPTS} draws" if self._attempt == ATTEMPTS - 1 else ""
+        return ScenarioError(f"{what} cannot be computed{tried}: {error}", place)
 
     def _error(self, broken: _NotKeptError) -> ScenarioError:
         words = set(re.findall(r"\w+", broken.text))
