@@ -127,9 +127,7 @@ def _revise(state: _State, index: int) -> list[Key]:
     _propagate(operations, values, range(len(values)))
     for position, operation in enumerate(operations.items):
         if operation.name in ALTERNATIVES:
-            narrow_alternatives(
-                operations.items, position, values, partial(_propagate, operations)
-            )
+            narrow_alternatives(operations.items, position, values, partial(_propagate, operations))
     changed: dict[Key, None] = {}
     for operation, value in zip(operations.items, values, strict=True):
         if operation.key is None:

@@ -236,7 +236,7 @@ class Placer:
                 return self._points.numbered(actor, step.position, lane)
             if is_free(step.position):
                 return step.position
-        raise PlacementError(f"{actor.id}: no lane of {route.found} is free {distance:g} m along it")
+        raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
 
     def _from_here(
         self,
