@@ -1,6 +1,7 @@
 """Values that constraints between them leave: drawn, whatever the shape of what is left."""
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -95,7 +96,7 @@ def test_elements_of_which_nothing_is_said_are_as_the_others(drawn: Drawn) -> No
 
 def ordered(count: int) -> str:
     names = [f"p{n}" for n in range(count)]
-    after = [f"    keep({a} < {b})\n" for a, b in zip(names, names[1:], strict=False)]
+    after = [f"    keep({a} < {b})\n" for a, b in pairwise(names)]
     return parameters(*names, type_="length", values="[0m..300m]") + "".join(after)
 
 
