@@ -1,9 +1,9 @@
 """Driving over seams of the map: lanes that do not go on where they end, or in another direction.
 
-Who comes to one stays where it is and keeps its heading. What it is then beside its lane, and turned
-against it, goes back to nothing along a quintic over the way driven, so the same course comes at any
-speed and any length of a step. It stays near the centre of the lane: where a kink is so sharp that
-this takes more than the grip of the vehicle, the motion is reported like any other.
+Who comes to one stays where it is and keeps its heading. What it is then beside its lane, and
+turned against it, goes back to nothing along a quintic over the way driven, so the same course
+comes at any speed and any length of a step. It stays near the centre of the lane: where a kink is
+so sharp that this takes more than the grip of the vehicle, the motion is reported like any other.
 """
 
 from __future__ import annotations

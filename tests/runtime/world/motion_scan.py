@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 __all__ = ["Worst", "scan", "scan_lines"]
@@ -43,7 +44,7 @@ class Instant(NamedTuple):
 def scan(history: Sequence[Instant]) -> Worst:
     """The worst of consecutive states of one actor."""
     worst, at, rate = [0.0] * 4, [0.0] * 4, 0.0
-    for before, after in zip(history, history[1:], strict=False):
+    for before, after in pairwise(history):
         dt = after.t - before.t
         turn = _turn(before.h, after.h)
         rate += dt / (_SMOOTHING + dt) * (turn / dt - rate)
