@@ -121,7 +121,11 @@ class EventBuilder(StatementBuilder):
         elif callee is expression:
             shown = shortened(expression.span.text)
             message = f"missing parentheses after `{shown}`"
-            self._report("OSC100", expression.span, message, f"write {what} as `{shown}()`")
+            help_ = f"write {what} as `{shown}()`"
+            if isinstance(callee, ast.NameExpression) and what != "an invocation":
+                message = f"`{shown}` alone says nothing"
+                help_ = f"a field has a type, `{shown}: type`; a modifier is `{shown}(…)`"
+            self._report("OSC100", expression.span, message, help_)
         return parts
 
     def _report_no_call(self, expression: ast.Expression, what: str) -> None:
