@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx.semantics.binding import bind_behavior, type_arguments
 from osc2tx.semantics.builtins import OVERRIDE
+from osc2tx.semantics.everyday_words import MODIFIERS, NO_MODIFIERS, plain_word
 from osc2tx.semantics.expressions.methods import call_by_statement
 from osc2tx.semantics.other_dialects import advise
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -181,7 +182,13 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
             labels=declared_here(behaviors[0]),
         )
         return
+    if name.text in NO_MODIFIERS:
+        help_ = NO_MODIFIERS[name.text]
+        r.report("OSC212", name.span, f"`{name}` is not a modifier", help=help_)
+        return
     advice = advise(r, "modifier", name, sorted(known))
+    if meant := plain_word(name.text, MODIFIERS):
+        advice["help"] = meant
     r.report("OSC212", name.span, f"no modifier `{name}`", **advice)
 
 

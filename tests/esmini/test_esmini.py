@@ -26,7 +26,6 @@ from tests.unit.backends.xosc.documents import PLAIN, compiled
 from tests.xosc.played import (
     Played,
     compare,
-    with_values_of,
     world,
 )
 
@@ -84,8 +83,7 @@ def both(given: Given, name: str, dt: float, folder: Path) -> tuple[XmlScenario,
     """Return the document, what the world does, and what esmini does."""
     document = documents(given)[name]
     assert document.xml is not None
-    settings = with_values_of(document.xml, replace(given.settings, dt=dt))
-    expected = world(given.path, name, settings, given.options)
+    expected = world(given.path, document, replace(given.settings, dt=dt), given.options)
     return document, expected, play(given, document.xml, dt, folder)
 
 
