@@ -16,6 +16,7 @@ from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.carla_paths import START
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.open_start_speeds import open_start_speed
 from osc2tx.lowering.shape_arguments import first_value, says_start
 from osc2tx.support.light_dataclass import dataclass
 
@@ -88,6 +89,7 @@ class PlacementLowering:
         actor = node.actor.name
         node = self._begin_on_path(node, actor)
         placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
+        placing += open_start_speed(node.qualified_name, node.modifiers)
         if not placing:
             return self._later_start(node)
         found = self._found.setdefault(actor, _Found(node.span))
