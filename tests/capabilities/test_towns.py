@@ -37,9 +37,10 @@ ROWS = [
         "downtown": (
             "C14_gap_in_time C15_headway C21_distance C21_position_modifier "
             "C22_lateral_speeds C24_temporal_modifiers C25_relative_modifiers C31_overlaps "
+            "C37_rise "
         ),
         "hills": ("C03_composition C06_speed_control C13_careful_following C21_distance "),
-        "motorway": ("C16_fog C31_parallel C37_rise C38_fall "),
+        "motorway": ("C16_fog C31_parallel C38_fall "),
     }.items()
     for name in names.split()
 ]
