@@ -6,6 +6,7 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "BeyondMapError",
     "CapabilityError",
     "InputError",
     "OwnCode",
@@ -48,6 +49,10 @@ class ScenarioError(Exception):
 
 class PlacementError(ScenarioError):
     """An actor cannot be put where the scenario wants it."""
+
+
+class BeyondMapError(ScenarioError):
+    """What was drawn is more than the map has there."""
 
 
 class SlotConflict(ScenarioError):
