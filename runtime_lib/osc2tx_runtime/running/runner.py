@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.routes.map_search import find_map
-from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError
+from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
 from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
@@ -134,7 +134,11 @@ def look_ahead(root: Behaviour) -> None:
 
 
 def make_world(scenario: Scenario) -> object:
-    """Make the world that the settings choose, for the scenario's map."""
+    """Make the world that the settings choose, for the scenario's map.
+
+    Raises:
+        SimulatorError: It cannot be made, whatever keeps it from that.
+    """
     settings = scenario.settings
     map_file = scenario.map_file()
     request = WorldRequest(
@@ -153,7 +157,7 @@ def make_world(scenario: Scenario) -> object:
             )
         if actor:
             check_known("--control", "actor", [actor], scenario.actors)
-    with OwnCode(f"the world {settings.world} raised"):
+    with OwnCode(f"the world {settings.world} raised", error=SimulatorError):
         return found.make(request)
 
 
