@@ -267,6 +267,8 @@ class ScenarioValues:
         given: Any,
     ) -> Any:
         chosen = self.settings.set
+        if self.settings.draws is not None:
+            generator = self.settings.draws(path)
         is_open = given is None and path not in chosen
         self._draws |= isinstance(default if is_open else given, Range | Choice)
         try:

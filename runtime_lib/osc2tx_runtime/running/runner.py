@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.routes.map_search import find_map
@@ -10,9 +12,11 @@ from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import OnProgress, overloads, run_tree
 from osc2tx_runtime.running.map_warnings import map_warnings
+from osc2tx_runtime.running.observer import Observer
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.worlds import WorldRequest, find_world
@@ -49,12 +53,14 @@ class RunResult:
 
 
 def run_scenario(
-    scenario_class: type[Scenario],
+    scenario_class: Callable[[RunSettings], Scenario],
     settings: RunSettings | None = None,
     on_progress: OnProgress | None = None,
     *,
     world: World | None = None,
     keep_trace: bool = True,
+    observer: Observer | None = None,
+    read: Callable[[Path], RoadMap] = read_map,
 ) -> RunResult:
     """Run a scenario from its placement to its verdict.
 
@@ -65,6 +71,8 @@ def run_scenario(
         world: The world to run in; by default the one of the settings, on the scenario's map. It
             is closed at the end.
         keep_trace: Keep the lines of the trace even if no file is asked for.
+        observer: Looks at the run while it goes on.
+        read: Reads the map; who makes many runs need not read it each time.
 
     Raises:
         ScenarioError: If the scenario cannot start, or cannot go on.
@@ -73,16 +81,16 @@ def run_scenario(
     check_outputs(settings)
     scenario = scenario_class(settings)
     root = scenario.create_tree()
-    world = checked_world(world or make_world(scenario))
+    world = checked_world(world or make_world(scenario, read))
     try:
-        context = make_context(scenario, world, keep_trace)
+        context = make_context(scenario, world, keep_trace, observer)
         place_actors(scenario, context)
         setup_tree(root, context)
         check_requirements(root, context)
         try:
             write_header(scenario, context)
             world.begin()
-            outcome = run_tree(root, context, on_progress)
+            outcome = run_tree(root, context, on_progress, observer)
         finally:
             write_files(context)
     finally:
@@ -98,7 +106,7 @@ def run_scenario(
     )
 
 
-def make_world(scenario: Scenario) -> object:
+def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
     """Make the world that the settings choose, for the scenario's map."""
     settings = scenario.settings
     map_file = scenario.map_file()
@@ -109,6 +117,7 @@ def make_world(scenario: Scenario) -> object:
         settings.seed,
         settings.control,
         settings.world_options,
+        read,
     )
     found = find_world(settings.world)
     for actor, control in settings.control.items():
@@ -122,7 +131,9 @@ def make_world(scenario: Scenario) -> object:
         return found.make(request)
 
 
-def make_context(scenario: Scenario, world: World, keep_trace: bool) -> ExecutionContext:
+def make_context(
+    scenario: Scenario, world: World, keep_trace: bool, observer: Observer | None = None
+) -> ExecutionContext:
     """Return the context of a run."""
     settings = scenario.settings
     enabled = keep_trace or settings.trace is not None or settings.report is not None
@@ -132,7 +143,7 @@ def make_context(scenario: Scenario, world: World, keep_trace: bool) -> Executio
         scenario.actors,
         events=scenario.events,
         objects=scenario.map_objects,
-        trace=TraceWriter(enabled),
+        trace=TraceWriter(enabled, None if observer is None else observer.sampled),
         label_events=scenario.label_events,
         one_of=scenario.one_of,
         first_come=scenario.first_come,
