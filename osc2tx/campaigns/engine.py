@@ -24,7 +24,7 @@ from osc2tx_runtime.campaigns.worker import Refused, work
 __all__ = ["Engine", "LocalEngine"]
 
 ATTEMPTS = 2
-STARTS = 3  # of workers that end before they are ready
+STARTS = 3  # of workers that end before they are ready, with no row done meanwhile
 
 
 class Engine(Protocol):
@@ -166,6 +166,7 @@ class _Pool:
         if not isinstance(told, RowResult):
             worker.is_ready = True
             return
+        self._failed_starts = 0
         worker.rows.popleft()
         worker.since = time.monotonic()
         found.append(_tried(told, self._attempts.get(told.row.number, 0) + 1))

@@ -79,20 +79,32 @@ class Store:
             if is_new:
                 path.parent.mkdir(parents=True, exist_ok=True)
             self._base = sqlite3.connect(path, timeout=30.0, isolation_level=None)
-            self._begin()
+            if is_new:
+                self._make()
+            self._check()
         except (OSError, sqlite3.Error) as error:
             raise CampaignError(f"{path}: it is no store of a campaign: {error}") from error
 
-    def _begin(self) -> None:
-        if not self._base.execute("select count(*) from sqlite_master").fetchone()[0]:
-            self._base.execute("pragma journal_mode = wal")
-            steps = f"{SCHEMA} pragma user_version = {FORMAT};"
-            self._base.executescript(f"begin immediate; {steps} commit;")
+    def _make(self) -> None:
+        """Make the tables of an empty file, if nobody else has done so meanwhile."""
+        if self._tables():
+            return
+        self._base.execute("pragma journal_mode = wal")
+        self._base.execute("begin immediate")
+        if not self._tables():
+            for statement in filter(str.strip, SCHEMA.split(";")):
+                self._base.execute(statement)
+            self._base.execute(f"pragma user_version = {FORMAT}")
+        self._base.execute("commit")
+
+    def _check(self) -> None:
         found = self._base.execute("pragma user_version").fetchone()[0]
-        tables = {name for (name,) in self._base.execute("select name from sqlite_master")}
-        if found != FORMAT or not {"campaign", "run", "left_out"} <= tables:
+        if found != FORMAT or not {"campaign", "run", "left_out"} <= self._tables():
             raise CampaignError(f"{self.path}: it is no store of a campaign, or of another version")
         self._base.execute("pragma synchronous = normal")
+
+    def _tables(self) -> set[str]:
+        return {name for (name,) in self._base.execute("select name from sqlite_master")}
 
     def __enter__(self) -> Store:
         return self
@@ -156,11 +168,10 @@ class Store:
                     " Take another --store, or the settings that it was begun with"
                 )
             return
-        with self._base:
-            self._base.execute("begin immediate")
-            values = [("identity", json.dumps(identity)), ("plan", json.dumps(plan))]
-            self._base.executemany("insert or ignore into campaign values (?, ?)", values)
-            self._base.execute("commit")
+        values = [("identity", json.dumps(identity)), ("plan", json.dumps(plan))]
+        self._base.execute("begin immediate")
+        self._base.executemany("insert or ignore into campaign values (?, ?)", values)
+        self._base.execute("commit")
 
     # --- rows ---
 
