@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.builtins import LIFE_CYCLE
 from osc2tx.semantics.collect import Collector, report_duplicate
 from osc2tx.semantics.enums import resolve_enum_values
@@ -211,6 +212,8 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
     if earlier is None and overrides:
         earlier = _overridden_elsewhere(r, owner, member)
     if earlier is None:
+        if overrides:
+            _note_nothing_overridden(r, owner, member)
         return
     if isinstance(member, EventSymbol) and isinstance(earlier, EventSymbol):
         return
@@ -233,6 +236,23 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
         return
     if member.origin != "prelude" and not isinstance(member, LabelSymbol):
         report_duplicate(r.sink, member, earlier)
+
+
+def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -> None:
+    """Warn about an `only` that overrides nothing, where a method has nearly that name.
+
+    The standard allows it (§7.3.7.2), so that a text may say it of all its methods.
+    """
+    methods = [
+        name
+        for ancestor in supertypes(owner)
+        for name, other in ancestor.members.items()
+        if isinstance(other, MethodSymbol) and other is not member
+    ]
+    meant = did_you_mean(member.name, methods, 0.75)
+    if meant is not None:
+        what = f"`{member.name}` overrides nothing: no base of `{owner.name}` has such a method"
+        r.report("OSC417", member.span, what, help=meant)
 
 
 def _extended_method(r: Resolution, member: Member) -> MethodSymbol | None:

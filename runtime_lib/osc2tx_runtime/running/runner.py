@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.routes.map_search import find_map
-from osc2tx_runtime.errors import OwnCode, SettingsError
+from osc2tx_runtime.errors import OwnCode, SettingsError, SimulatorError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
@@ -107,7 +107,11 @@ def run_scenario(
 
 
 def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
-    """Make the world that the settings choose, for the scenario's map."""
+    """Make the world that the settings choose, for the scenario's map.
+
+    Raises:
+        SimulatorError: It cannot be made, whatever keeps it from that.
+    """
     settings = scenario.settings
     map_file = scenario.map_file()
     request = WorldRequest(
@@ -127,7 +131,7 @@ def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -
             )
         if actor:
             check_known("--control", "actor", [actor], scenario.actors)
-    with OwnCode(f"the world {settings.world} raised"):
+    with OwnCode(f"the world {settings.world} raised", error=SimulatorError):
         return found.make(request)
 
 

@@ -200,12 +200,14 @@ class ScenarioInitializer:
         moved = [each for each in placed if each is anchor or is_behind(each, anchor, placed)]
         tried = self._tried.setdefault(anchor.actor.id, [])
         for _ in self._world.map.spawn_points():
-            tried.append(self._world.state(anchor.actor.id).lane_position)
+            tried.append(self._centre_of(anchor))
             for each in moved:
                 self._boxes.pop(each.actor.id, None)
             try:
                 self._place(anchor)
             except PlacementError:
+                return False
+            if self._centre_of(anchor) in tried:
                 return False
             try:
                 for each in moved[1:]:
@@ -214,6 +216,11 @@ class ScenarioInitializer:
                 continue
             return True
         return False
+
+    def _centre_of(self, placed: Start) -> LanePosition | None:
+        """Where on the centre of its lane an actor is; None off the lanes."""
+        at = self._world.state(placed.actor.id).lane_position
+        return None if at is None else LanePosition(at.road, at.lane, at.s)
 
     def _is_free(self, actor: PhysicalObject, place: LanePosition) -> bool:
         """Whether nobody is at a place, and it was not tried in vain."""

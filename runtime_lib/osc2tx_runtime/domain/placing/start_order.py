@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
     Along,
+    Lane,
     Location,
     Modifier,
     Position,
@@ -54,9 +55,12 @@ class Start:
 
     @property
     def is_open(self) -> bool:
-        """Whether the scenario leaves open how far along the road it starts."""
-        says = any(isinstance(each, Position | Along) for each in self.modifiers)
-        return self.rank == 2 and not says
+        """Whether the scenario leaves open how far along the road it starts, or in which lane."""
+        if self.rank != 2:
+            return False
+        if one_of_kind(self.modifiers, Along) is not None:
+            return one_of_kind(self.modifiers, Lane) is None
+        return one_of_kind(self.modifiers, Position) is None
 
 
 def is_behind(start: Start, anchor: Start, placed: Sequence[Start]) -> bool:
