@@ -129,7 +129,7 @@ def _run_source(
         with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
             return _run_one_of(scenarios, path, wanted, settings, reporter)
     except ScenarioError as error:
-        complain(f"{error.source}: error: {error.message}")
+        complain(error.report(str(path)))
         return Exit(error.exit_code)
 
 
@@ -143,13 +143,6 @@ def only_one_to_run(compilation: Compilation) -> str | None:
     names = [each.name for each in own if not each.is_invoked and not each.is_action]
     is_named = any(each.name in ("top", "main") for each in own)
     return names[0] if len(names) == 1 and not is_named else None
-
-
-def _as_given(source: str | None, scenario: type[Scenario], path: Path) -> str:
-    """Return a place in a source by the path of the command line, if it is that file."""
-    if path.suffix == ".osc" and (source is None or source.startswith(scenario.source)):
-        return f"{path}{(source or '').removeprefix(scenario.source)}"
-    return source or scenario.source
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
@@ -176,7 +169,7 @@ def _run_one_of(
     try:
         result = _run_with_progress(scenario, settings)
     except ScenarioError as error:
-        complain(f"{_as_given(error.source, scenario, path)}: error: {error.message}")
+        complain(error.report(scenario.source, str(path) if path.suffix == ".osc" else None))
         return Exit(error.exit_code)
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
