@@ -6,6 +6,7 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "BeyondMapError",
     "CapabilityError",
     "InputError",
     "OwnCode",
@@ -85,6 +86,10 @@ class PlacementError(ScenarioError):
     """An actor cannot be put where the scenario wants it."""
 
     code = "OSC802"
+
+
+class BeyondMapError(ScenarioError):
+    """What was drawn is more than the map has there."""
 
 
 class SlotConflict(ScenarioError):

@@ -91,7 +91,7 @@ class Executor:
 
         settings = replace(self.settings_of(row), trace=trace, report=report)
         result = run_scenario(make, settings)
-        return result, dict(made[0].parameters)
+        return result, dict(made[-1].parameters)
 
     def run(self, row: Row) -> RowResult:
         """Run a row; whatever goes wrong in the scenario is part of the result."""
@@ -102,7 +102,7 @@ class Executor:
             made.append(self._scenario(settings))
             return made[-1]
 
-        measuring = Measuring(each() for each in self._measures.values())
+        measuring = Measuring(self._measures.values())
         status, reason, source, result = "error", "", None, None
         try:
             result = run_scenario(
@@ -128,7 +128,7 @@ class Executor:
             status, reason = "failure", "; ".join(filter(None, (*broken, reason)))
         return RowResult(
             row=row,
-            values=dict(made[0].parameters) if made else {},
+            values=dict(made[-1].parameters) if made else {},
             status=status,
             reason=reason,
             source=source,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from osc2tx_runtime.errors import OwnCode
@@ -18,20 +18,23 @@ class Measuring:
     """The measures of one run, as its observer; it also keeps what coverage items sample.
 
     Args:
-        measures: Made for this run.
+        makers: Make them, when the run begins.
 
     Attributes:
         samples: `cover` or `record`, and what the trace says of it.
     """
 
-    def __init__(self, measures: Iterable[Measure]) -> None:
-        self._measures = tuple(measures)
+    def __init__(self, makers: Iterable[Callable[[], Measure]]) -> None:
+        self._makers = tuple(makers)
+        self._measures: tuple[Measure, ...] = ()
         self._context: ExecutionContext | None = None
         self.samples: list[tuple[str, Mapping[str, Any]]] = []
 
     def begin(self, context: ExecutionContext) -> None:
-        """See the actors where they start."""
+        """See the actors where they start; what was seen of a start before it does not count."""
         self._context = context
+        self._measures = tuple(make() for make in self._makers)
+        self.samples.clear()
         self.observe(0)
 
     def observe(self, step: int) -> None:
@@ -51,7 +54,7 @@ class Measuring:
     def results(self) -> dict[str, float | None]:
         """Return all values by name; none of a run that never began."""
         found: dict[str, float | None] = {}
-        for measure in self._measures if self._context is not None else ():
+        for measure in self._measures:
             found.update(measure.results())
         return found
 

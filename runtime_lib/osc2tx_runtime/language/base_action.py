@@ -114,6 +114,13 @@ class BaseAction(Leaf):
 
     # --- how it runs ---
 
+    def look_ahead(self) -> None:
+        """See whether the map has what is asked for, when all is placed and set up.
+
+        Raises:
+            BeyondMapError: Wherever its actor can be by then, it has not.
+        """
+
     def initialise(self) -> None:
         """Claim the slots and start."""
         self._start_step = self.context.step

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.routes.map_search import find_map
-from osc2tx_runtime.errors import OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
 
 __all__ = ["RunResult", "run_scenario", "setup_tree"]
+
+REDRAWS = 100  # draws of one seed, where the map has no room for what is drawn
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +83,34 @@ def run_scenario(
     """
     settings = settings or RunSettings()
     check_outputs(settings)
+    run = partial(_run, on_progress, observer, read, keep_trace=keep_trace)
+    may_redraw = world is None and settings.world == "embedded" and settings.draws is None
+    for draw in range(REDRAWS if may_redraw else 0):
+        scenario = scenario_class(replace(settings, draw=settings.draw + draw))
+        try:
+            return run(scenario, None, is_last=False)
+        except BeyondMapError:
+            if not scenario.is_drawn:
+                break
     scenario = scenario_class(settings)
+    return run(scenario, world, is_last=True)
+
+
+def _run(
+    on_progress: OnProgress | None,
+    observer: Observer | None,
+    read: Callable[[Path], RoadMap],
+    scenario: Scenario,
+    world: World | None,
+    *,
+    keep_trace: bool,
+    is_last: bool,
+) -> RunResult:
+    """Run a scenario with the values that are drawn.
+
+    Raises:
+        BeyondMapError: The map surely has no room for what it asks for, unless it `is_last`.
+    """
     root = scenario.create_tree()
     world = checked_world(world or make_world(scenario, read))
     try:
@@ -87,6 +118,8 @@ def run_scenario(
         place_actors(scenario, context)
         setup_tree(root, context)
         check_requirements(root, context)
+        if not is_last:
+            look_ahead(root)
         try:
             write_header(scenario, context)
             world.begin()
@@ -104,6 +137,13 @@ def run_scenario(
         tuple(context.collisions),
         (*map_warnings(world.map), *world.warnings(), *overloads(context)),
     )
+
+
+def look_ahead(root: Behaviour) -> None:
+    """Let every action see whether the map has what it asks for."""
+    for node in root.iterate():
+        if isinstance(node, BaseAction):
+            node.look_ahead()
 
 
 def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
