@@ -268,6 +268,8 @@ class ScenarioValues:
         given: Any,
     ) -> Any:
         chosen = self.settings.set
+        if self.settings.draws is not None:
+            generator = self.settings.draws(path)
         is_open = given is None and path not in chosen
         if isinstance(default if is_open else given, Range | Choice):
             self._draws = self._first.is_drawn = True

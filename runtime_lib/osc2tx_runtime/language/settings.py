@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping
+import random
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,7 @@ class RunSettings:
         trace: Where to write the trace (JSON Lines).
         report: Where to write the report (HTML).
         allow_external: Functions of the user that the scenario may call, `module.function`.
+        draws: Gives what a parameter is drawn with, by its name; without: the seed does.
     """
 
     map_path: tuple[Path, ...] = ()
@@ -68,6 +70,7 @@ class RunSettings:
     trace: Path | None = None
     report: Path | None = None
     allow_external: tuple[str, ...] = ()
+    draws: Callable[[str], random.Random] | None = None
 
     @property
     def draws_from(self) -> int | str:
