@@ -10,6 +10,7 @@ from osc2tx.analysis.liveness import report_liveness
 from osc2tx.analysis.recursive_scenarios import report_recursion
 from osc2tx.analysis.report_constraints import report_constraints
 from osc2tx.analysis.termination import find_endings
+from osc2tx.analysis.time_lints import report_times
 from osc2tx.analysis.usage import find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.options import OneOfPolicy
@@ -55,4 +56,5 @@ def analyse(
     report_liveness(model, endings, frozenset(usage.invoked), sink)
     report_usage(model, usage, sink)
     report_conditions(model, usage, sink)
+    report_times(model, sink)
     return Analysis(constraints, find_levels(model, constraints, endings, one_of))

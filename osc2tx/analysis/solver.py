@@ -10,7 +10,9 @@ import math
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import field
+from functools import partial
 
+from osc2tx.analysis.alternatives import ALTERNATIVES, narrow_alternatives
 from osc2tx.analysis.backward import narrow
 from osc2tx.analysis.domains import (
     TRUE,
@@ -122,14 +124,10 @@ def _revise(state: _State, index: int) -> list[Key]:
     operations = state.expressions[index]
     values = values_on(operations, state.domains)
     values[-1] = intersect(values[-1], TRUE)
-    for position in range(len(values) - 1, -1, -1):
-        operation = operations.items[position]
-        if not operation.operands:
-            continue
-        operands = [values[o] for o in operation.operands]
-        for which, domain in narrow(operation, values[position], operands):
-            operand = operation.operands[which]
-            values[operand] = intersect(values[operand], domain)
+    _propagate(operations, values, range(len(values)))
+    for position, operation in enumerate(operations.items):
+        if operation.name in ALTERNATIVES:
+            narrow_alternatives(operations.items, position, values, partial(_propagate, operations))
     changed: dict[Key, None] = {}
     for operation, value in zip(operations.items, values, strict=True):
         if operation.key is None:
@@ -144,6 +142,18 @@ def _revise(state: _State, index: int) -> list[Key]:
         for key in changed:
             state.reasons[key] = blamed
     return list(changed)
+
+
+def _propagate(operations: OperationList, values: list[Domain], part: range) -> None:
+    """Narrow operands by what uses them, from the last operation of a part down to the first."""
+    for position in reversed(part):
+        operation = operations.items[position]
+        if not operation.operands:
+            continue
+        operands = [values[o] for o in operation.operands]
+        for which, domain in narrow(operation, values[position], operands):
+            operand = operation.operands[which]
+            values[operand] = intersect(values[operand], domain)
 
 
 def _blamed(state: _State, index: int) -> int:

@@ -23,6 +23,7 @@ class ObjectTables:
         reserved: What actors of the runtime have besides actions.
         lane_bound: Types of actors that follow lanes.
         enums: Names of the types of the library's enums.
+        units: Names of the library's units.
     """
 
     methods: Mapping[str, frozenset[str]]
@@ -33,6 +34,7 @@ class ObjectTables:
     reserved: frozenset[str]
     lane_bound: frozenset[str]
     enums: frozenset[str]
+    units: frozenset[str]
 
 
 @cache
@@ -52,4 +54,5 @@ def object_tables() -> ObjectTables:
         reserved=frozenset(table["reserved"]),
         lane_bound=frozenset(table["lane_bound"]),
         enums=frozenset(table["enums"]),
+        units=frozenset(table["units"]),
     )

@@ -44,7 +44,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise ConfigError(f"{path}: is not UTF-8 text") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # also a number of thousands of digits
         raise ConfigError(f"{path}: is not valid TOML: {error}") from None
 
 
@@ -121,7 +121,7 @@ class _Reader:
             return (str(self._flag(setting.key, value, where)).lower(),)
         if setting.is_single:
             if isinstance(value, (str, int, float)) and not isinstance(value, bool):
-                return (str(value),)
+                return (_written(value),)
             raise self._error(where, f"`{setting.key}` is {_shown(value)}: write one value")
         written = value if isinstance(value, list) and setting.is_list else [value]
         items = [item for item in written if isinstance(item, str)]
@@ -159,7 +159,15 @@ class _Reader:
 
 
 def _shown(value: object) -> str:
-    return f'"{value}"' if isinstance(value, str) else str(value)
+    return f'"{value}"' if isinstance(value, str) else _written(value)
+
+
+def _written(value: object) -> str:
+    """Return a value as text; what is too long for Python to write, in short."""
+    try:
+        return str(value)
+    except ValueError:
+        return "a number of thousands of digits"
 
 
 def _any_of(values: Sequence[str]) -> str:

@@ -2,7 +2,7 @@
 
 Families: 1xx text and syntax, 2xx names and imports, 3xx types and units, 4xx behaviors,
 modifiers and constraints, 5xx not supported by a backend, 6xx relaxations of a dialect, 7xx
-suppressions.
+suppressions, 8xx runs.
 A code is permanent; a retired one is not used again.
 """
 
@@ -143,7 +143,8 @@ CODES = _table(
     Code("OSC414", "implication-chain", WARNING, "`a => b => c` is not specified.", "7.4.2"),
     Code("OSC415", "type-as-object", WARNING, "A type stands for its one object.", "7.4.1"),
     Code("OSC416", "operator-as-label", WARNING, "A label is called `serial`.", "7.3.13"),
-    # 42x constraints, 43x what can never happen
+    Code("OSC417", "overrides-nothing", WARNING, "`only` has no method to override.", "7.3.7.2"),
+    # 42x constraints, 43x what can never happen, 44x times
     Code("OSC420", "contradiction", ERROR, "Constraints contradict each other.", "7.3.11"),
     Code("OSC421", "impossible-constraint", ERROR, "A constraint can never hold.", "7.3.11"),
     Code("OSC422", "contradicted-default", ERROR, "A default contradicts others.", "7.3.11"),
@@ -160,6 +161,8 @@ CODES = _table(
     Code("OSC437", "unused-parameter", WARNING, "A parameter is never read.", "7.3.6"),
     Code("OSC438", "endless-recursion", ERROR, "A scenario invokes itself.", "7.3.13"),
     Code("OSC439", "contradictory-until", ERROR, "`until` and duration disagree.", "7.6.2.5.4"),
+    Code("OSC440", "shorter-than-a-step", WARNING, "A wait is shorter than a step.", "7.3.10"),
+    Code("OSC441", "reacts-at-every-instant", WARNING, "`on` reacts again and again.", "7.3.10"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),
@@ -194,4 +197,13 @@ CODES = _table(
     Code("OSC702", "unknown-suppression", WARNING, "A suppression names an unknown code."),
     Code("OSC703", "invalid-suppression", WARNING, "This cannot be suppressed."),
     Code("OSC704", "empty-suppression", WARNING, "A suppression names no code."),
+    # --- 8xx runs; the classes of errors in the runtime have these codes ---
+    Code("OSC801", "run-impossible", ERROR, "A run cannot begin, or cannot go on."),
+    Code("OSC802", "no-such-place", ERROR, "An actor cannot be put there."),
+    Code("OSC803", "two-masters", ERROR, "Two actions control the same of one actor."),
+    Code("OSC804", "not-in-the-runtime", ERROR, "The runtime does not do this."),
+    Code("OSC805", "not-in-this-world", ERROR, "The chosen world cannot do this."),
+    Code("OSC806", "run-option", ERROR, "An option of a run is wrong."),
+    Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
+    Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 LIKENESS = 0.6
+_LISTED = 8
 
 
 def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:
@@ -24,3 +25,9 @@ def did_you_mean(written: str, known: Iterable[str], likeness: float = LIKENESS)
     """Return a line of help with the nearest name, if there is one; see `nearest`."""
     close = nearest(written, known, likeness)
     return f"did you mean `{close}`?" if close else None
+
+
+def one_of(what: str, known: Iterable[str]) -> str | None:
+    """Return a line of help that lists what there is, if it is not too much to read."""
+    names = [f"`{name}`" for name in known]
+    return f"{what} {', '.join(names)}" if 0 < len(names) <= _LISTED else None

@@ -13,11 +13,15 @@ from dataclasses import field, replace
 
 from osc2tx import ir
 from osc2tx.catalogue import catalogue
-from osc2tx.diagnostics import Span
+from osc2tx.diagnostics import Label, Span
 from osc2tx.lowering.carla_paths import START
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.open_start_speeds import open_start_speed
 from osc2tx.lowering.shape_arguments import first_value, says_start
 from osc2tx.support.light_dataclass import dataclass
+
+# Of these an actor has one at the start, whoever gives it.
+_PLACES = frozenset({"lane", "position"})
 
 # Types of routes of a map, on which an actor can start.
 ROUTES = frozenset(
@@ -88,9 +92,12 @@ class PlacementLowering:
         actor = node.actor.name
         node = self._begin_on_path(node, actor)
         placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
+        placing += open_start_speed(node.qualified_name, node.modifiers)
         if not placing:
             return self._later_start(node)
         found = self._found.setdefault(actor, _Found(node.span))
+        for first, second in _pairs_alike([m for m in placing if m.at == "start"]):
+            report_twice(self._ctx, first, second)
         for modifier in placing:
             found.is_throughout &= modifier.at != "start"
             what = _subject(modifier)
@@ -184,7 +191,29 @@ def _may_jump(modifier: ir.ModifierCall) -> bool:
     )
 
 
-def merged(placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
+def _pairs_alike(
+    modifiers: Sequence[ir.ModifierCall],
+) -> Iterator[tuple[ir.ModifierCall, ir.ModifierCall]]:
+    """Yield the first modifier about a thing, with each further one."""
+    seen: dict[str, ir.ModifierCall] = {}
+    for modifier in modifiers:
+        first = seen.setdefault(_subject(modifier), modifier)
+        if first is not modifier:
+            yield first, modifier
+
+
+def report_twice(ctx: LoweringContext, first: ir.ModifierCall, second: ir.ModifierCall) -> None:
+    """Report a modifier that says a second time how an actor starts."""
+    ctx.sink.report(
+        "OSC508",
+        second.span,
+        f"`{second.name}` says a second time how the actor starts",
+        labels=[Label(first.span, "said here already")],
+        help="leave one of them out",
+    )
+
+
+def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
     """Return one placement for each actor, where it first stands; those of maps stay apart."""
     by_actor: dict[str, ir.Placement] = {}
     for number, placement in enumerate(placements):
@@ -193,6 +222,9 @@ def merged(placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
             continue
         first = by_actor.get(placement.actor)
         if first is not None:
+            places = [m for m in (*first.modifiers, *placement.modifiers) if m.name in _PLACES]
+            for pair in _pairs_alike(places):
+                report_twice(ctx, *pair)
             placement = replace(
                 first,
                 modifiers=(*first.modifiers, *placement.modifiers),

@@ -36,7 +36,10 @@ def lower_list(
         size = max(said, default=-1) + 1
     if not 0 < size <= LONGEST:
         return None
-    elements = [_element(ctx, field, field.type.element, k, said.get(k)) for k in range(size)]
+    alike = _alike(field.type.element, said)
+    elements = [
+        _element(ctx, field, field.type.element, k, said.get(k, alike)) for k in range(size)
+    ]
     present = tuple(element for element in elements if element is not None)
     if len(present) < size:
         return None
@@ -63,6 +66,14 @@ def _said(
                 elif _is_size(ctx, subject, field, constraint.place):
                     size = value.value if isinstance(value, ast.IntegerLiteral) else None
     return said, size
+
+
+def _alike(element: types.Type, said: dict[int, ir.Expression]) -> ir.Expression | None:
+    """Return what elements are drawn from of which nothing is said: the same as the first ones."""
+    if isinstance(element, types.RangeType):
+        return None
+    several = (ir.RangeValue, ir.ListValue)
+    return next((said[k] for k in sorted(said) if isinstance(said[k], several)), None)
 
 
 def _sides(part: ast.Expression) -> Iterator[tuple[ast.Expression, ast.Expression]]:

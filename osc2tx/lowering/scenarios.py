@@ -188,7 +188,7 @@ def _lower_scenario(
             (*methods, *type_methods),
         ),
         methods=(*methods, *type_methods),
-        placements=merged((*_member_placements(ctx, statements, standing), *placements)),
+        placements=merged(ctx, (*_member_placements(ctx, statements, standing), *placements)),
         body=body,
         end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
         overrides=lower_overrides(ctx, statements),

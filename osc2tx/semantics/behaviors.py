@@ -12,10 +12,16 @@ from osc2tx.semantics.builtins import COMPOSITION, COMPOSITION_FIELDS, DIRECTIVE
 from osc2tx.semantics.constraints import check_keep, check_remove_default
 from osc2tx.semantics.conversions import type_of_owner
 from osc2tx.semantics.events import check_event, resolve_event_name
+from osc2tx.semantics.everyday_words import OUTPUT
 from osc2tx.semantics.expressions.methods import resolve_call, type_itself
 from osc2tx.semantics.modifiers import check_modifier
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
-from osc2tx.semantics.resolve_types import choose, find_behavior, report_unknown_behavior
+from osc2tx.semantics.resolve_types import (
+    choose,
+    find_behavior,
+    report_modifier,
+    report_unknown_behavior,
+)
 from osc2tx.semantics.scope import CallableBehavior
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -254,12 +260,21 @@ def _find_without_actor(r: Resolution, name: ast.Name, env: Environment) -> Call
         return None
     if report_unimported(r, name):
         return None
+    if r.scope.modifiers_named(name.text):
+        report_modifier(r, name)
+        return None
     known = {n for layer in r.scope.layers() for n in layer.behaviors}
+    help_: str | None
+    if name.text in OUTPUT:
+        help_ = "`record(…)` keeps values, and `call …` an external method writes them"
+    else:
+        help_ = did_you_mean(name.text, known)
+        help_ = help_ or f"declare it, `scenario {name}:`, or import the file that does"
     r.report(
         "OSC211",
         name.span,
         f"no scenario or action `{name}`",
-        help=did_you_mean(name.text, known),
+        help=help_,
     )
     return None
 

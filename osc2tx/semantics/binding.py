@@ -6,17 +6,14 @@ from collections.abc import Sequence
 from itertools import dropwhile
 
 from osc2tx.diagnostics import Span
-from osc2tx.diagnostics.suggestions import did_you_mean
-from osc2tx.semantics.aliases import parameter_alias, standard_parameter, write_instead
+from osc2tx.semantics.aliases import parameter_alias
 from osc2tx.semantics.assignability import check_value
 from osc2tx.semantics.builtins import DURATION
-from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.exclusive import check_exclusive
 from osc2tx.semantics.member_lookup import lookup_value, parameters_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
-from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     BehaviorSymbol,
@@ -28,6 +25,7 @@ from osc2tx.semantics.symbols import (
     Symbol,
 )
 from osc2tx.semantics.types import RangeType
+from osc2tx.semantics.unknown_arguments import report_unknown
 from osc2tx.syntax import ast
 
 Parameter = FieldSymbol | ParameterSymbol
@@ -108,7 +106,7 @@ def _match(
     pairs: list[tuple[Parameter, ast.Expression]] = []
     taken: set[Parameter] = set()
     implied: list[tuple[Parameter, ast.Expression]] = []
-    unknown: list[ast.Name] = []
+    unknown: dict[ast.Name, ast.Expression] = {}
     misplaced = misplaced_of(arguments)
     positional = _positional(parameters, callee)
     for index, argument in enumerate(arguments):
@@ -121,7 +119,7 @@ def _match(
             if parameter is None:
                 parameter = _find_alias(r, argument.name, parameters, callee, implied)
             if parameter is None:
-                unknown.append(argument.name)
+                unknown[argument.name] = argument.value
         else:
             parameter = positional[index] if index < len(positional) else None
             if parameter is None:
@@ -138,7 +136,7 @@ def _match(
         else:
             taken.add(parameter)
             pairs.append((parameter, argument.value))
-    _report_unknown(r, unknown, parameters, callee)
+    report_unknown(r, unknown, parameters, callee)
     for parameter, value in implied:
         if parameter in taken:
             r.report("OSC403", value.span, f"`{parameter.name}` is given twice")
@@ -247,59 +245,3 @@ def _note_prelude(r: Resolution, parameter: Parameter, callee: Symbol, span: Spa
             f"`{r.relaxations.dialect.name}`, not to the standard library",
             key=callee.name,
         )
-
-
-def _report_unknown(
-    r: Resolution, names: Sequence[ast.Name], parameters: Sequence[Parameter], callee: Symbol
-) -> None:
-    """Report names that no parameter has; those of a prelude together, the others one by one."""
-    hints = {n: PRELUDE_PARAMETERS.get((callee.name, n.text)) for n in names}
-    foreign = [n for n in names if hints[n] is not None and callee.origin == "library"]
-    for name in names:
-        hint = hints[name]
-        if hint is not None and name in foreign:
-            if name is foreign[0]:
-                _report_foreign(r, foreign, hint, callee)
-            continue
-        if (variable := _variable(callee, name)) is not None:
-            r.report(
-                "OSC402",
-                name.span,
-                f"`{name}` of `{callee.name}` is a variable, which takes no argument",
-                help="declare it without `var` to make it a parameter",
-                labels=declared_here(variable),
-            )
-            continue
-        r.report(
-            "OSC402",
-            name.span,
-            f"`{callee.name}` has no parameter `{name}`",
-            help=(
-                write_instead(alias.written_out)
-                if (alias := standard_parameter(callee, name))
-                else did_you_mean(name.text, [p.name for p in parameters])
-            ),
-            labels=declared_here(callee),
-        )
-
-
-def _variable(callee: Symbol, name: ast.Name) -> FieldSymbol | None:
-    """Return the variable of a behavior that has the name of an argument."""
-    types = supertypes(callee) if isinstance(callee, BehaviorSymbol) else ()
-    found = next((t.members[name.text] for t in types if name.text in t.members), None)
-    return found if isinstance(found, FieldSymbol) and found.is_variable else None
-
-
-def _report_foreign(
-    r: Resolution, names: Sequence[ast.Name], hint: PreludeHint, callee: Symbol
-) -> None:
-    """Report parameters that only the prelude of some dialect gives to a library modifier."""
-    listed = ", ".join(f"`{name}`" for name in names)
-    plural = "s" if len(names) > 1 else ""
-    r.report(
-        "OSC402",
-        names[0].span,
-        f"`{callee.name}` has no parameter{plural} {listed} in the standard library",
-        notes=[f"{hint.instead}; dialect `{hint.dialect}` has {'them' if plural else 'it'}"],
-        help=f"check with `--dialect {hint.dialect}`",
-    )

@@ -7,6 +7,7 @@ from typing import assert_never
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.assignability import check_condition, check_duration, check_value
 from osc2tx.semantics.builtins import TIME
+from osc2tx.semantics.dialects import RUNNER_EVENTS
 from osc2tx.semantics.expressions.access import resolve_member
 from osc2tx.semantics.member_lookup import lookup_value, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -101,18 +102,23 @@ def resolve_event_name(r: Resolution, name: ast.Name, env: Environment) -> Symbo
         is_implicit=True,
     )
     owner.members[name.text] = implicit
+    condition = None
+    if name.text in RUNNER_EVENTS:
+        condition = f"give it a condition: `event {name} is (….object_distance(…) < …)`"
     if not r.relaxes(
         "OSC603",
         name.span,
         f"event `{name}` is not declared; its use declares it in `{owner.name}`",
         key=f"{owner.name}.{name}",
-        help=f"declare it: `event {name}`",
+        help=condition or f"declare it: `event {name}`",
     ):
         events = [n for n in member_names(owner) if n not in ("start", "end", "fail", name.text)]
         r.report(
             "OSC210",
             name.span,
             f"event `{name}` is not declared",
-            help=did_you_mean(name.text, events) or f"declare it in `{owner.name}`: `event {name}`",
+            help=condition
+            or did_you_mean(name.text, events)
+            or f"declare it in `{owner.name}`: `event {name}`",
         )
     return implicit

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 TYPES: Mapping[str, str] = {
     "bike": "vehicle",
@@ -21,6 +21,7 @@ TYPES: Mapping[str, str] = {
     "pos_3d": "position_3d",
     "str": "string",
     "truck": "vehicle",
+    "robot": "vehicle",
     "van": "vehicle",
     "walker": "person",
     "weather": "environment",
@@ -34,12 +35,92 @@ BEHAVIORS: Mapping[str, str] = {
     "lane_change": "change_lane",
     "set_position": "assign_position",
     "set_speed": "assign_speed",
+    "go": "drive",
+    "go_to": "change_position",
+    "keep_distance": "keep_space_gap",
+    "overtake": "change_lane",
     "speed_change": "change_speed",
     "stop": "remain_stationary",
     "stand_still": "remain_stationary",
     "teleport": "assign_position",
 }
-NAMES: Mapping[str, str] = {"True": "true", "False": "false", "NaN": "nan", "Inf": "inf"}
+MODIFIERS: Mapping[str, str] = {
+    "follow_lane": "keep_lane",
+    "gap": "distance",
+    "initial_speed": "speed",
+    "lane_keeping": "keep_lane",
+    "lane_offset": "lateral",
+    "offset": "lateral",
+    "start_position": "position",
+    "stay_in_lane": "keep_lane",
+    "velocity": "speed",
+}
+# For a word several, of which a behavior or modifier has one.
+# What is no modifier, and how it is said.
+NO_MODIFIERS: Mapping[str, str] = {
+    "duration": "how long is an argument of what is invoked: `(duration: …)`",
+    "repeat": "there are no loops: write the invocation as often as it shall happen",
+    "retry": "there are no loops: write the invocation as often as it shall happen",
+    "timeout": "how long is an argument of what is invoked: `(duration: …)`",
+    "wait": "`wait` stands inside `do`, on a line of its own",
+}
+PARAMETERS: Mapping[str, tuple[str, ...]] = {
+    "after": ("behind",),
+    "before": ("ahead_of",),
+    "front_of": ("ahead_of",),
+    "in_front_of": ("ahead_of",),
+    "lanes": ("num_of_lanes",),
+    "number_of_lanes": ("num_of_lanes",),
+    "relative_to": ("reference", "side_of"),
+    "speed": ("target",),
+    "target_speed": ("target", "speed"),
+    "velocity": ("target", "speed"),
+}
+ENUM_MEMBERS: Mapping[str, str] = {
+    "anti_clockwise": "counterclockwise",
+    "begin": "start",
+    "beginning": "start",
+    "finish": "end",
+    "linear": "constant",
+    "sinusoidal": "smooth",
+    "stop": "end",
+}
+UNITS: Mapping[str, str] = {
+    "kmh": "kph",
+    "km_h": "kph",
+    "metres": "m",
+    "meters": "m",
+    "seconds": "s",
+    "secs": "s",
+    "ms2": "mpss",
+    "m_s": "mps",
+    "degrees": "deg",
+}
+MEMBERS: Mapping[str, str] = {
+    "distance": "object_distance(…)",
+    "distance_to": "object_distance(…)",
+    "get_distance": "object_distance(…)",
+    "get_speed": "speed",
+    "heading": "pose.orientation.yaw",
+    "location": "pose.position",
+    "thw": "time_headway(…)",
+    "ttc": "time_to_collision(…)",
+    "velocity": "speed",
+    "x": "pose.position.x",
+    "y": "pose.position.y",
+    "z": "pose.position.z",
+    "yaw": "pose.orientation.yaw",
+}
+LIST_WORDS: Mapping[str, str] = {"len": "size", "length": "size", "contains": "has"}
+NAMES: Mapping[str, str] = {
+    "True": "true",
+    "TRUE": "true",
+    "False": "false",
+    "FALSE": "false",
+    "NaN": "nan",
+    "Inf": "inf",
+}
+NOTHING = frozenset({"None", "null", "NULL", "nil", "undefined"})
 # Units of speed as quotients: the unit of the number, and the name that the text divides by.
 SPEEDS: Mapping[tuple[str, str], str] = {
     ("km", "h"): "kph",
@@ -49,8 +130,16 @@ SPEEDS: Mapping[tuple[str, str], str] = {
     ("mm", "h"): "mmph",
 }
 
+# Actions of other tools that write something.
+OUTPUT = frozenset({"echo", "log", "print", "write"})
+
 # Event conditions, which are no methods: they stand alone behind `wait`, `until`, `on` and `is`.
 CONDITIONS = frozenset({"rise", "fall", "elapsed", "every"})
+
+
+def fitting_word(word: str, known: Container[str]) -> str | None:
+    """Return the parameter that a word stands for, of those that there are."""
+    return next((name for name in PARAMETERS.get(word, ()) if name in known), None)
 
 
 def plain_word(word: str, table: Mapping[str, str]) -> str | None:

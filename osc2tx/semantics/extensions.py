@@ -85,4 +85,9 @@ def _check_members(r: Resolution, target: TypeSymbol, node: ast.TypeExtension) -
 
 
 def _report_modifier(r: Resolution, node: ast.TypeExtension) -> None:
-    r.report("OSC321", node.name.span, f"`{node.name}` is a modifier; it cannot be extended")
+    r.report(
+        "OSC321",
+        node.name.span,
+        f"`{node.name}` is a modifier; it cannot be extended",
+        help="add the members where it is declared, or declare a modifier of another name",
+    )

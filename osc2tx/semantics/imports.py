@@ -15,6 +15,7 @@ from osc2tx.syntax import ast
 LoadFile = Callable[[ast.Import, SourceFile], ast.File | None]
 ImportHelp = Callable[[ast.Import], str | None]
 
+RESERVED = frozenset({"std", "stdtypes"})  # namespaces of the library, no modules
 LEGACY = ("osc", "standard")
 MODULES = {
     LEGACY: "all",
@@ -67,14 +68,16 @@ class ImportWalk:
         if statement.module[-1] == "osc" and len(statement.module) == 2:
             self._import_unquoted(statement, name)
             return
+        library = "the standard library is `osc.standard.all`"
         if statement.module[:1] == ("osc",):
-            advice: str | None = "the standard library is `osc.standard.all`"
+            advice: str | None = library
         else:
             imported = self.load(statement, statement.span.source)
             if imported is not None:
                 self._visit_once(imported)
                 return
-            advice = self.import_help(statement)
+            is_library = statement.module[0] in RESERVED
+            advice = library if is_library else self.import_help(statement)
         self._report(statement, f"no module `{name}`", advice)
 
     def _import_unquoted(self, statement: ast.Import, name: str) -> None:
@@ -119,12 +122,12 @@ class ImportWalk:
                     help="write `import osc.standard.all`",
                 )
             return
-        is_library = name in LIBRARY_FILES
-        self._report(
-            statement,
-            f'no file `"{uri}"`',
-            "for the standard library write `import osc.standard.all`" if is_library else None,
-        )
+        advice = None
+        if name in LIBRARY_FILES:
+            advice = "for the standard library write `import osc.standard.all`"
+        elif name == RUNNER_FILE:
+            advice = "for a scenario of ScenarioRunner check with `--dialect carla`"
+        self._report(statement, f'no file `"{uri}"`', advice)
 
     def _visit_once(self, file: ast.File) -> None:
         if _identity(file) not in self._seen:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.builtins import LIFE_CYCLE
 from osc2tx.semantics.collect import Collector, report_duplicate
 from osc2tx.semantics.enums import resolve_enum_values
@@ -18,12 +19,13 @@ from osc2tx.semantics.member_lookup import find_member
 from osc2tx.semantics.physical import check_physical_types, resolve_unit
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.resolve_types import (
+    find_behavior,
     resolve_actor_name,
     resolve_behavior_name,
     resolve_type,
     resolve_type_name,
 )
-from osc2tx.semantics.scope import Context, base_of, supertypes
+from osc2tx.semantics.scope import CallableBehavior, Context, base_of, supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
@@ -113,9 +115,21 @@ def _resolve_behavior_base(r: Resolution, symbol: Symbol, context: Context) -> N
             elif action is not None:
                 _report_kind(r, base, "action")
         case ModifierSymbol(node=ast.ModifierDeclaration(behavior=ast.BehaviorName() as name)):
-            symbol.target = resolve_behavior_name(r, name, context)
+            symbol.target = _modified_behavior(r, symbol, name, context)
         case _:
             return
+
+
+def _modified_behavior(
+    r: Resolution, modifier: ModifierSymbol, name: ast.BehaviorName, context: Context
+) -> CallableBehavior | None:
+    """Return what a modifier is for; a plain name is one of its actor's, if that has one."""
+    if name.actor is None and modifier.actor is not None:
+        behavior = find_behavior(r, modifier.actor, name.name, context)
+        if behavior is not None:
+            r.references[name.name] = behavior
+            return behavior
+    return resolve_behavior_name(r, name, context)
 
 
 def _report_kind(r: Resolution, name: ast.Name | ast.BehaviorName, kind: str) -> None:
@@ -211,6 +225,8 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
     if earlier is None and overrides:
         earlier = _overridden_elsewhere(r, owner, member)
     if earlier is None:
+        if overrides:
+            _note_nothing_overridden(r, owner, member)
         return
     if isinstance(member, EventSymbol) and isinstance(earlier, EventSymbol):
         return
@@ -233,6 +249,23 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
         return
     if member.origin != "prelude" and not isinstance(member, LabelSymbol):
         report_duplicate(r.sink, member, earlier)
+
+
+def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -> None:
+    """Warn about an `only` that overrides nothing, where a method has nearly that name.
+
+    The standard allows it (§7.3.7.2), so that a text may say it of all its methods.
+    """
+    methods = [
+        name
+        for ancestor in supertypes(owner)
+        for name, other in ancestor.members.items()
+        if isinstance(other, MethodSymbol) and other is not member
+    ]
+    meant = did_you_mean(member.name, methods, 0.75)
+    if meant is not None:
+        what = f"`{member.name}` overrides nothing: no base of `{owner.name}` has such a method"
+        r.report("OSC417", member.span, what, help=meant)
 
 
 def _extended_method(r: Resolution, member: Member) -> MethodSymbol | None:

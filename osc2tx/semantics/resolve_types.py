@@ -262,6 +262,12 @@ def _is_nearer(behavior: CallableBehavior, other: CallableBehavior) -> bool:
     )
 
 
+def report_modifier(r: Resolution, name: ast.Name) -> None:
+    """Report a modifier that is invoked like an action."""
+    help_ = f"end the line of the action with `with:`, and write `{name}(…)` indented below"
+    r.report("OSC211", name.span, f"`{name}` is a modifier, not a behavior", help=help_)
+
+
 def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -> None:
     """Report that an actor type has no behavior of that name, with what comes near."""
     elsewhere = [b for b in r.scope.behaviors_named(name.text) if b.actor is not None]
@@ -276,6 +282,8 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             help=f"check with `--dialect {hint.dialect}`",
             labels=declared_here(elsewhere[0], "for other actors") if elsewhere else (),
         )
+    elif r.scope.modifiers_named(name.text):
+        report_modifier(r, name)
     elif elsewhere:
         owner = elsewhere[0].actor
         kind = "action" if isinstance(elsewhere[0], ActionSymbol) else "scenario"
@@ -299,5 +307,6 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             f"`{actor.name}` has no behavior `{name}`",
             help=write_instead(standard_behavior(actor, name))
             or (plain_word(name.text, BEHAVIORS) if BEHAVIORS.get(name.text) in known else None)
-            or did_you_mean(name.text, known),
+            or did_you_mean(name.text, known)
+            or f"declare it, `scenario {actor.name}.{name}:`, or import the file that does",
         )

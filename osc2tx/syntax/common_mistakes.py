@@ -7,24 +7,18 @@ Each remedy looks at the place where the parser stopped and returns message and 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.syntax import foreign_mistakes as foreign
 from osc2tx.syntax import tokens as t
+from osc2tx.syntax.foreign_words import COMPOSITIONS
+from osc2tx.syntax.mistake_places import CLOSERS, NUMBERS, Advice, Place
 from osc2tx.syntax.tokens import TokenTable
 
-_ASSIGN, _COLON, _LPAREN, _BANG, _AT = (t.PUNCTUATION[symbol] for symbol in "=:(!@")
-_DOTS, _DOUBLE_COLON = t.PUNCTUATION[".."], t.PUNCTUATION["::"]
-_OPENERS = {t.PUNCTUATION[text] for text in ("(", "[")}
-_CLOSERS = {t.PUNCTUATION[text] for text in (")", "]")}
-_RPAREN, _RBRACKET = t.PUNCTUATION[")"], t.PUNCTUATION["]"]
-_NUMBERS = frozenset({t.INTEGER, t.FLOAT})
-_TYPES = {t.KEYWORDS[word] for word in ("struct", "actor", "scenario", "action")}
+_ASSIGN, _COLON, _AT = (t.PUNCTUATION[symbol] for symbol in "=:@")
+_RPAREN, _RBRACKET, _DOTS = (t.PUNCTUATION[text] for text in (")", "]", ".."))
 _CONSTRAINTS = {t.KEYWORDS[word] for word in ("keep", "remove_default", "cover", "record")}
 _LINE_BREAKS = frozenset({t.NEWLINE, t.INDENT, t.DEDENT})
-_FOREIGN = frozenset(
-    ("if", "else", "elif", "for", "while", "switch", "case", "class", "from", "return", "match")
-)
 _NO_STARTERS = (
     "with",
     "and",
@@ -43,55 +37,6 @@ _NO_STARTERS = (
 _STARTERS = [word for word in t.KEYWORDS if word not in _NO_STARTERS]
 
 
-class Advice(NamedTuple):
-    """What to say.
-
-    Attributes:
-        message: What is wrong.
-        help: What to do about it.
-        token: Index of the token to point at, when it is not the one that does not fit.
-    """
-
-    message: str
-    help: str | None = None
-    token: int | None = None
-
-
-class Place(NamedTuple):
-    """Where the parser stopped.
-
-    Attributes:
-        table: All tokens.
-        at: Index of the token that does not fit.
-        line: Index of the first token of its logical line.
-    """
-
-    table: TokenTable
-    at: int
-    line: int
-
-    def kind(self, distance: int = 0) -> int:
-        """Return the type of a token near the place."""
-        index = self.at + distance
-        return self.table.types[index] if 0 <= index < len(self.table.types) else t.EOF
-
-    def text(self, distance: int = 0) -> str:
-        """Return the text of a token near the place."""
-        return self.table.text(self.at + distance)
-
-    def open_bracket(self) -> int | None:
-        """Return the index of the innermost bracket of the line that is open here."""
-        depth = 0
-        for index in range(self.at - 1, self.line - 1, -1):
-            if self.table.types[index] in _CLOSERS:
-                depth += 1
-            elif self.table.types[index] in _OPENERS:
-                if depth == 0:
-                    return index
-                depth -= 1
-        return None
-
-
 def remedy(table: TokenTable, index: int) -> Advice | None:
     """Return message and help line for a well-known mistake at a token, if it is one."""
     line = index
@@ -106,8 +51,10 @@ def remedy(table: TokenTable, index: int) -> Advice | None:
 
 
 def _blank_before_unit(place: Place) -> Advice | None:
-    if place.kind(-1) not in _NUMBERS or place.kind() not in t.WORDS or place.at == place.line:
+    if place.kind(-1) not in NUMBERS or place.kind() not in t.WORDS or place.at == place.line:
         return None
+    if place.text() in ("if", "else"):
+        return Advice(f"unexpected `{place.text()}`", "a choice is written `condition ? a : b`")
     number, unit = place.text(-1), place.text()
     return Advice(f"a unit follows its number without a blank: `{unit}`", f"write `{number}{unit}`")
 
@@ -128,16 +75,6 @@ def _range_with_unit(place: Place) -> Advice | None:
     return Advice(f"the unit `{unit}` belongs to both bounds of the range, not behind it", help_)
 
 
-def _foreign_statement(place: Place) -> Advice | None:
-    word = place.table.text(place.line) if place.line != place.at else place.text()
-    if word not in _FOREIGN or place.open_bracket() is not None:
-        return None
-    help_ = None
-    if word in ("if", "else", "elif", "switch", "case", "match"):
-        help_ = "use `wait`, `one_of` or `on … if`, or a conditional expression `a ? b : c`"
-    return Advice(f"there is no statement `{word}` in OpenSCENARIO DSL", help_)
-
-
 def _sampled_parameter(place: Place) -> Advice | None:
     """`k: speed = sample(v, @e)` without `var`."""
     opened = place.open_bracket()
@@ -146,21 +83,13 @@ def _sampled_parameter(place: Place) -> Advice | None:
     return Advice("only a variable is sampled", "declare it with `var`", opened - 1)
 
 
-def _loop(place: Place) -> Advice | None:
-    """`repeat(3):`."""
-    word = place.table.text(place.line)
-    if word not in ("repeat", "loop") or place.kind() not in (_COLON, t.NEWLINE):
-        return None
-    help_ = "write the members as often as they shall happen, or wait for `every(…)` in an `on`"
-    return Advice("there are no loops in OpenSCENARIO DSL", help_, place.line)
-
-
 def _global_variable(place: Place) -> Advice | None:
     """`global var n: int`."""
     is_global = place.at - 2 == place.line and place.table.text(place.line) == "global"
     if not is_global or place.text(-1) != "var":
         return None
-    help_ = f"write `global {place.text()}: type = value`"
+    type_ = place.text(2) if place.kind(1) == _COLON and place.kind(2) == t.ID else "type"
+    help_ = f"write `global {place.text()}: {type_} = value`"
     return Advice("there are no global variables", help_, place.at - 1)
 
 
@@ -173,16 +102,8 @@ def _point_without_digits(place: Place) -> Advice | None:
     return Advice(f"`{number}.` is not a number", f"write `{number}.0`")
 
 
-def _until_behind_a_call(place: Place) -> Advice | None:
-    """`ego.drive() until @e`."""
-    if place.text() != "until" or place.at == place.line:
-        return None
-    help_ = "end the line with `with:`, and write `until …` indented below"
-    return Advice("`until` belongs into a `with:` block", help_)
-
-
 def _unbalanced_bracket(place: Place) -> Advice | None:
-    if place.kind() not in _CLOSERS:
+    if place.kind() not in CLOSERS:
         return None
     opened = place.open_bracket()
     if opened is None:
@@ -268,41 +189,21 @@ def _misspelt_composition(place: Place) -> Advice | None:
     if index < place.line or place.table.types[index] != t.ID:
         return None
     word = place.table.text(index)
+    if word in COMPOSITIONS:
+        what = f"there is no composition `{word}` in OpenSCENARIO DSL"
+        return Advice(what, f"write `{COMPOSITIONS[word]}:`", index)
     meant = did_you_mean(word, ["serial", "parallel", "one_of", "with"], 0.7)
     if meant:
         return Advice(f"unknown word `{word}`", meant, index)
+    follows = place.table.text(index - 1) in ("do", ":")
+    begins = follows or (word not in t.KEYWORDS and index == place.line)
+    if place.kind() == t.NEWLINE and place.kind(1) == t.INDENT and index == end - 1 and begins:
+        block = "a block is block by `serial:`, `parallel:` or `one_of:`; a label stands before it"
+        return Advice(f"`{word}` is no composition", block, index)
     if place.kind() == t.NEWLINE and index < end - 1:
         name = place.table.source.text[place.table.starts[place.line] : place.table.ends[end - 1]]
         help_ = f"write `{name} with:`" if len(name) <= 40 and "\n" not in name else None
         return Advice("`with` is missing before the `:` of an invocation", help_)
-    return None
-
-
-def _colon_inheritance(place: Place) -> Advice | None:
-    if place.table.types[place.line] not in _TYPES or place.kind(-1) != _COLON:
-        return None
-    if place.kind() != t.ID:
-        return None
-    word = place.text()
-    help_ = f"a base type is written `inherits {word}:`"
-    return Advice(f"expected the end of the line, found `{word}`", help_)
-
-
-def _declared_parentheses(place: Place) -> Advice | None:
-    head = place.table.types[place.line]
-    is_named = head in _TYPES or head == t.KEYWORDS["modifier"]
-    if not is_named or place.kind() != _LPAREN or place.kind(-1) != t.ID:
-        return None
-    word = place.table.text(place.line)
-    help_ = "its parameters are fields in the body: `name: type`"
-    return Advice(f"the name of a declared {word} has no parentheses", help_)
-
-
-def _other_operators(place: Place) -> Advice | None:
-    if place.kind() == _BANG:
-        return Advice("unexpected `!`", "a negation is written `not`")
-    if place.kind() == _DOUBLE_COLON:
-        return Advice("unexpected `::`", "a qualified name has no blanks: `namespace::name`")
     return None
 
 
@@ -326,20 +227,26 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     _global_variable,
     _point_without_digits,
     _sampled_parameter,
-    _until_behind_a_call,
-    _loop,
+    foreign.behind_a_call,
     _blank_before_unit,
     _range_with_unit,
-    _foreign_statement,
+    foreign.label_of_two_words,
+    foreign.statement,
     _unbalanced_bracket,
     _assignment,
     _misspelt_composition,
     _misspelt_statement,
     _missing_colon_of_argument,
     _missing_name,
-    _colon_inheritance,
-    _declared_parentheses,
+    foreign.colon_inheritance,
+    foreign.other_inheritance,
+    foreign.enum_block,
+    foreign.list_type,
+    foreign.range_without_brackets,
+    foreign.other_arithmetic,
+    foreign.emitted_with_at,
+    foreign.declared_parentheses,
     _colon_after_directive,
     _constraint_without_parentheses,
-    _other_operators,
+    foreign.other_operators,
 )

@@ -14,6 +14,8 @@ _REPLACEMENTS = {
     "&&": "the operator is written `and`",
     "&": "the operator is written `and`",
     "||": "the operator is written `or`",
+    "^": "there is no power; multiply: `a * a`",
+    "`": "strings stand in double or single quotes",
     ";": "a statement ends with its line; leave the semicolon out",
     "{": "blocks are made by `:` and indentation",
     "}": "blocks are made by `:` and indentation",

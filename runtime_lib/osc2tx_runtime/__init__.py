@@ -8,13 +8,16 @@ The floors, from above; each imports only those below it:
 * `language`: scenarios, their trees, events and values, the state of a run, the trace.
 * `world`: the embedded world, and what every world offers.
 * `opendrive`: the road map.
-* `errors`, `enums`, `units`, `clock`: leaves.
+* `errors`, `enums`, `units`, `clock`, `interrupts`: leaves.
 """
 
 from __future__ import annotations
 
 from math import inf
 
+import osc2tx_runtime.interrupts
+
+# isort: split
 import osc2tx_text  # noqa: F401 (before libraries that want a standard output)
 
 # isort: split

@@ -29,6 +29,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "clock": set(),
     "enums": set(),
     "errors": set(),
+    "interrupts": set(),
     "plain_numbers": set(),
     "units": set(),
     # the map, the world on it, the language
@@ -76,13 +77,16 @@ MAY_IMPORT: dict[str, set[str]] = {
         "world",
     },
     "domain.capabilities": {"domain.actions", "domain.actors", "domain.capability_tables"}
-    | {"domain.modifiers", "enums", "language"},
+    | {"domain.modifiers", "enums", "language", "units"},
     # what carries a scenario out, and what generated modules import
     "worlds": {"errors", "opendrive", "world"},
     "simulators": {"enums", "errors", "opendrive", "world", "worlds"},
     "report": {"language"},
     "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
-    | {"errors", "language", "opendrive", "plain_numbers", "world", "worlds"},
+    | {"errors", "interrupts", "language", "opendrive", "plain_numbers", "world", "worlds"},
+    "kpis": {"errors", "language", "opendrive", "running", "world"},
+    "campaigns": {"domain.routes", "domain.scenario", "errors", "kpis", "language", "opendrive"}
+    | {"plain_numbers", "running"},
     "modifiers": {"domain.modifiers"},
     "": {"domain.actions", "domain.actors", "domain.measuring", "domain.modifiers"}
     | {
@@ -93,7 +97,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         "domain.scenario",
         "domain.shapes",
     }
-    | {"domain.signals", "errors", "language", "running", "world"},
+    | {"domain.signals", "errors", "interrupts", "language", "running", "world"},
 }
 
 FILES = files_of(RUNTIME)

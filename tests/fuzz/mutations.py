@@ -15,7 +15,13 @@ MARKS = "( ) [ ] : , . .. @ ? ! = == => + - * / % | \" ' # \\ \t \r \0 \ufeff \u
 WORDS = "do serial parallel one_of with: until keep( it actor inherits extend import on if"
 VALUES = "1e999 0x 99999999999999999999 -1 nan inf 1s 3kph null::x ::a |"
 LAYOUT = ("\n", "\n    ", "\n\t", '"""')
+PLAIN = (
+    "import osc.standard scenario top : actor struct enum modifier action event var def external "
+    "keep ( ) do serial : parallel : wait elapsed ( every ( call drive ( ) with : a b it . of "
+    'vehicle speed 3 mps 1.5 m true and or not in [ 1 .. 2 ] as is emit cover ( record ( => "x"'
+)
 SPICE = (*MARKS.split(" "), *WORDS.split(), *VALUES.split(), *LAYOUT)
+VOCABULARY = (*PLAIN.split(), *PLAIN.split(), *SPICE)
 
 
 @cache
@@ -33,6 +39,15 @@ def mutate(random: Random, seeds: Sequence[str]) -> str:
     for _ in range(random.randint(1, 6)):
         text = MUTATIONS[random.randrange(len(MUTATIONS))](random, text, seeds)
     return text
+
+
+def any_tokens(random: Random) -> str:
+    """Return words and signs of the language in any order, some of them in lines of a program."""
+    lines = []
+    for _ in range(random.randint(1, 8)):
+        words = random.choices(VOCABULARY, k=random.randint(1, 9))
+        lines.append("    " * random.randint(0, 3) + random.choice(("", " ")).join(words))
+    return "\n".join(lines)
 
 
 def _part(random: Random, text: str) -> str:

@@ -1,18 +1,24 @@
-"""What must hold for every text: diagnostics or a module, never an exception."""
+"""What must hold for every text: diagnostics or a module, never an exception.
+
+And for every other input: a result, or the error that is meant for it.
+"""
 
 from __future__ import annotations
 
 import ast
 import os
+import signal
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from traceback import extract_tb, format_exception
+from types import FrameType
+from typing import Literal
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
@@ -20,9 +26,13 @@ from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
 from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
+from tests.fuzz.inputs import Input
+
+Look = Literal["whole", "quick"]
 
 # Of the processor's time: the machine may be busy.
 SECONDS = 5.0
+HANGING = 60.0
 SECONDS_OF_A_LINE = 0.05
 SIMULATED_SECONDS = 1.0
 
@@ -44,27 +54,69 @@ class Refuted(AssertionError):
     """A promise of the compiler that does not hold."""
 
 
-def try_text(text: str, options: CompileOptions, *, execute: bool = False) -> Finding | None:
+class Hangs(BaseException):
+    """It does not come to an end."""
+
+
+def try_text(
+    text: str, options: CompileOptions, *, execute: bool = False, look: Look = "whole"
+) -> Finding | None:
     """Compile a text through all stages and return what went wrong.
 
     Args:
         text: The program, or anything; lone surrogates stand for bytes that are no UTF-8.
         options: How to compile it.
         execute: Import the module, if there is one, and run its scenarios for a moment.
+        look: A quick look prints no products and does without black and the second compilation,
+            which take most of the time.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "fuzzed.osc")
+
+    def attempt(folder: Path) -> None:
+        path = folder / "fuzzed.osc"
         path.write_bytes(text.encode("utf-8", "surrogateescape"))
+        module = _compile(path, options) if look == "whole" else _compile_quickly(path, options)
+        if module is not None and execute:
+            _execute(module)
+
+    return _tried(attempt, SECONDS + SECONDS_OF_A_LINE * text.count("\n"))
+
+
+def try_input(kind: Input, text: str) -> Finding | None:
+    """Read something that is no scenario, and return what went wrong."""
+
+    def attempt(folder: Path) -> None:
+        try:
+            kind.read(text, folder)
+        except kind.allowed as error:
+            if not str(error):
+                raise Refuted("an error that says nothing") from error
+
+    return _tried(attempt, SECONDS)
+
+
+def _tried(attempt: Callable[[Path], None], limit: float) -> Finding | None:
+    with tempfile.TemporaryDirectory() as folder:
         start = time.process_time()
         try:
-            module = _compile(path, options)
-            if module is not None and execute:
-                _execute(module)
-        except Exception as error:  # any exception is a finding
+            with _ended_if_it_hangs():
+                attempt(Path(folder))
+        except (Exception, Hangs) as error:  # any exception is a finding
             return Finding(_key(error), "".join(format_exception(error)))
         seconds = time.process_time() - start
-    limit = SECONDS + SECONDS_OF_A_LINE * text.count("\n")
     return Finding("slow", f"took {seconds:.1f} s of the processor") if seconds > limit else None
+
+
+@contextmanager
+def _ended_if_it_hangs() -> Iterator[None]:
+    def end(number: int, frame: FrameType | None) -> None:
+        raise Hangs
+
+    signal.signal(signal.SIGVTALRM, end)
+    signal.setitimer(signal.ITIMER_VIRTUAL, HANGING)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
 
 
 def is_built(text: str, options: CompileOptions) -> bool:
@@ -98,6 +150,17 @@ def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
     return module
 
 
+def _compile_quickly(path: Path, options: CompileOptions) -> GeneratedModule | None:
+    compilation = Compilation(path, path.name, options)
+    _ = compilation.xml
+    if not compilation.has_module or compilation.ir is None:
+        render_all(compilation.diagnostics, color=False, folder=path.parent)
+        return None
+    module = draft(compilation.ir, compilation.sharing)
+    compile(module.python, "fuzzed.py", "exec")
+    return module
+
+
 def _execute(module: GeneratedModule) -> None:
     """Run the scenarios of a module: to a verdict, or to an error that the runtime explains."""
     settings = RunSettings(max_time=SIMULATED_SECONDS)
@@ -117,7 +180,7 @@ def explained() -> Iterator[None]:
             raise Refuted("an error that says nothing") from error
 
 
-def _key(error: Exception) -> str:
+def _key(error: BaseException) -> str:
     frames = extract_tb(error.__traceback__)
     ours = [f for f in frames if f"{os.sep}osc2tx" in f.filename and "_antlr" not in f.filename]
     frame = (ours or frames)[-1]

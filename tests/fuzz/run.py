@@ -2,15 +2,20 @@
 
     python tests/fuzz/run.py --seconds 600 --seed 1
 
-It makes texts in turn by
+It makes texts by
 
 - `programs`: random programs that follow grammar and types (tests/fuzz/programs.py);
 - `mutations` of scenarios, goldens and the library (tests/fuzz/mutations.py);
 - `grammar`: from grammar/OpenSCENARIO2.g4, every rule but no types (tests/fuzz/grammar.py);
+- `tokens`: words and signs of the language in any order;
 
 and compiles each through all stages, imports the module if there is one, and runs its scenarios
 for a moment. What must not happen is in tests/fuzz/oracle.py: an exception, a module that Python
-does not take or that differs the second time, a diagnostic that points nowhere, slowness.
+does not take or that differs the second time, a diagnostic that points nowhere, slowness. Other
+inputs (maps, traces, settings, ...: tests/fuzz/inputs.py) are read by what reads them.
+
+Each gets its share of a round (`SHARES`). With `--quick` only one text of fifty gets the whole
+look, so that a million inputs are some hours of a processor.
 
 Findings go to `--out`, one folder for each kind of failure and place: `input.osc`, the smallest
 text of that kind, cut down line by line, and `report.txt` with options, seed and traceback. The
@@ -21,8 +26,10 @@ diagnostic or module that should come out, else a case of tests/unit/test_bad_in
 from __future__ import annotations
 
 import argparse
+import gc
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import count
@@ -34,11 +41,20 @@ sys.path[:0] = [str(ROOT), str(ROOT / "runtime_lib")]
 
 from osc2tx.options import DIALECTS, STANDARDS, CompileOptions  # noqa: E402
 from tests.fuzz.grammar import write_text  # noqa: E402
-from tests.fuzz.mutations import mutate, seed_texts  # noqa: E402
-from tests.fuzz.oracle import Finding, try_text  # noqa: E402
+from tests.fuzz.inputs import INPUTS  # noqa: E402
+from tests.fuzz.mutations import any_tokens, mutate, seed_texts  # noqa: E402
+from tests.fuzz.oracle import Finding, Look, try_input, try_text  # noqa: E402
 from tests.fuzz.programs import write_program  # noqa: E402
 
 ATTEMPTS = 400  # compilations to cut one finding down
+WHOLE = 50  # of so many texts of a quick run one gets the whole look
+
+SHARES = {
+    **{"programs": 1, "grammar": 2, "mutations": 8, "tokens": 40},
+    **{"maps": 15, "traces": 5, "source_maps": 5, "manifests": 5, "digests": 4},
+    **{"settings": 10, "options": 25},
+}
+"""How many texts of each kind a round has: of those that take longer there are fewer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,23 +65,37 @@ class Case:
     seed: str
     text: str
     options: CompileOptions
+    is_whole: bool = True
+
+    def attempt(self, text: str, execute: bool) -> Finding | None:
+        """Try a text as this one is tried."""
+        if self.maker in INPUTS:
+            return try_input(INPUTS[self.maker], text)
+        look: Look = "whole" if self.is_whole else "quick"
+        return try_text(text, self.options, execute=execute, look=look)
 
 
-def cases(seed: int, makers: list[str]) -> Iterator[Case]:
+def cases(seed: int, makers: list[str], quick: bool = False) -> Iterator[Case]:
     """Yield cases without end."""
     seeds = seed_texts(ROOT)
-    for number in count():
+    for turn in count():
         for maker in makers:
-            name = f"{seed}/{maker}/{number}"
-            random = Random(name)
-            options = CompileOptions(random.choice(STANDARDS), random.choice(DIALECTS))
-            if maker == "programs":
-                text = write_program(random, options.standard, options.dialect)
-            elif maker == "mutations":
-                text = mutate(random, seeds)
-            else:
-                text = write_text(random)
-            yield Case(maker, name, text, options)
+            for number in range(turn * SHARES[maker], (turn + 1) * SHARES[maker]):
+                name = f"{seed}/{maker}/{number}"
+                random = Random(name)
+                options = CompileOptions(random.choice(STANDARDS), random.choice(DIALECTS))
+                if maker in INPUTS:
+                    text = INPUTS[maker].write(random)
+                elif maker == "programs":
+                    text = write_program(random, options.standard, options.dialect)
+                elif maker == "mutations":
+                    text = mutate(random, seeds)
+                elif maker == "tokens":
+                    text = any_tokens(random)
+                else:
+                    text = write_text(random)
+                is_whole = not quick or number % WHOLE == 0
+                yield Case(maker, name, text, options, is_whole)
 
 
 def cut_down(text: str, still_fails: Callable[[str], bool]) -> str:
@@ -92,11 +122,12 @@ def save(folder: Path, case: Case, finding: Finding, times: int, execute: bool) 
     """Write the smallest text with the same failure."""
 
     def still_fails(text: str) -> bool:
-        found = try_text(text, case.options, execute=execute)
+        found = case.attempt(text, execute)
         return found is not None and found.key == finding.key
 
-    text = case.text if finding.key == "slow" else cut_down(case.text, still_fails)
-    final = try_text(text, case.options, execute=execute) or finding
+    is_slow = finding.key.startswith(("slow", "Hangs"))
+    text = case.text if is_slow else cut_down(case.text, still_fails)
+    final = finding if is_slow else case.attempt(text, execute) or finding
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "input.osc").write_bytes(text.encode("utf-8", "surrogateescape"))
     report = f"{final.key}\n{case.options}\nseed {case.seed}\nseen {times} times\n\n{final.report}"
@@ -109,20 +140,26 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=600)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "fuzz")
-    parser.add_argument("--only", choices=("programs", "mutations", "grammar"), action="append")
+    parser.add_argument("--only", choices=SHARES, action="append")
     parser.add_argument("--compile-only", action="store_true", help="do not run the modules")
+    parser.add_argument("--quick", action="store_true", help="look at most texts only quickly")
+    parser.add_argument("--count", type=int, help="how many texts to try at most")
     options = parser.parse_args()
-    makers = options.only or ["programs", "mutations", "grammar"]
+    makers = options.only or list(SHARES)
     execute = not options.compile_only
     smallest: dict[str, tuple[Case, Finding]] = {}
     times: dict[str, int] = {}
     end = time.monotonic() + options.seconds
-    tried = 0
-    for case in cases(options.seed, makers):
-        if time.monotonic() > end:
+    tried: Counter[str] = Counter()
+    gc.freeze()
+    gc.set_threshold(200_000, 30, 30)  # as the command has it
+    for case in cases(options.seed, makers, options.quick):
+        if time.monotonic() > end or tried.total() == options.count:
             break
-        tried += 1
-        finding = try_text(case.text, case.options, execute=execute)
+        tried[case.maker] += 1
+        if tried.total() % 10_000 == 0:
+            print(f"{tried.total()} texts", flush=True)
+        finding = case.attempt(case.text, execute)
         if finding is None:
             continue
         times[finding.key] = times.get(finding.key, 0) + 1
@@ -134,9 +171,9 @@ def main() -> int:
     for number, (key, (case, finding)) in enumerate(sorted(smallest.items()), start=1):
         name = "".join(letter if letter.isalnum() else "_" for letter in key)[:70]
         save(options.out / f"{number:02}_{name}", case, finding, times[key], execute)
-    print(
-        f"{tried} texts, {len(smallest)} kinds of failure", f"in {options.out}" if smallest else ""
-    )
+    parts = ", ".join(f"{maker} {number}" for maker, number in tried.items())
+    print(f"{tried.total()} texts ({parts})")
+    print(f"{len(smallest)} kinds of failure", f"in {options.out}" if smallest else "")
     return 1 if smallest else 0
 
 

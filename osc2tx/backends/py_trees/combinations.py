@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import GivenArguments, by_name, word
 from osc2tx.catalogue import Catalogue, ObjectTables
-from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx_rules import Clash, Timing, clashes, is_across
 
 
@@ -86,11 +86,13 @@ class CombinationCheck:
                     "OSC508",
                     last.span,
                     f"`{first.name}` and `{last.name}` speak of the same thing",
+                    labels=[Label(first.span, "the other one")],
                     help="give one of them",
                 )
             case "twice":
                 text = f"modifier `{last.name}` stands here twice"
-                self._sink.report("OSC508", last.span, text)
+                labels = [Label(clash.calls[0].node.span, "given here already")]
+                self._sink.report("OSC508", last.span, text, labels=labels)
             case "no start":
                 text = f"modifier `{last.name}` says nothing about a start"
                 self._sink.report("OSC509", last.span, text, help="leave `at: start` out")

@@ -79,7 +79,8 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
 def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     """Write a module in the layout of the templates: it does the same, but is not for readers."""
     sharing = sharing or Sharing()
-    uses, names = Uses(), _all_names(module, sharing)
+    names = _all_names(module, sharing)
+    uses = Uses(names)
     defined = [each for each in declarations(module) if key_of(each) not in sharing.homes]
     types = [each for each in defined if isinstance(each, ir.UserType)]
     actions = [each for each in defined if isinstance(each, ir.UserAction)]

@@ -17,10 +17,12 @@ from osc2tx.catalogue import catalogue, object_tables
 
 Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
 
-# Names a module may import of the runtime; none of its own must hide them.
+# What a module has of the runtime, of Python and of itself; none of its own names must hide it.
 RUNTIME_CLASSES = frozenset(
-    {*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values(), *PHYSICAL_TYPES.values()}
-    | {
+    {
+        *ACTOR_CLASSES.values(),
+        *STRUCT_CLASSES.values(),
+        *PHYSICAL_TYPES.values(),
         "Actor",
         "Behaviour",
         "Call",
@@ -37,9 +39,61 @@ RUNTIME_CLASSES = frozenset(
         "Parallel",
         "Range",
         "Rgb",
+        "Scenario",
+        "Serial",
+        "Unit",
+        "Until",
+        "Wait",
     }
-    | {"Any", "Protocol", "Scenario", "Serial", "Unit", "Until", "Wait", "pathlib", "sys"}
 )
+RUNTIME_FUNCTIONS = frozenset(
+    {
+        "any_of",
+        "as_type",
+        "at_least",
+        "at_most",
+        "elapsed",
+        "every",
+        "fall",
+        "fixed",
+        "global_action",
+        "inf",
+        "main",
+        "not_given",
+        "require_api",
+        "rise",
+        "user_action",
+        "within",
+    }
+)
+PYTHON_NAMES = frozenset(
+    {
+        "Any",
+        "Literal",
+        "Protocol",
+        "SystemExit",
+        "TypeAlias",
+        "all",
+        "any",
+        "bool",
+        "dataclass",
+        "enumerate",
+        "float",
+        "int",
+        "isinstance",
+        "len",
+        "list",
+        "next",
+        "object",
+        "pathlib",
+        "str",
+        "sum",
+        "super",
+        "sys",
+        "type",
+    }
+)
+ROOT_FUNCTION = "create_root"
 
 
 def key_of(declared: Declared) -> str:
@@ -82,7 +136,9 @@ def has_module(module: ir.Module) -> bool:
 
 def own_names(module: ir.Module) -> NameTable:
     """Return the names of what the file of a module declares itself."""
-    names = NameTable(RUNTIME_CLASSES | object_tables().enums | catalogue().modifiers.keys())
+    library = object_tables().enums | object_tables().units | catalogue().modifiers.keys()
+    runtime = RUNTIME_CLASSES | RUNTIME_FUNCTIONS
+    names = NameTable(runtime | library | PYTHON_NAMES | {ROOT_FUNCTION})
     for declared in declarations(module):
         if is_own(declared, module):
             add_name(names, declared)

@@ -6,17 +6,22 @@ from collections.abc import Iterable
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import PyName, literal
-from osc2tx.backends.py_trees.naming import identifier
+from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.view import EnumView, ImportView, UnitView
 
 RUNTIME = "osc2tx_runtime"
 
 
 class Uses:
-    """Collects names to import and units to define."""
+    """Collects names to import and units to define.
 
-    def __init__(self) -> None:
+    Args:
+        names: Names of the module.
+    """
+
+    def __init__(self, names: NameTable) -> None:
         """Start with what every module needs."""
+        self._own_names = names
         self._names = {"require_api"}
         self._modifiers: set[str] = set()
         self._standard: dict[str, set[str]] = {}
@@ -46,12 +51,18 @@ class Uses:
 
     def unit(self, unit: ir.Unit) -> PyName:
         """Use a unit: the runtime's constant, or one that the module defines itself."""
-        name = PyName(identifier(unit.name))
         if unit.is_standard:
-            self._standard_units.add(name.text)
-        else:
-            self._own_units[name.text] = unit
+            return self.physical_type(identifier(unit.name))
+        name = self._name_of_unit(unit)
+        self._own_units[name.text] = unit
         return name
+
+    def _name_of_unit(self, unit: ir.Unit) -> PyName:
+        """Name a unit that the module defines: after all others, so that no other depends on it."""
+        key = f"unit {unit.name}"
+        if key in self._own_names:
+            return self._own_names[key]
+        return self._own_names.add(key, identifier(unit.name), "_unit")
 
     def enum(self, type_: ir.ValueType, name: PyName) -> PyName:
         """Use an enum by a name: the runtime's type, or one that the module defines itself."""

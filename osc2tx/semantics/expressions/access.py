@@ -8,6 +8,7 @@ from osc2tx.semantics.binding import find_parameter
 from osc2tx.semantics.builtins import LIST_METHODS, RANGE_METHODS
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
+from osc2tx.semantics.everyday_words import MEMBERS, plain_word
 from osc2tx.semantics.expressions.names import value_type
 from osc2tx.semantics.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -68,7 +69,8 @@ def note_prelude_member(r: Resolution, member: Symbol, owner: TypeSymbol, name: 
 def report_unknown_member(r: Resolution, owner: TypeSymbol, name: ast.Name) -> None:
     """Report a member that a type does not have."""
     hint = PRELUDE_MEMBERS.get(name.text)
-    if hint is not None and any(s.name == "osc_actor" for s in supertypes(owner)):
+    is_object = any(s.name == "osc_actor" for s in supertypes(owner))
+    if hint is not None and is_object:
         r.report(
             "OSC208",
             name.span,
@@ -82,6 +84,7 @@ def report_unknown_member(r: Resolution, owner: TypeSymbol, name: ast.Name) -> N
         name.span,
         f"`{owner.name}` has no member `{name}`",
         help=write_instead(standard_member(owner, name))
+        or (plain_word(name.text, MEMBERS) if is_object else None)
         or did_you_mean(name.text, member_names(owner)),
         labels=declared_here(owner),
     )

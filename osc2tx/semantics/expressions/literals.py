@@ -6,6 +6,7 @@ from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import unit_alias, write_instead
 from osc2tx.semantics.conversions import common_type, is_numeric
 from osc2tx.semantics.dialects import UNIT_ALIASES
+from osc2tx.semantics.everyday_words import UNITS, plain_word
 from osc2tx.semantics.literal_numbers import constant_number
 from osc2tx.semantics.redeclarations import report_disputed
 from osc2tx.semantics.resolution import Environment, Resolution
@@ -27,6 +28,7 @@ def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
                 node.unit.span,
                 f"no unit `{node.unit}`",
                 help=write_instead(UNIT_ALIASES.get(node.unit.text))
+                or plain_word(node.unit.text, UNITS)
                 or did_you_mean(node.unit.text, known),
             )
         return ERROR

@@ -14,7 +14,7 @@ from osc2tx.semantics.builtins import (
     range_method_result,
 )
 from osc2tx.semantics.conversions import symbol_of
-from osc2tx.semantics.everyday_words import CONDITIONS
+from osc2tx.semantics.everyday_words import CONDITIONS, LIST_WORDS, plain_word
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
 from osc2tx.semantics.expressions.type_receivers import implied_object
 from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
@@ -68,7 +68,7 @@ def resolve_call(
     """Bind a call, and return the result type of the method."""
     match callee:
         case ast.NameExpression():
-            symbol = _find_plain(r, callee, env)
+            symbol = _find_plain(r, node, callee, env)
             receiver = None
         case ast.MemberAccess():
             base = type_itself(r, callee.base, callee.name, env)
@@ -162,7 +162,12 @@ def call_by_statement(r: Resolution, node: ast.ModifierApplication, env: Environ
     return True
 
 
-def _find_plain(r: Resolution, callee: ast.NameExpression, env: Environment) -> MethodSymbol | None:
+def _find_plain(
+    r: Resolution,
+    node: ast.Call | ast.CallDirective,
+    callee: ast.NameExpression,
+    env: Environment,
+) -> MethodSymbol | None:
     symbol = lookup_value(r, callee.name, env)
     word = callee.name.text
     if symbol is None and word in CONDITIONS:
@@ -190,10 +195,18 @@ def _find_plain(r: Resolution, callee: ast.NameExpression, env: Environment) -> 
             "OSC201",
             callee.span,
             f"no method `{callee.name}`",
-            help=did_you_mean(callee.name.text, visible_names(r, env)),
+            help=_method_meant(callee, node) or did_you_mean(word, visible_names(r, env)),
         )
         return None
     return _as_method(r, callee, symbol)
+
+
+def _method_meant(callee: ast.NameExpression, node: ast.Call | ast.CallDirective) -> str | None:
+    """Return a line of help for `len(list)`, a method of what stands in the parentheses."""
+    word = callee.name.text
+    if word not in LIST_WORDS or len(node.arguments) != 1:
+        return None
+    return f"write `{node.arguments[0].value.span.text}.{LIST_WORDS[word]}()`"
 
 
 def _as_method(
@@ -261,7 +274,8 @@ def _resolve_operator(
             "OSC208",
             callee.name.span,
             f"`{base}` has no method `{callee.name}`",
-            help=did_you_mean(callee.name.text, operators),
+            help=plain_word(callee.name.text, LIST_WORDS if isinstance(base, ListType) else {})
+            or did_you_mean(callee.name.text, operators),
         )
         type_arguments(r, node.arguments, env.with_it(ERROR))
         return ERROR

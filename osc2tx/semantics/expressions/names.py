@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.suggestions import did_you_mean, nearest, one_of
 from osc2tx.semantics.actors_by_name import actor_of_caller
 from osc2tx.semantics.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
-from osc2tx.semantics.everyday_words import NAMES, plain_word
+from osc2tx.semantics.everyday_words import ENUM_MEMBERS, NAMES, NOTHING, plain_word
 from osc2tx.semantics.expressions.type_receivers import type_as_receiver
 from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -135,7 +135,7 @@ def _infer_unknown(
             node.span,
             f"enum `{expected.symbol.name}` has no member `{name}`",
             help=write_instead(ENUM_MEMBER_ALIASES.get((expected.symbol.name, name.text)))
-            or did_you_mean(name.text, expected.symbol.members),
+            or _member_meant(name.text, expected.symbol),
             labels=declared_here(expected.symbol),
         )
         return ERROR
@@ -153,15 +153,32 @@ def _infer_unknown(
             labels=declared_here(types[0]) if types[0].origin == "user" else (),
         )
         return ERROR
-    r.report(
-        "OSC201",
-        node.span,
-        f"`{name}` is not defined",
-        help=plain_word(name.text, NAMES)
-        or _field_elsewhere(r, name)
-        or did_you_mean(name.text, visible_names(r, env)),
-    )
+    r.report("OSC201", node.span, f"`{name}` is not defined", help=_name_meant(r, name, env))
     return ERROR
+
+
+def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> str | None:
+    """Say what may be meant by a name that is not defined."""
+    if name.text in NOTHING:
+        return "there is no empty value; leave out what has none"
+    if found := plain_word(name.text, NAMES) or _field_elsewhere(r, name):
+        return found
+    meant = nearest(name.text, visible_names(r, env))
+    if meant is None:
+        return None
+    help_ = f"did you mean `{meant}`?"
+    field = lookup_value(r, ast.Name(span=name.span, text=meant), env, quiet=True)
+    digits = "0123456789"
+    if isinstance(field, FieldSymbol) and name.text.rstrip(digits) == meant.rstrip(digits):
+        help_ += f" If it is another one, declare it: `{name}: {field.type}`"
+    return help_
+
+
+def _member_meant(word: str, enum: EnumSymbol) -> str | None:
+    """Say which member of an enum may be meant by a name that it does not have."""
+    if ENUM_MEMBERS.get(word) in enum.members:
+        return plain_word(word, ENUM_MEMBERS)
+    return did_you_mean(word, enum.members) or one_of("its members are", enum.members)
 
 
 def _field_elsewhere(r: Resolution, name: ast.Name) -> str | None:
@@ -213,7 +230,7 @@ def infer_enum_literal(r: Resolution, node: ast.EnumLiteral, env: Environment) -
             "OSC208",
             node.member.span,
             f"enum `{symbol.name}` has no member `{node.member}`",
-            help=did_you_mean(node.member.text, symbol.members),
+            help=_member_meant(node.member.text, symbol),
             labels=declared_here(symbol),
         )
         return EnumType(symbol)

@@ -6,6 +6,7 @@ reference §2.8): in a type body `a: b` is a field, inside `do` it is a label an
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
 from typing import Any
 
@@ -23,6 +24,12 @@ from osc2tx.syntax.syntax_errors import describe_token, shortened
 _COLON, _DOT = t.PUNCTUATION[":"], t.PUNCTUATION["."]
 _FIELDS = frozenset({Place.STRUCT, Place.ACTOR, Place.BEHAVIOR, Place.MODIFIER, Place.EXTENSION})
 _APPLICATIONS = (_FIELDS - {Place.STRUCT}) | {Place.WITH}
+_BRACKETED_TYPE = re.compile(r"(?:list)?\[(\w+)\]")
+_COMPARED_TYPE = re.compile(r"(\w+) *== *(.{1,40})")
+_WITH_WORDS = {
+    "duration": "how long is an argument of what is invoked: `(duration: …)`",
+    "until": "write `until …` without a colon",
+}
 
 
 class NameStatementBuilder(MemberBuilder):
@@ -51,7 +58,8 @@ class NameStatementBuilder(MemberBuilder):
             return None
         if place not in _FIELDS:
             self._report_place(head, tree, place, "a field declaration")
-            self._field(tree, head)
+            if place is not Place.WITH:
+                self._field(tree, head)
             return None
         return self._field(tree, head)
 
@@ -63,6 +71,9 @@ class NameStatementBuilder(MemberBuilder):
             help_ = "put it into a scenario; a global parameter begins with `global`"
         elif place is Place.ON:
             help_ = "an `on` block holds `call …` and `emit …`"
+        elif place is Place.WITH:
+            word = self._text(tree.start)
+            help_ = _WITH_WORDS.get(word, f"a modifier is applied with parentheses: `{word}(…)`")
         span = self._span(tree.start, tree.start)
         self._report("OSC108", span, f"{what} does not belong {place.value}", help_)
 
@@ -81,7 +92,7 @@ class NameStatementBuilder(MemberBuilder):
             self._ending(children[1], Place.NOWHERE)
             return None
         what = "an invocation" if place is Place.DO else "a modifier application"
-        parts = self._call_parts(expression, what)
+        parts = self._call_parts(expression, what, in_type=place in _FIELDS)
         if place is Place.DO:
             return self._invocation(parts, head, children[1], None)
         self._refuse_with(children[1], "a modifier application")
@@ -174,6 +185,10 @@ class NameStatementBuilder(MemberBuilder):
         found = describe_token(self._table, tree.start)
         span: Span = self._tree_span(tree)
         help_ = "a field is declared `name: type = value`"
+        if listed := _BRACKETED_TYPE.fullmatch(span.text):
+            help_ = f"write `list of {listed[1]}`"
+        elif compared := _COMPARED_TYPE.fullmatch(span.text):
+            help_ = f"a value is given with one `=`: `{compared[1]} = {compared[2]}`"
         self._report("OSC100", span, f"expected a type name, found {found}", help_)
 
     def _only_name(self, children: list[Tree], what: str) -> ast.Name | None:

@@ -8,10 +8,11 @@ from __future__ import annotations
 import dataclasses
 import inspect
 from collections.abc import Callable, Sequence
+from types import FunctionType
 from typing import Any, get_args, get_type_hints
 
 from osc2tx_rules import Rule
-from osc2tx_runtime import enums
+from osc2tx_runtime import enums, units
 from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
@@ -56,7 +57,7 @@ def objects() -> dict[str, Any]:
         `objects`: actor or value type to what its constructor takes; `needed`: what that cannot do
         without; `unknown`: members of actors that only the scenario can say; `reserved`: what
         actors have besides actions; `lane_bound`: actors that follow lanes; `enums`: types of the
-        library's enums.
+        library's enums; `units`: names of its units.
     """
     return {
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
@@ -66,10 +67,16 @@ def objects() -> dict[str, Any]:
         "unknown": sorted(UNKNOWN),
         "reserved": sorted(_members()),
         "enums": sorted(enums.__all__),
+        "units": sorted(name for name, unit in vars(units).items() if _is_unit(name, unit)),
         "lane_bound": sorted(
             name for name, kind in OBJECTS.items() if getattr(kind, "lane_bound", False)
         ),
     }
+
+
+def _is_unit(name: str, value: object) -> bool:
+    """Whether a name of the module of units is one: a factor, or a scale with another zero."""
+    return isinstance(value, float | FunctionType) and not name.startswith("_")
 
 
 def _action(method: RegisteredMethod, factory: type[Action]) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import re
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar, Unpack, overload
 
@@ -11,23 +10,16 @@ from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.source_map import SourceMap
+from osc2tx_runtime.language.tree.broken_values import NotKeptError, not_computed, not_kept
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
-from osc2tx_runtime.language.tree.module_text import call_arguments
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
+from osc2tx_runtime.language.tree.walks import Draws, Walk
 
 __all__ = ["ATTEMPTS", "ScenarioValues"]
 
 AnyT = TypeVar("AnyT")
 
 ATTEMPTS = 1000  # draws of all values before constraints between them count as contradictory
-
-
-class _NotKeptError(Exception):
-    """A relation that `keep` demands does not hold."""
-
-    def __init__(self, text: str, place: str) -> None:
-        super().__init__(text)
-        self.text, self.place = text, place
 
 
 class ScenarioValues:
@@ -45,6 +37,7 @@ class ScenarioValues:
         settings: Of the run.
         parameters: Values of the parameters, in order; the scenario that runs also has those of
             all that it invokes.
+        is_drawn: Whether some value of the scenario that runs, or of one it invokes, was drawn.
     """
 
     def __init__(
@@ -67,10 +60,14 @@ class ScenarioValues:
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
-        self._generator = random.Random(settings.seed)
+        self._generator = random.Random(settings.draws_from)
         self._attempt = 0
+        self._first: ScenarioValues = self if caller is None else caller._first
+        self.is_drawn = False
         self._draws = False  # whether a value was drawn, so that another draw may help
         self._kept = 0
+        self._broken: ArithmeticError | NotKeptError | None = None  # by the last draw
+        self._walk: Walk | None = None  # after that many draws in vain
         self._items: dict[str, CoverageItem] = {}
 
     # --- used by generated classes ---
@@ -166,10 +163,9 @@ class ScenarioValues:
         If it does not hold, all values that are drawn are drawn anew; after a thousand draws, or
         if none is drawn, the scenario cannot run.
         """
-        place = self._source_map.of_constraint(self._kept)
-        self._kept += 1
         if not holds:
-            raise _NotKeptError(call_arguments()[1:-1], place)
+            raise NotKeptError(self._source_map.of_constraint(self._kept))
+        self._kept += 1
 
     @overload
     def external(self, path: str) -> Callable[..., object]: ...
@@ -212,40 +208,45 @@ class ScenarioValues:
         """
         members, shared = set(vars(self)), dict(self._shared)
         objects = dict(self._shared_objects)
-        for self._attempt in range(ATTEMPTS):
-            self._kept, self._draws = 0, False
-            try:
-                return declare()
-            except ArithmeticError as error:
-                place = self._source_map.file
-                raise ScenarioError(f"a value cannot be computed: {error}", place) from error
-            except _NotKeptError as broken:
-                if not self._draws or self._attempt == ATTEMPTS - 1:
-                    raise self._error(broken) from None
+
+        def height() -> int | None:
+            """Declare all anew; return how many constraints hold, None if all do."""
             for name in vars(self).keys() - members:
                 del self.__dict__[name]
             self.parameters.clear()
-            self._shared.clear()
-            self._shared.update(shared)
-            self._shared_objects.clear()
-            self._shared_objects.update(objects)
+            for kept, before in ((self._shared, shared), (self._shared_objects, objects)):
+                kept.clear()
+                kept.update(before)
+            self._kept, self._draws = 0, False
+            try:
+                declare()
+            except (ArithmeticError, NotKeptError) as error:
+                self._broken = error
+                return self._kept
+            return None
 
-    def _error(self, broken: _NotKeptError) -> ScenarioError:
-        words = set(re.findall(r"\w+", broken.text))
-        about = {name: v for name, v in self.parameters.items() if name in words}
-        values = ", ".join(
-            f"{name}={v:.6g}" if isinstance(v, float) else f"{name}={v}"
-            for name, v in (about or self.parameters).items()
-        )
-        tried = f" in {ATTEMPTS} draws" if self._draws else ""
-        help_ = f" (the last values: {values})" if tried else f" ({values})" if values else ""
-        what = f"`{broken.text}`" if broken.text else "a constraint"
-        return ScenarioError(f"{what} does not hold{tried}{help_}", broken.place)
+        for self._attempt in range(ATTEMPTS):
+            if height() is None:
+                return
+            if not self._draws:
+                raise self._error()
+        self._walk = Walk(random.Random(f"{self.settings.draws_from}/{self._key}/walk"), height)
+        if not self._walk.arrive():
+            raise self._error()
+
+    def _error(self) -> ScenarioError:
+        """Return what to say of the constraint or value that does not hold."""
+        tried = f" in {ATTEMPTS} draws" if self._walk is not None else ""
+        if isinstance(self._broken, NotKeptError):
+            return not_kept(self._broken, self.parameters, tried)
+        assert self._broken is not None
+        error = not_computed(self._broken, self._source_map, self._kept, tried)
+        error.__cause__ = self._broken
+        return error
 
     def _own(self, name: str, default: Any, domain: Domain | None) -> Any:
         path = f"{self._path}.{name}" if self._path else name
-        # Draws of the scenario that runs go in the order of declaration.
-        generator = self._draws_for(f"{self._key}/{name}") if self._path else self._generator
+        generator = self._draws_for(f"{self._key}/{name}")
         given = self._arguments.get(name)
         value = self._choose(name, path, default, domain, generator, given)
         self.parameters[name] = self._shared[path] = value
@@ -263,19 +264,29 @@ class ScenarioValues:
         path: str,
         default: Any,
         domain: Domain | None,
-        generator: random.Random,
+        generator: Draws,
         given: Any,
     ) -> Any:
         chosen = self.settings.set
+        if self.settings.draws is not None:
+            generator = self.settings.draws(path)
         is_open = given is None and path not in chosen
-        self._draws |= isinstance(default if is_open else given, Range | Choice)
+        if isinstance(default if is_open else given, Range | Choice):
+            self._draws = self._first.is_drawn = True
         try:
             return choose(path, default, domain, generator, given=given, settings=chosen)
         except ScenarioError as error:
             error.source = error.source or self._source_map.of_field(name)
             raise
 
-    def _draws_for(self, what: str) -> random.Random:
-        """Return draws that depend on the seed and on what is drawn, not on an order."""
+    def _draws_for(self, what: str) -> Draws:
+        """Return draws that depend on the seed and on what is drawn, not on an order.
+
+        But draws of the scenario that runs go in the order of declaration.
+        """
+        if self._walk is not None:
+            return self._walk.draws_for(what)
+        if not self._path and not what.startswith("global/"):
+            return self._generator
         again = f"/{self._attempt}" if self._attempt else ""
-        return random.Random(f"{self.settings.seed}/{what}{again}")
+        return random.Random(f"{self.settings.draws_from}/{what}{again}")

@@ -25,9 +25,11 @@ _REACH = 4.5  # m: a point registers in every cell within this reach
 _HALF_ROAD = 500.0  # m: an absurd width must not fill the memory
 _WIDE = 2.0  # m beyond the outermost lanes
 _MOST = 64  # samples of a stretch
+_WIDEST = 64  # tiles along the edge of the box of a stretch; what is wider counts as everywhere
 
 _Cell = tuple[int, int]
 _Near = list[tuple[Road, float]]
+_Box = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +51,7 @@ class RoadIndex:
         roads: The roads, in their numeric order.
     """
 
-    __slots__ = ("_cells", "_roads", "_stretches", "_tiles")
+    __slots__ = ("_cells", "_everywhere", "_roads", "_stretches", "_tiles")
 
     def __init__(self, roads: Iterable[Road]) -> None:
         self._roads = tuple(roads)
@@ -59,7 +61,11 @@ class RoadIndex:
             for stretch in _stretches(number, road)
         ]
         self._tiles: dict[_Cell, list[_Stretch]] = {}
+        self._everywhere: list[_Stretch] = []
         for stretch in self._stretches:
+            if stretch.radius > 0.5 * _WIDEST * _TILE * _CELL:
+                self._everywhere.append(stretch)
+                continue
             for tile in _touched(stretch):
                 self._tiles.setdefault(tile, []).append(stretch)
         self._cells: dict[_Cell, dict[_Cell, _Near]] = {}
@@ -78,14 +84,15 @@ class RoadIndex:
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Box around the edges of all roads: xmin, ymin, xmax, ymax (m)."""
+        boxes: dict[int, _Box] = {}
         return (
-            -self._farthest(-1.0, 0.0),
-            -self._farthest(0.0, -1.0),
-            self._farthest(1.0, 0.0),
-            self._farthest(0.0, 1.0),
+            -self._farthest(-1, 0, boxes),
+            -self._farthest(0, -1, boxes),
+            self._farthest(1, 0, boxes),
+            self._farthest(0, 1, boxes),
         )
 
-    def _farthest(self, dx: float, dy: float) -> float:
+    def _farthest(self, dx: int, dy: int, boxes: dict[int, _Box]) -> float:
         """How far (m) edges reach in a direction; what cannot reach farther is not sampled."""
 
         def most(stretch: _Stretch) -> float:
@@ -95,11 +102,20 @@ class RoadIndex:
         for stretch in sorted(self._stretches, key=most, reverse=True):
             if most(stretch) < best:
                 break
-            road = self._roads[stretch.number]
-            for i in range(stretch.first, stretch.last + 1):
-                for x, y in _across(road, _place(road, i), 0.0, math.inf):
-                    best = max(best, x * dx + y * dy)
+            box = boxes.get(id(stretch))
+            if box is None:
+                box = boxes[id(stretch)] = self._box(stretch)
+            xs, ys = box
+            best = max(best, *(x * dx + y * dy for x in xs for y in ys))
         return best
+
+    def _box(self, stretch: _Stretch) -> _Box:
+        """Least and greatest x and y (m) of the edges of a stretch."""
+        road = self._roads[stretch.number]
+        places = (_place(road, i) for i in range(stretch.first, stretch.last + 1))
+        points = [point for s in places for point in _across(road, s, 0.0, math.inf)]
+        xs, ys = zip(*points, strict=True)
+        return (min(xs), max(xs)), (min(ys), max(ys))
 
     def _ring(self, cx: int, cy: int, ring: int) -> _Near:
         hits: _Near = []
@@ -113,8 +129,8 @@ class RoadIndex:
         tile = (cx // _TILE, cy // _TILE)
         cells = self._cells.get(tile)
         if cells is None:
-            stretches = self._tiles.get(tile)
-            if stretches is None:
+            stretches = [*self._tiles.get(tile, ()), *self._everywhere]
+            if not stretches:
                 return []
             cells = self._cells[tile] = self._sampled(tile, stretches)
         return cells.get((cx, cy), [])
@@ -159,8 +175,10 @@ def _stretches(number: int, road: Road) -> Iterator[_Stretch]:
     reference = road.reference
     for k, segment in enumerate(reference.segments):
         own = reference.starts[k]
-        begin = own if k > 0 else 0.0
+        begin = max(own, 0.0) if k > 0 else 0.0
         end = reference.starts[k + 1] if k + 1 < len(reference.starts) else road.length
+        if end < 0.0 or begin > road.length:
+            continue  # the road has no place there, whatever its geometry says
         first = math.floor(begin / step) if step > 0.0 else 0
         last = min(math.ceil(end / step), count) if step > 0.0 else count
         for low in range(first, max(last, first + 1), _MOST):

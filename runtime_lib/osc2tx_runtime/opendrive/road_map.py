@@ -275,6 +275,18 @@ class RoadMap:
     def _seams(self) -> tuple[Seam, ...]:
         return seams(self._roads.values())
 
+    def seams_of(self, road: str, lane: int) -> tuple[Seam, ...]:
+        """Those in a lane, at its end and at its begin."""
+        return self._seams_by_lane.get((road, lane), ())
+
+    @cached_property
+    def _seams_by_lane(self) -> Mapping[tuple[str, int], tuple[Seam, ...]]:
+        found: dict[tuple[str, int], tuple[Seam, ...]] = {}
+        for seam in self._seams:
+            for lane in dict.fromkeys(((seam.road, seam.lane), seam.onto)):
+                found[lane] = (*found.get(lane, ()), seam)
+        return found
+
     def bounds(self) -> tuple[float, float, float, float]:
         """Box around all lanes: xmin, ymin, xmax, ymax (m)."""
         return self._bounds

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .lane_advance import wrap
 from .model import DRIVING, Lane, Pose, Road
@@ -36,6 +36,9 @@ class Seam:
         onto: Road and lane that follow; those of the seam itself for a joint inside of a lane.
         gap: Distance (m) of both ends of the centre line.
         turn: Change of heading there (rad), without sign.
+        jump: World x, y (m) and heading (rad) that it adds, in direction of travel.
+        begin: World x, y (m) where the lane goes on behind it.
+        beyond: Roads and lanes that follow those that follow.
     """
 
     road: str
@@ -44,6 +47,9 @@ class Seam:
     onto: tuple[str, int]
     gap: float
     turn: float
+    jump: tuple[float, float, float]
+    begin: tuple[float, float]
+    beyond: tuple[tuple[str, int], ...] = ()
 
     def __str__(self) -> str:
         """Place and size, for people."""
@@ -78,7 +84,8 @@ def _within(lane: Lane) -> Iterator[Seam]:
     for s in sorted(starts):
         if begin + _BEFORE < s < end:
             before, after = lane_pose(lane, s - _BEFORE, 0.0), lane_pose(lane, s, 0.0)
-            yield from _seam(lane, s, (road.id, lane.id), before, after)
+            ends = (before, after) if lane.direction > 0 else (after, before)
+            yield from _seam(lane, s, (road.id, lane.id), *ends)
 
 
 def _onward(lane: Lane) -> Iterator[Seam]:
@@ -87,7 +94,9 @@ def _onward(lane: Lane) -> Iterator[Seam]:
     for onward in lane.successors:
         if onward.section.end > onward.section.begin:
             _, after = _end(onward, at_exit=False)
-            yield from _seam(lane, s, (onward.road.id, onward.id), before, after)
+            for seam in _seam(lane, s, (onward.road.id, onward.id), before, after):
+                beyond = tuple((each.road.id, each.id) for each in onward.successors)
+                yield replace(seam, beyond=beyond)
 
 
 def _end(lane: Lane, *, at_exit: bool) -> tuple[float, Pose]:
@@ -103,6 +112,7 @@ def _end(lane: Lane, *, at_exit: bool) -> tuple[float, Pose]:
 
 def _seam(lane: Lane, s: float, onto: tuple[str, int], before: Pose, after: Pose) -> Iterator[Seam]:
     gap = math.dist(before[:3], after[:3])
-    turn = abs(wrap(after.h - before.h))
-    if gap > SMALLEST_GAP or turn > SMALLEST_TURN:
-        yield Seam(lane.road.id, lane.id, round(s, 3), onto, gap, turn)
+    turn = wrap(after.h - before.h)
+    if gap > SMALLEST_GAP or abs(turn) > SMALLEST_TURN:
+        jump = after.x - before.x, after.y - before.y, turn
+        yield Seam(lane.road.id, lane.id, round(s, 3), onto, gap, abs(turn), jump, after[:2])

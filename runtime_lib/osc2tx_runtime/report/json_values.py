@@ -3,22 +3,45 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
-__all__ = ["Json", "number", "plain", "short", "text"]
+__all__ = ["Json", "is_flat", "number", "plain", "short", "text"]
 
 Json = dict[str, object]
 """A JSON object."""
 
+_LARGEST = 1e12
+"""Beyond it, sums of numbers of a page would leave the range of whole numbers of a browser."""
+
+_DEEPEST = 100
+"""Levels of lists and objects in each other; traces of ours have three."""
+
 
 def number(value: object) -> float | None:
-    """The value as a finite float, None if it is anything else."""
+    """The value as a float that a page can draw, None if it is anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     try:
         result = float(value)
     except OverflowError:
         return None
-    return result if math.isfinite(result) else None
+    return result if abs(result) <= _LARGEST else None
+
+
+def is_flat(value: object) -> bool:
+    """Whether lists and objects are in each other only as deep as functions can follow."""
+    level = [value]
+    for _ in range(_DEEPEST):
+        level = [inner for each in level for inner in _within(each)]
+        if not level:
+            return True
+    return False
+
+
+def _within(value: object) -> Iterable[object]:
+    if isinstance(value, dict):
+        return value.values()
+    return value if isinstance(value, list) else ()
 
 
 def short(value: float, digits: int) -> float | int:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from .action_log import ActionLog
-from .json_values import Json, number, plain, short, text
+from .json_values import Json, is_flat, number, plain, short, text
 from .marks import mark_name
 from .node_list import node_list
 from .surroundings import Surroundings
@@ -17,6 +17,7 @@ __all__ = ["Run", "read_run"]
 
 _FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
 _SIZES = {"length": 1.0, "width": 1.0}
+_BRACKETS = 50  # of a line whose depth is looked at
 _HEADER_KEYS = (
     "version",
     "scenario",
@@ -144,7 +145,8 @@ def read_run(trace_lines: Sequence[str]) -> Run:
             value = json.loads(line)
         except (ValueError, RecursionError):
             value = None
-        if isinstance(value, dict):
+        is_deep = line.count("[") + line.count("{") > _BRACKETS
+        if isinstance(value, dict) and (not is_deep or is_flat(value)):
             run.add(value)
         else:
             run.skipped += 1

@@ -9,6 +9,7 @@ from traceback import format_exc
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.interrupts import INTERRUPTED, as_usual
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.worlds import EMBEDDED, Option, WorldType, find_world
@@ -33,7 +34,6 @@ EXIT_SUCCESS = 0
 EXIT_UNREADABLE = 4
 EXIT_FAILED = 5
 EXIT_BUG = 70
-EXIT_INTERRUPTED = 130  # as shells have it: 128 + SIGINT
 
 
 def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
@@ -48,7 +48,10 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         2 usage, 130 when the user interrupts it, 70 a bug of ours.
     """
     try:
+        as_usual()
         return run(scenarios, sys.argv[1:] if argv is None else argv)
+    except KeyboardInterrupt:  # before the run, after it, or a second one
+        return INTERRUPTED
     except OutputError as error:
         return explain(error)
     except OSError as error:  # the folder that we work in is gone
@@ -79,12 +82,12 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
         result = run_scenario(scenario, settings, progress, keep_trace=False)
     except ScenarioError as error:
         clear_progress(progress)
-        complain(f"{error.source or scenario.source}: error: {error.message}")
+        complain(error.report(scenario.source))
         return error.exit_code
     except KeyboardInterrupt:
         clear_progress(progress)
         complain(f"{scenario.name}: interrupted")
-        return EXIT_INTERRUPTED
+        return INTERRUPTED
     clear_progress(progress)
     for line in verdict(scenario.name, result):
         say(line)

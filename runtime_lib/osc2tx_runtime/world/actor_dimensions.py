@@ -7,6 +7,7 @@ and wheelbases are not published there; they are typical shares of the length (`
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import cast
 
@@ -84,8 +85,10 @@ class Limits:
         acceleration: Largest gain of speed (m/s^2).
         deceleration: Largest loss of speed (m/s^2).
         jerk: Largest change of acceleration (m/s^3).
-        lateral: Largest lateral acceleration of a lane change (m/s^2).
+        lateral: Largest lateral acceleration of a lane change (m/s^2), and comfortable in bends.
         road: What the road has to do with it, for messages: " on a wet road".
+        overturn: Lateral acceleration (m/s^2) at which it tips over; infinite: its tyres slide
+            before.
     """
 
     acceleration: float
@@ -93,13 +96,20 @@ class Limits:
     jerk: float = 10.0
     lateral: float = 3.0
     road: str = ""
+    overturn: float = math.inf
 
 
 TYRES = Limits(RATE_CAP, RATE_CAP)
 """What not even those keep to who need not keep to the limits of their vehicle."""
 
+# Static rollover thresholds: passenger cars slide first (above 1 g), vans and light trucks 0.8 to
+# 1.2 g, loaded heavy vehicles below 0.5 g: C. B. Winkler, R. D. Ervin, Rollover of Heavy Commercial
+# Vehicles (UMTRI-99-19, 1999). 0.4 g is also what several countries ask of tank trucks.
+_LIGHT = 0.8 * 9.80665
+_HEAVY = 0.4 * 9.80665
+
 CAR_LIMITS = Limits(4.0, 8.0)
-TRUCK_LIMITS = Limits(1.5, 6.0, lateral=2.5)
+TRUCK_LIMITS = Limits(1.5, 6.0, lateral=2.5, overturn=_HEAVY)
 BICYCLE_LIMITS = Limits(1.0, 3.0, lateral=2.0)
 PERSON_LIMITS = Limits(1.5, 3.0)
 
@@ -119,7 +129,7 @@ def _box(length: float, width: float, height: float) -> Shape:
 # of `vehicle_category` (DSL 8.7.16) and of the actors.
 CATEGORIES: dict[str, tuple[Shape, Limits]] = {
     "car": (_vehicle(4.6, 1.9, 1.5), CAR_LIMITS),
-    "van": (_vehicle(5.4, 2.0, 2.2), Limits(3.0, 7.0, lateral=2.5)),
+    "van": (_vehicle(5.4, 2.0, 2.2), Limits(3.0, 7.0, lateral=2.5, overturn=_LIGHT)),
     "bus": (_vehicle(12.0, 2.55, 3.2), TRUCK_LIMITS),
     "heavy_truck": (_vehicle(8.5, 2.55, 3.6), TRUCK_LIMITS),
     "semi_tractor": (_vehicle(6.0, 2.55, 3.6), TRUCK_LIMITS),

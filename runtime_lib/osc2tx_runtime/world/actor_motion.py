@@ -34,7 +34,7 @@ from .tracking import Tracking
 __all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
 
 
-@dataclass(slots=True)
+@dataclass
 class CommandedActor(MovingActor):
     """An actor with what it is asked for.
 
@@ -43,7 +43,8 @@ class CommandedActor(MovingActor):
             expected of it.
         tracking: How well it follows, if it was measured.
         motion: How it moves, if that was measured.
-        heading: Heading (rad) of its reference when the friction circle was last looked at.
+        heading: Heading (rad) of its reference when grip was last looked at.
+        aside: Speed across its lane (m/s) then; None off the lanes.
     """
 
     follows: bool = True
@@ -51,6 +52,8 @@ class CommandedActor(MovingActor):
     tracking: Tracking | None = None
     motion: MeasuredMotion | None = None
     heading: float | None = None
+    aside: float | None = None
+    _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold
 
     def progress(self, slot: str) -> Progress:
         """Progress of the command in a slot, by reference and measurement."""
@@ -63,10 +66,15 @@ class CommandedActor(MovingActor):
     @property
     def is_physical(self) -> bool:
         """Whether it moves as its commands want it, and nobody put it there."""
-        return self.follows and not isinstance(self._course, Replay | TimedReplay)
+        if not self.follows or self._unphysical:
+            return False
+        return not isinstance(self._course, Replay | TimedReplay)
 
     def pursue(self, slot: str, command: Command | None, road_map: RoadMap) -> None:
         """Puts the command of a slot to work; None holds the speed, or keeps the lane."""
+        self._unphysical.discard(slot)
+        if command is not None and command.unphysical:
+            self._unphysical.add(slot)
         if not self.follows:
             self._expected[slot] = expected(command, self.state, road_map, self.route)
         elif slot == LONGITUDINAL:
@@ -126,15 +134,18 @@ class CommandedActor(MovingActor):
         here, rate = state.lane_position or self.bound, state.lateral_speed
         if returned:
             here, rate = self.bound, state.v * math.sin(turn_from(road_map, self.bound, state))
+        before = self.bound
         self.bound, self._side = lateral_of(
             command,
             road_map,
-            self.bound,
+            before,
             here,
             (state.x, state.y, rate),
             self._side,
             self.limits,
         )
+        if self.bound is not before:
+            self.residual = None  # it counts from where it is
 
     def _pursue_heading(self, command: Command | None) -> None:
         self._turning = Turning(command) if isinstance(command, Turn) else None

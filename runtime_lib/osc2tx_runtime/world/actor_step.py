@@ -10,7 +10,7 @@ from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
 from .actor_dimensions import TYRES, Limits
 from .attitude import LEVEL, Tilt, tilt_on
 from .attitude_control import Turning
-from .commands import SpeedChange
+from .commands import SpeedChange, Standstill
 from .curve_following import Course, Steering
 from .friction import held_by
 from .friction_circle import Wheels, curvature_ahead
@@ -27,6 +27,7 @@ from .longitudinal import Longitudinal, longitudinal_of
 from .position_control import PlacedRun
 from .protocol import ActorSpec
 from .route_following import Way
+from .seam_smoothing import Residual, crossed
 from .state import ActorState
 from .step_inputs import StepInputs
 
@@ -54,7 +55,7 @@ _STILL = 1e-9  # m/s
 _ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 
-@dataclass(slots=True)
+@dataclass
 class MovingActor:
     """An actor over its steps, with its commands at work.
 
@@ -71,6 +72,7 @@ class MovingActor:
         tilt: Pitch and roll that it was told; wheels that roll forget them.
         left: Where it was in its lane before the last step.
         home: Lane that it returns to; None: it is in one, or goes to none.
+        residual: What seams of the map have left it beside its lane; None: nothing.
     """
 
     spec: ActorSpec
@@ -84,6 +86,8 @@ class MovingActor:
     tilt: Tilt = LEVEL
     left: LanePosition | None = None
     home: LanePosition | None = None
+    residual: Residual | None = None
+    _stopping: Longitudinal | None = None  # behind the end of its lane
     _course: Course | None = None
     _way: Way | None = None
     _speed: Longitudinal | None = None
@@ -110,8 +114,9 @@ class MovingActor:
         if self._course is not None and self._speed is None and state.v == 0.0:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
-        speed = state.v if self._speed is None else self._speed.speed_after(state, inputs)
-        path = self._speed.path if isinstance(self._speed, PlacedRun) else None
+        run = self._stopping or self._speed
+        speed = state.v if run is None else run.speed_after(state, inputs)
+        path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.limited:
             way = curvature_ahead(road_map, self.bound, self.route)
             speed = self.wheels.held(speed, state, way, dt)
@@ -143,14 +148,16 @@ class MovingActor:
             return self._standing(speed, dt)
         along = path if aside == 0.0 else math.copysign(math.sqrt(max(path**2 - aside**2, 0)), path)
         if along:
+            if self.residual is not None:
+                along *= self.residual.share
             if self._way is not None:
                 self._way.look(bound, along)
             ahead = road_map.advance(bound, along, self.route)
             place = ahead.position
             if abs(ahead.travelled - along) > 1e-6:
-                speed = self._stop_at_end(place)
-            else:
-                self.blocked = None
+                return self._over_the_end(place, along - ahead.travelled, speed, road_map, dt)
+            self.blocked = None
+            self._cross(place, along, speed, road_map)
         else:
             place = bound
         if offset != place.offset:
@@ -165,12 +172,32 @@ class MovingActor:
             return state
         return state._replace(v=speed, a=a, lateral_speed=0.0)
 
-    def _stop_at_end(self, place: LanePosition) -> float:
+    def _cross(self, place: LanePosition, along: float, speed: float, road_map: RoadMap) -> None:
+        """Takes with it what the seams up to a place leave, and lets it run out."""
+        bound = self.bound
+        assert bound is not None
+        if self.residual is not None and not self.residual.driven(along):
+            self.residual = None
+        self.residual = crossed(
+            road_map, bound, place, self.residual, math.copysign(speed, along), self.limits.lateral
+        )
+
+    def _over_the_end(
+        self, place: LanePosition, rest: float, speed: float, road_map: RoadMap, dt: float
+    ) -> ActorState:
+        """Goes straight on behind the end of its lane, and brakes there."""
         self.blocked = (
             f"{self.spec.id} has come to the end of lane {place.lane} of road {place.road}"
         )
-        self._speed = None
-        return 0.0
+        end = road_map.pose(place)
+        if self.residual is not None:
+            end = self.residual.on(end)
+        self.unbind()
+        self._stopping = longitudinal_of(
+            Standstill(), self.reference._replace(v=speed), self.limits
+        )
+        pose = Pose(end.x + rest * math.cos(end.h), end.y + rest * math.sin(end.h), end.z, end.h)
+        return self.free_state(pose, speed, (speed - self.reference.v) / dt, road_map)
 
     def on_lane(
         self, bound: LanePosition, speed: float, rate: float, a: float, road_map: RoadMap
@@ -185,7 +212,11 @@ class MovingActor:
             road_map: The map.
         """
         pose = road_map.pose(bound)
-        h = pose.h
+        h, residual = pose.h, self.residual
+        if residual is not None:
+            pose = residual.on(pose)
+            h += math.atan(residual.slope)
+            bound = bound._replace(offset=bound.offset + residual.aside)
         if rate and abs(speed) > _STILL:
             h += math.asin(min(max(rate / speed, -SIDEWAYS), SIDEWAYS))
             h = math.pi - (math.pi - h) % math.tau
@@ -193,6 +224,9 @@ class MovingActor:
             h = self.reference.h  # standing half way through a lane change
         under = lane_under(road_map, bound, pose) if bound.offset else bound
         pitch, roll = self._tilted(pose, h)
+        if residual is not None:
+            h = math.pi - (math.pi - h) % math.tau
+            rate += residual.drift(speed)
         return ActorState(
             pose.x, pose.y, pose.z, h, speed, a, under, rate, self.spec.shape, pitch, roll
         )
@@ -278,6 +312,7 @@ class MovingActor:
     def unbind(self) -> None:
         """Is on no lane any more, and goes straight on."""
         self.bound, self._course, self.home = None, None, None
+        self.residual = self._stopping = None
 
     def turn_away(self) -> None:
         """Is turned by force: a vehicle goes back to its lane from there."""
@@ -288,5 +323,6 @@ class MovingActor:
         """State after a jump to a place on a lane."""
         self.bound, self.left, self.blocked, self.tilt = bound, None, None, LEVEL
         self._course, self.home, self._astray = None, None, False
+        self.residual = self._stopping = None
         self._side = HoldOffset()
         return self.on_lane(bound, speed, 0.0, 0.0, road_map)

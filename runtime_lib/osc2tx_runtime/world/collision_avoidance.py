@@ -1,9 +1,10 @@
-"""Collision avoidance (intelligent driver model) and stopping at red lights.
+"""Collision avoidance (intelligent driver model), slowing down for bends, stopping at red lights.
 
 For others ahead: the interaction term of the intelligent-driver model. The acceleration is at most
 a (1 - (g*/g)^2) with the wanted gap g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being
-comfortable values of the actor. For lights see `red_lights`. With a free road the inner command
-acts unchanged, so its closed forms stay exact. Deterministic; reads the snapshot only.
+comfortable values of the actor. For bends see `bends_ahead`, for lights `red_lights`. On a free and
+straight road the inner command acts unchanged, so its closed forms stay exact. Deterministic; reads
+the snapshot only.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class Hold:
 
 
 class Cautious:
-    """Another command, slowed down behind others and before red lights.
+    """Another command, slowed down behind others, for bends and before red lights.
 
     While it is slower than the inner command wants, that one's time goes on; afterwards the actor
     gains speed with a comfortable acceleration until it has caught up with the wanted speed.
@@ -70,11 +71,11 @@ class Cautious:
         self._inner = inner or Hold(speed)
         self._headway, self._gap = command.headway, command.gap
         self._limits = limits
-        self._lights = RedLights(limits, route)
+        self._lights, self._route = RedLights(limits, route), route
         self._held = False
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
-        """The inner speed, or what others and lights leave room for."""
+        """The inner speed, or what others, bends and lights leave room for."""
         speed = wanted = self._inner.speed_after(me, inputs)
         found = inputs.obstacle(me)
         if found is not None or self._held:
@@ -82,6 +83,9 @@ class Cautious:
             if found is not None:
                 rise = max(self._acceleration(me.v, found), -self._limits.deceleration)
             speed = min(wanted, max(me.v + rise * inputs.dt, 0.0))
+        hardest = max(me.v - self._limits.deceleration * inputs.dt, 0.0)
+        if me.shape.wheelbase:
+            speed = min(speed, max(inputs.bend(me, self._route, self._limits), hardest))
         speed = self._lights.allowed(me, speed, inputs)
         self._held = speed < wanted
         return speed

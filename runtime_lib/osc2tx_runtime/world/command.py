@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 __all__ = ["Command"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Command:
-    """Base of all commands. Two commands are the same only if they are one object."""
+    """Base of all commands. Two commands are the same only if they are one object.
+
+    Attributes:
+        unphysical: Physics need not hold while it is at work.
+    """
+
+    unphysical: bool = field(default=False, kw_only=True)

@@ -12,6 +12,7 @@ from .actor_dimensions import Limits
 from .actor_motion import CommandedActor
 from .anchoring import arrive
 from .attitude import LEVEL, Tilt
+from .bends_ahead import BendsAhead
 from .checked_plant import CheckedPlant
 from .commands import Command, Standstill
 from .contacts import Contacts
@@ -20,7 +21,7 @@ from .deviation import Deviation
 from .distances import along_lanes, lateral_on_road
 from .feasibility import FrictionWatch
 from .features import Feature
-from .friction import grip
+from .friction import GRAVITY, adhesion_of, grip
 from .kinematics import Motion, Track
 from .obstacles import nearest_ahead
 from .overload import Overload
@@ -67,6 +68,7 @@ class EmbeddedWorld:
         self.dt = dt
         self.signals = Signals(road_map)
         self._stop_lines = StopLines(road_map, self.signals)
+        self._bends = BendsAhead(road_map)
         self._specs: dict[str, ActorSpec] = {}
         self._cast: dict[str, CommandedActor] = {}
         self._changes: dict[str, StateChange] = {}
@@ -151,7 +153,8 @@ class EmbeddedWorld:
     def motion(self, actor: str) -> Motion:
         """Velocity and acceleration of an actor at the present step, in its own axes."""
         member = self._member(actor)
-        return member.motion or self._track.of(actor, member.state, self.dt)
+        lies = member.tilt is LEVEL and member.state.lane_position is not None
+        return member.motion or self._track.of(actor, member.state, self.dt, lies=lies)
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
         """Where an actor would be after some time if it went on in its lane at its speed."""
@@ -178,6 +181,11 @@ class EmbeddedWorld:
             return None
         sight = me.shape.front + self._surroundings.sight
         return self._stop_lines.ahead(place, route, me.shape.front, min(reach, sight))
+
+    def bend(self, me: ActorState, route: Route | None, limits: Limits) -> float:
+        """Speed (m/s) at the next step at which a driver approaches the bends ahead."""
+        most = adhesion_of(self._surroundings.road) * GRAVITY
+        return self._bends.fastest(me, route, limits, most, me.v * self.dt)
 
     def grip(self, me: ActorState) -> float:
         """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""

@@ -6,6 +6,7 @@ from typing import Protocol
 
 from osc2tx_runtime.opendrive import Route
 
+from .actor_dimensions import Limits
 from .state import ActorState
 from .stop_lines_ahead import StopLine
 
@@ -38,6 +39,9 @@ class StepInputs(Protocol):
 
     def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
         """First line within so many metres at which a light asks to stop; None if none does."""
+
+    def bend(self, me: ActorState, route: Route | None, limits: Limits) -> float:
+        """Speed (m/s) at the next step at which a driver approaches the bends ahead."""
 
     def grip(self, me: ActorState) -> float:
         """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""

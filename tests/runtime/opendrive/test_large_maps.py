@@ -63,6 +63,23 @@ def test_bounds_sample_the_rim_of_the_map() -> None:
     assert work(16) < 3.0 * work(8)  # four times as many roads, twice as many at the rim
 
 
+@pytest.mark.parametrize("starts", [(0.0, 1e8), (-1e9, -9e8), (-5.0, 200.0), (0.0, LENGTH)])
+def test_geometry_beyond_the_road_is_not_looked_at(starts: tuple[float, float]) -> None:
+    pieces = "".join(shape("line", LENGTH, s=s) for s in starts)
+
+    def ask() -> None:
+        made = make_map(road_text(pieces, LENGTH))
+        made.locate(10.0, -1.0)
+        made.bounds()
+
+    assert calls(ask) < 20_000
+
+
+def test_stretches_as_wide_as_the_world_are_in_no_tile() -> None:
+    poly = 'paramPoly3 aU="0" bU="1e9" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"'
+    assert calls(lambda: make_map(road_text(shape(poly, 400.0), LENGTH)).locate(9.0, 0.0)) < 50_000
+
+
 def test_a_search_looks_no_farther_than_the_goal() -> None:
     road_map = chain(200)
     begin = LanePosition("3", -1, 10.0)

@@ -345,4 +345,3 @@ def test_the_end_of_the_lane(run: Run) -> None:
 
     done = run(End, spawn={"a": ("1", -3, 1980.0)})
     assert "a has come to the end of lane -3 of road 1" in done.result.reason
-    assert done.states("a")[-1]["v"] == 0.0

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from osc2tx_runtime import Behaviour, RunSettings, Serial, run_scenario
-from osc2tx_runtime.modifiers import physical_movement
+from osc2tx_runtime import Behaviour, Map, RunSettings, Serial, Vehicle, run_scenario
+from osc2tx_runtime.modifiers import lane, physical_movement, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.running.main import verdict
 from osc2tx_runtime.world import EmbeddedWorld
-from osc2tx_runtime.world.commands import SpeedChange
+from osc2tx_runtime.world.actor_dimensions import limits_of
+from osc2tx_runtime.world.commands import LaneChange, SpeedChange
 from osc2tx_runtime.world.friction import ADHESION, DRY_ADHESION, GRAVITY
 from osc2tx_runtime.world.plant import Plant
 from osc2tx_runtime.world.protocol import LONGITUDINAL
-from tests.runtime.opendrive.small_maps import one_road
+from tests.runtime.opendrive.small_maps import map_text, one_road, road_text, shape
 from tests.runtime.world.following_plant import FollowingPlant
 from tests.runtime.world.two_cars import TwoCars, scenario
 
@@ -145,3 +149,110 @@ def jump(s: TwoCars) -> Behaviour:
 
 def test_what_is_not_physical_is_left_out() -> None:
     assert not run_scenario(scenario(jump), RunSettings()).warnings
+
+
+# --- what each vehicle can do, and what is asked of it --------------------------------------------
+
+
+@pytest.mark.parametrize(("category", "most"), [("car", DRY), ("bus", 0.4 * GRAVITY)])
+@pytest.mark.parametrize("factor", [0.97, 1.05])
+def test_what_stands_high_tips_over_before_it_slides(
+    circle: RoadMap, make_spec: Callable[..., Any], category: str, most: float, factor: float
+) -> None:
+    """A loaded bus tips over at 0.4 g; the radius that is named is the one that is driven."""
+    v = factor * math.sqrt(most * LANE)
+    world = EmbeddedWorld(circle, DT)
+    world.add(replace(make_spec("a"), limits=limits_of("vehicle", category)))
+    world.place("a", LanePosition("1", -1, 1.0), v)
+    steps(world, 2.0)
+    assert bool(world.overloads()) == (factor > 1.0)
+    for found in world.overloads():
+        assert found.limit == most
+        assert f"a radius of {v * v / found.across:.1f} m" in str(found)
+        assert v * v / found.across == pytest.approx(LANE, rel=0.01)
+        assert ("tips over" in str(found)) == (category == "bus")
+
+
+def test_a_place_is_named_once(make_spec: Callable[..., Any]) -> None:
+    """However often it comes by; what is worst is kept."""
+    bend = one_road(f'arc curvature="{1.0 / RADIUS}"', 40.0)
+    world = driven(bend, make_spec, 1.1 * math.sqrt(DRY * LANE))
+    for _ in range(3):
+        steps(world, 1.0)
+        world.assign("a", at=LanePosition("1", -1, 1.0), speed=1.0)
+        steps(world, 2.0)
+        world.assign("a", at=LanePosition("1", -1, 1.0), speed=1.15 * math.sqrt(DRY * LANE))
+    (found,) = world.overloads()
+    assert found.again == 2
+    assert "and 2 times more" in str(found)
+
+
+SIDES = {"constant": 1, "smooth": 0, "none": 0, "asap": 0}
+
+
+@pytest.mark.parametrize("profile", SIDES)
+@pytest.mark.parametrize("dt", [0.05, 0.01])
+def test_a_lateral_speed_at_once_is_named(
+    highway: RoadMap, make_spec: Callable[..., Any], profile: Any, dt: float
+) -> None:
+    """At a constant rate a lane change has a corner at each end, whatever the step."""
+    world = EmbeddedWorld(highway, dt)
+    world.add(make_spec("a"))
+    world.place("a", LanePosition("1", -2, 100.0), 20.0)
+    world.command("a", "lateral", LaneChange(1, profile=profile, duration=3.5))
+    for _ in range(round(5.0 / dt)):
+        world.step()
+    found = world.overloads()
+    assert len(found) == SIDES[profile]
+    for each in found:
+        assert abs(each.across) == pytest.approx(1.0, abs=0.02)
+        assert "its speed across the lane changes by 1.00 m/s at once" in str(each)
+
+
+class OnACircle(TwoCars):
+    """Two cars on a sharp bend."""
+
+    speeds = (20.0, 5.0)
+
+    def declare(self) -> None:
+        self.road = Map(map_file="circle")
+        self.a, self.b = Vehicle(), Vehicle()
+
+    def placement(self) -> None:
+        self.place(self.a, lane(1), position(distance=2.0), speed(self.speeds[0]))
+        self.place(self.b, lane(1), position(distance=60.0), speed(self.speeds[1]))
+
+
+@pytest.fixture
+def on_a_circle(tmp_path: Path) -> Callable[..., Any]:
+    """Run a body on a road with a radius of 20 m."""
+    text = road_text(shape(f'arc curvature="{1.0 / RADIUS}"', 120.0), 120.0)
+    (tmp_path / "circle.xodr").write_text(map_text(text), encoding="utf-8")
+
+    def run(body: Callable[[TwoCars], Behaviour]) -> Any:
+        made = type("Made", (OnACircle,), {"behavior": lambda self: body(self)})
+        return run_scenario(made, RunSettings(map_path=(tmp_path,)))
+
+    return run
+
+
+def test_who_must_be_physical_fails(on_a_circle: Callable[..., Any]) -> None:
+    """With place, speed, radius and figure; others are only warned of."""
+
+    def option(name: Any) -> Callable[[TwoCars], Behaviour]:
+        return lambda s: s.a.follow_lane(speed(20.0), physical_movement(name), duration=2.0)
+
+    failed = on_a_circle(option("must_be_physical"))
+    assert failed.status == "failure"
+    assert re.search(
+        r"a cannot be driven so: \d+\.\d m/s\^2 across its way at 20\.0 m/s and a radius of"
+        r" \d+\.\d m are more than the 8\.8 m/s\^2 that the dry road holds"
+        r" \(road 1, lane -1, s \d+\.\d m; ",
+        failed.reason,
+    )
+    warned = on_a_circle(option("prefer_physical"))
+    assert warned.status == "success"
+    assert [w for w in warned.warnings if "cannot be driven so" in w]
+    free = on_a_circle(option("prefer_non_physical"))
+    assert free.status == "success"
+    assert not [w for w in free.warnings if "cannot be driven so" in w]

@@ -160,15 +160,26 @@ def test_offset_is_held_after_the_command(car_world: CarWorld) -> None:
     assert history(world, 2.0)[-1].offset == 0.5
 
 
-def test_dead_end_stops_with_a_reason(
+def test_at_a_dead_end_it_brakes_with_a_reason(
     highway: RoadMap, make_spec: Callable[..., ActorSpec]
 ) -> None:
     world = EmbeddedWorld(highway)
     world.add(make_spec("a"))
     world.place("a", LanePosition("1", -2, highway.roads["1"].length - 20.0), 10.0)
-    states = history(world, 4.0)
-    assert states[-1].v == 0.0
-    assert states[-1].s == pytest.approx(highway.roads["1"].length, abs=1e-6)
+    end = highway.pose(LanePosition("1", -2, highway.roads["1"].length))
+    before = world.state("a")
+    for _ in range(100):
+        world.step()
+        now = world.state("a")
+        assert (now.v - before.v) / world.dt >= -8.0 - 1e-9
+        way = math.hypot(now.x - before.x, now.y - before.y)
+        assert way == pytest.approx(0.5 * (now.v + before.v) * world.dt, abs=1e-4)
+        before = now
+    assert now.v == 0.0
+    # Half the speed over v / a + a / jerk; it begins with the step after the end.
+    way = math.hypot(now.x - end.x, now.y - end.y)
+    assert way == pytest.approx(0.5 * 10.0 * (10.0 / 8.0 + 8.0 / 10.0) + 0.5, abs=0.05)
+    assert now.h == end.h
     reason = world.progress("a", LONGITUDINAL).failed
     assert reason == "a has come to the end of lane -2 of road 1"
 

@@ -12,7 +12,7 @@ from osc2tx.diagnostics.render import render_text
 from tests.unit.semantics.support import build_file, build_text
 
 CASES = sorted((Path(__file__).parents[2] / "golden" / "diagnostics").glob("analysis_*"))
-FAMILIES = ("OSC42", "OSC43")
+FAMILIES = ("OSC42", "OSC43", "OSC44")
 Golden = Callable[[str, Path], None]
 
 

@@ -1,5 +1,6 @@
 """Options and inputs that cannot be: one sentence and an exit code that says whose fault it is."""
 
+import json
 import math
 import os
 from collections.abc import Callable
@@ -125,6 +126,28 @@ def test_maps_that_no_file_system_has(tmp_path: Path, name: str) -> None:
 
 def test_traces_that_are_nested_too_deep() -> None:
     assert read_run([DEEP, '{"a":' * 100_000]).skipped == 2
+    for depth in (60, 100, 500, 900, 980):
+        inner = "[" * depth + "1" + "]" * depth
+        lines = [f'{{"kind":"header","scenario":{inner}}}', f'{{"kind":"result","reason":{inner}}}']
+        lines += [f'{{"kind":"event","t":0,"name":{inner}}}']
+        run = read_run(lines)
+        run.as_json()
+        assert run.skipped == (0 if depth < 100 else 3)
+
+
+def test_traces_with_numbers_that_no_page_can_draw() -> None:
+    state = {"kind": "state", "actor": "ego", "y": 0.0}
+    lines = [{**state, "t": t, "x": x} for t, x in enumerate((1.0, 1e308, -1e308, 10**400, 1e13))]
+    run = read_run([json.dumps(line) for line in lines])
+    assert (run.skipped, run.as_json()["duration"]) == (4, 0)
+
+
+@pytest.mark.parametrize("line", ["x = 0x{}", "[scenarios.a.run]\nseed = 0x{}", "out = {}"])
+def test_numbers_of_thousands_of_digits_in_settings(tmp_path: Path, line: str) -> None:
+    drive(tmp_path / "a.osc")
+    write(tmp_path / "osc2tx.toml", line.format("9" * 5000))
+    found = ended(tmp_path, "run", "a.osc")
+    assert (found.code, len(found.err) < 500) == (2, True)
 
 
 # --- the command line ---

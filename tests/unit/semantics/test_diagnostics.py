@@ -13,7 +13,7 @@ from tests.unit.semantics.support import build_file
 
 CASES = sorted((Path(__file__).parents[2] / "golden" / "diagnostics").glob("semantic_*"))
 FAMILIES = ("OSC2", "OSC3", "OSC4", "OSC6")
-ANALYSIS = ("OSC42", "OSC43")  # see tests/unit/analysis
+ANALYSIS = ("OSC42", "OSC43", "OSC44")  # see tests/unit/analysis
 Golden = Callable[[str, Path], None]
 
 

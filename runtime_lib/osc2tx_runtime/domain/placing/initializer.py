@@ -12,7 +12,13 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of, is_behind
+from osc2tx_runtime.domain.placing.start_order import (
+    Start,
+    couple,
+    cycle_of,
+    is_behind,
+    joined,
+)
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
@@ -137,11 +143,8 @@ class ScenarioInitializer:
         """One start per physical actor, in the order of the cast."""
         written: dict[str, Placement] = {}
         for placement in placements:
-            known = written.setdefault(placement.actor.id, placement)
-            if known is not placement:
-                raise PlacementError(
-                    f"{placement.actor.id} is placed already ({known.source})", placement.source
-                )
+            known = written.get(placement.actor.id)
+            written[placement.actor.id] = placement if known is None else joined(known, placement)
         starts = []
         for actor in self._context.actors.values():
             given = written.get(actor.id)
@@ -200,12 +203,14 @@ class ScenarioInitializer:
         moved = [each for each in placed if each is anchor or is_behind(each, anchor, placed)]
         tried = self._tried.setdefault(anchor.actor.id, [])
         for _ in self._world.map.spawn_points():
-            tried.append(self._world.state(anchor.actor.id).lane_position)
+            tried.append(self._centre_of(anchor))
             for each in moved:
                 self._boxes.pop(each.actor.id, None)
             try:
                 self._place(anchor)
             except PlacementError:
+                return False
+            if self._centre_of(anchor) in tried:
                 return False
             try:
                 for each in moved[1:]:
@@ -214,6 +219,11 @@ class ScenarioInitializer:
                 continue
             return True
         return False
+
+    def _centre_of(self, placed: Start) -> LanePosition | None:
+        """Where on the centre of its lane an actor is; None off the lanes."""
+        at = self._world.state(placed.actor.id).lane_position
+        return None if at is None else LanePosition(at.road, at.lane, at.s)
 
     def _is_free(self, actor: PhysicalObject, place: LanePosition) -> bool:
         """Whether nobody is at a place, and it was not tried in vain."""

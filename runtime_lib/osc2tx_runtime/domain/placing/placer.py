@@ -128,7 +128,7 @@ class Placer:
             return self._beside(actor, lane, position, speed)
         along = one_of_kind(modifiers, Along)
         if along is not None:
-            return self._on_route(actor, along, lane, position)
+            return self._on_route(actor, along, lane, position, is_free)
         if now is not None and now.lane_position is not None:
             return self._from_here(actor, now.lane_position, lane, position)
         distance = None if position is None else self._of(position.size())
@@ -217,22 +217,26 @@ class Placer:
         along: Along,
         lane: Lane | None,
         position: Position | None,
+        is_free: Callable[[LanePosition], bool],
     ) -> LanePosition | opendrive.Pose:
-        """Where a route of the map begins, or so far from there."""
+        """Where a route of the map begins, or so far from there; in any lane if none is said."""
         route = along.way
         distance = value_of(along.start_offset)
         distance += 0.0 if position is None else self._of(position.size())
         if isinstance(route, Path) or route.found.kind == "crossing":
             return self._points.on_way(actor, RoutePoint(route, distance))
-        place = graph_of(self._map).begin(route.found)
-        step = self._map.advance(place, distance)
-        if abs(step.travelled - distance) > 1e-6:
-            raise PlacementError(
-                f"{actor.id}: {route.found} ends after {step.travelled:.1f} m, before"
-                f" {distance:g} m"
-            )
-        place = step.position
-        return place if lane is None else self._points.numbered(actor, place, lane)
+        for place in graph_of(self._map).beginnings(route.found):
+            step = self._map.advance(place, distance)
+            if abs(step.travelled - distance) > 1e-6:
+                raise PlacementError(
+                    f"{actor.id}: {route.found} ends after {step.travelled:.1f} m, before"
+                    f" {distance:g} m"
+                )
+            if lane is not None:
+                return self._points.numbered(actor, step.position, lane)
+            if is_free(step.position):
+                return step.position
+        raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
 
     def _from_here(
         self,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -68,7 +69,7 @@ class MotionAction(Action):
             raise Refused(f"{course.target:.1f} m/s is beyond the {TOP_SPEED:g} m/s it can do")
         if getattr(course, "reference", None) == self.actor.id:
             raise Refused(f"{self.actor.id} cannot be its own reference; name another actor")
-        super().command(slot, command)
+        super().command(slot, replace(command, unphysical=True) if self.may_jump else command)
 
     def situation(self) -> str:
         """Return that it stands, which is why things do not come about."""
@@ -103,10 +104,23 @@ class MotionAction(Action):
         """Update; fails with what was found impossible."""
         if self._refused is not None:
             return self.fail(self._refused)
+        excess = self._excess()
+        if excess is not None:
+            return self.fail(excess)
         try:
             return super().update()
         except IMPOSSIBLE as error:
             return self.fail(error.message)
+
+    def _excess(self) -> str | None:
+        """What its actor cannot do of what it has to do since the start, if that must be."""
+        if self.option() != "must_be_physical" or not self.slots:
+            return None
+        since = (self.context.step - self.elapsed_steps + 0.5) * self.context.dt
+        for found in self.world.overloads():
+            if found.actor == self.actor.id and found.last > since:
+                return str(found)
+        return None
 
     def on_update(self) -> Status:
         """Ends with the goal in all slots, fails as soon as one cannot be reached."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 from osc2tx_runtime.domain.routes.lane_types import LaneKind, kind_of_lane
@@ -154,14 +155,17 @@ class LaneGraph:
 
     def begin(self, segment: MapSegment) -> LanePosition:
         """Where a segment begins; on the outermost lane that leads on where it has several."""
+        return next(self.beginnings(segment))
+
+    def beginnings(self, segment: MapSegment) -> Iterator[LanePosition]:
+        """Where a segment begins: on each of its lanes that lead on, from the right."""
         lanes = self._directed(segment.parts[0]) if segment.parts else self.lanes_of(segment)
         onward = [each.road for each in segment.parts[1:2]]
-        leading = (each for each in lanes if self._leads_to(each, onward))
-        first = next(leading, lanes[0])
-        assert first.lane is not None and first.section is not None
-        section = self.map.roads[first.road].sections[first.section]
-        s = section.begin if first.forwards else max(section.end - _INSIDE, section.begin)
-        return LanePosition(first.road, first.lane, s)
+        for first in [each for each in lanes if self._leads_to(each, onward)] or lanes:
+            assert first.lane is not None and first.section is not None
+            section = self.map.roads[first.road].sections[first.section]
+            s = section.begin if first.forwards else max(section.end - _INSIDE, section.begin)
+            yield LanePosition(first.road, first.lane, s)
 
     def _directed(self, part: MapSegment) -> tuple[MapSegment, ...]:
         """Lanes at the begin of a part of a route, in its direction."""

@@ -15,10 +15,11 @@ from itertools import islice
 from types import CodeType
 from typing import Any
 
-__all__ = ["call_arguments", "function_text"]
+__all__ = ["call_arguments", "failing_part", "function_text"]
 
 RUNTIME = __name__.partition(".")[0]
 MAX_LENGTH = 90
+MEMBER = re.compile(r" {8}self\.(\w+)")  # a statement of a method
 
 Position = tuple[int | None, int | None, int | None, int | None]
 
@@ -47,6 +48,34 @@ def function_text(function: Callable[..., object]) -> str:
     position = (first[0], last[0], first[1], last[1])
     text = _text(code, getattr(function, "__globals__", {}), position)
     return _shorten(re.sub(r"^lambda[^:]*: ", "", text)) or "condition"
+
+
+def failing_part(error: BaseException) -> tuple[str, str]:
+    """Return the expression of a module that raised an error, and the member that it computes.
+
+    The member is `keep` for a demand, a name for what is given one; both may be empty.
+    """
+    text = member = ""
+    trace = error.__traceback__
+    while trace is not None:
+        code, names = trace.tb_frame.f_code, trace.tb_frame.f_globals
+        if _package(names) != RUNTIME:
+            position = next(islice(code.co_positions(), trace.tb_lasti // 2, None))
+            text = _shorten(_text(code, names, position))
+            if code.co_name == "declare":
+                member = _member_at(code.co_filename, trace.tb_lineno, names)
+        trace = trace.tb_next
+    return text, member
+
+
+def _member_at(file: str, line: int, names: dict[str, Any]) -> str:
+    """Return the member that the statement at a line begins with."""
+    while line > 0:
+        found = MEMBER.match(linecache.getline(file, line, names))
+        if found is not None:
+            return found[1]
+        line -= 1
+    return ""
 
 
 def _package(names: dict[str, Any]) -> str:

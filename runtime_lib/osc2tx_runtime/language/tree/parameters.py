@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.tree.walks import Draws
 
 __all__ = [
     "Choice",
@@ -47,7 +47,7 @@ class Range(Generic[NumberT]):
         """Whether both bounds are finite."""
         return math.isfinite(self.low) and math.isfinite(self.high)
 
-    def draw(self, generator: random.Random) -> NumberT:
+    def draw(self, generator: Draws) -> NumberT:
         """Return a value; a whole number if both bounds are."""
         if isinstance(self.low, int) and isinstance(self.high, int):
             return generator.randint(self.low, self.high)
@@ -78,7 +78,7 @@ class Choice(Generic[ValueT]):
         """Whether one can be drawn: always."""
         return True
 
-    def draw(self, generator: random.Random) -> ValueT:
+    def draw(self, generator: Draws) -> ValueT:
         """Return one of the values."""
         return generator.choice(self.values)
 
@@ -125,7 +125,7 @@ def choose(
     name: str,
     default: Any,
     domain: Domain | None,
-    generator: random.Random,
+    generator: Draws,
     *,
     given: Any = None,
     settings: Mapping[str, float | str],
@@ -172,7 +172,7 @@ def choose(
     return value
 
 
-def draw(name: str, given: Domain, domain: Domain | None, generator: random.Random) -> Any:
+def draw(name: str, given: Domain, domain: Domain | None, generator: Draws) -> Any:
     """Return a value from what the caller gives and the scenario allows.
 
     Raises:

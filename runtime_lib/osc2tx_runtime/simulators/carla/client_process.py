@@ -71,7 +71,8 @@ class ClientProcess:
             if number == self._number:  # an earlier one was interrupted
                 break
         if kind == "bug":
-            raise RuntimeError(f"in the process of CARLA's client library: {value}")
+            last = str(value).strip().rpartition("\n")[2]  # of a traceback
+            raise SimulatorError(f"in the process of CARLA's client library: {last}")
         if kind == "error":
             raise SimulatorError(f"CARLA: {value}")
         return value

@@ -1,0 +1,165 @@
+"""Driving over seams of the map: lanes that do not go on where they end, or in another direction.
+
+Who comes to one stays where it is and keeps its heading. What it is then beside its lane, and
+turned against it, goes back to nothing along a quintic over the way driven, so the same course
+comes at any speed and any length of a step. It stays near the centre of the lane: where a kink is
+so sharp that this takes more than the grip of the vehicle, the motion is reported like any other.
+"""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Seam
+
+from .profiles import Quintic
+
+__all__ = ["Residual", "crossed"]
+
+_LEAST_WAY = 5.0  # m over which the smallest seam is smoothed
+_ROOM = 0.4  # m that a kink may carry one out of the centre
+_CURVE = 5.8  # peak of the second derivative of a quintic, in units of change / duration^2
+_BEND = 4.0  # the same from a slope, in units of slope / duration
+_SWING = 0.2  # how far a slope carries, in units of slope * duration
+_MOST = 1.2  # rad of a turn that is smoothed; sharper ones are corners
+
+Jump = tuple[float, float, float]
+"""World x, y (m) and heading (rad) that a seam adds."""
+
+
+class Residual:
+    """What is left of the seams behind an actor.
+
+    Attributes:
+        along: Metres before its place in the lane.
+        aside: Metres left of it.
+        slope: Tangent of the angle at which it is turned to the left.
+
+    Args:
+        along: The first of these, at the seam.
+        aside: The second.
+        slope: The third.
+        way: Metres over which it is to vanish.
+        sense: 1 for who drives forwards, -1 backwards.
+    """
+
+    def __init__(self, along: float, aside: float, slope: float, way: float, sense: float) -> None:
+        self._along = Quintic(along, 0.0, way)
+        self._aside = Quintic(aside, 0.0, way, sense * slope)
+        self._way, self._sense = way, sense
+        self._driven = 0.0
+        self.along, self.aside, self.slope = along, aside, slope
+
+    def driven(self, path: float) -> bool:
+        """Goes so many metres on; returns whether anything is left."""
+        self._driven += abs(path)
+        at = self._driven
+        self.along, self.aside = self._along.value(at), self._aside.value(at)
+        self.slope = self._sense * self._aside.rate(at)
+        return at < self._way
+
+    @property
+    def share(self) -> float:
+        """Metres along the lane for each metre driven."""
+        return 1.0 / math.hypot(1.0, self.slope)
+
+    def drift(self, speed: float) -> float:
+        """Speed (m/s) to the left that comes of it."""
+        return speed * self.slope * self.share
+
+    def on(self, pose: Pose) -> Pose:
+        """The pose of one who is to be at another one."""
+        c, n = math.cos(pose.h), math.sin(pose.h)
+        return pose._replace(
+            x=pose.x + self.along * c - self.aside * n, y=pose.y + self.along * n + self.aside * c
+        )
+
+
+def crossed(
+    road_map: RoadMap,
+    before: LanePosition,
+    after: LanePosition,
+    residual: Residual | None,
+    speed: float,
+    comfort: float,
+) -> Residual | None:
+    """What is left behind the seams between two places of a step; the same if there are none.
+
+    Args:
+        road_map: The map.
+        before: Place in the lane at its begin.
+        after: Place at its end.
+        residual: What was left before.
+        speed: m/s.
+        comfort: Lateral acceleration (m/s^2) that is comfortable.
+    """
+    seams = _between(road_map, before, after, backwards=speed < 0.0)
+    if not seams:
+        return residual
+    here = road_map.pose(after)
+    jump = _jump(seams, here, backwards=speed < 0.0)
+    c, n = math.cos(here.h), math.sin(here.h)
+    along, aside = -(jump[0] * c + jump[1] * n), jump[0] * n - jump[1] * c
+    turn = jump[2]
+    angle = -turn if abs(turn) <= _MOST else 0.0
+    if residual is not None:
+        c, n = math.cos(turn), math.sin(turn)
+        along += residual.along * c + residual.aside * n
+        aside += residual.aside * c - residual.along * n
+        angle += math.atan(residual.slope)
+    slope = math.tan(min(max(angle, -_MOST), _MOST))
+    rate = abs(speed * slope)
+    time = max(math.sqrt(_CURVE * abs(aside) / comfort), _BEND * rate / comfort)
+    if rate:
+        time = min(time, max(_ROOM / (_SWING * rate), math.sqrt(_CURVE * abs(aside) / comfort)))
+    way = max(abs(speed) * time, _LEAST_WAY if rate < 1.0 else 0.0)
+    return Residual(along, aside, slope, way, math.copysign(1.0, speed))
+
+
+def _between(
+    road_map: RoadMap, before: LanePosition, after: LanePosition, *, backwards: bool
+) -> list[Seam]:
+    """The seams of a step."""
+    here, there = (before.road, before.lane), (after.road, after.lane)
+    left, come = road_map.seams_of(*here), road_map.seams_of(*there)
+    if not left and not come:
+        return []
+    ahead = (road_map.travel_direction(*here) > 0) != backwards
+    return [
+        seam
+        for seam in dict.fromkeys((*left, *come))
+        if _is_between(seam, before, after, ahead=ahead, backwards=backwards)
+    ]
+
+
+def _jump(seams: list[Seam], here: Pose, *, backwards: bool) -> Jump:
+    """What seams add, for one who has come from them to a pose.
+
+    Who goes on straight behind a kink is beside the lane by the time the step is over.
+    """
+    sign = -1.0 if backwards else 1.0
+    x = y = h = 0.0
+    for seam in seams:
+        dx, dy, turn = (sign * each for each in seam.jump)
+        begin = seam.begin
+        if backwards:
+            begin = begin[0] + dx, begin[1] + dy
+        drift = sign * math.dist(begin, here[:2]) * math.tan(min(max(turn, -_MOST), _MOST))
+        x, y, h = x + dx - drift * math.sin(here.h), y + dy + drift * math.cos(here.h), h + turn
+    return x, y, h
+
+
+def _is_between(
+    seam: Seam, before: LanePosition, after: LanePosition, *, ahead: bool, backwards: bool
+) -> bool:
+    """Whether a step goes over a seam of its lanes."""
+    here, there, own = (before.road, before.lane), (after.road, after.lane), (seam.road, seam.lane)
+    if seam.onto != own:
+        out, into = (there, here) if backwards else (here, there)
+        return own == out and (seam.onto == into or into in seam.beyond)
+    if here == there:
+        low, high = min(before.s, after.s), max(before.s, after.s)
+        return own == here and low < seam.s <= high
+    if own == here:  # left behind on the way out
+        return seam.s > before.s if ahead else seam.s <= before.s
+    return False

@@ -1,0 +1,83 @@
+"""Looks for motion that cannot be: jumps of places, courses beside the heading, lateral loads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+__all__ = ["SMOOTHING", "Instant", "Worst", "scan", "scan_lines"]
+
+_CREEP = 0.02  # m of a step from which on it has a course
+SMOOTHING = 0.1
+"""Seconds over which yaw rates are looked at: maps have small kinks where roads join."""
+
+
+class Worst(NamedTuple):
+    """The worst of one actor over a run.
+
+    Attributes:
+        jump: Metres between the way of a step and what the speed makes of it.
+        course: Radians between the way of a step and the heading.
+        across: m/s^2: speed times smoothed yaw rate.
+        along: m/s^2.
+        at: Times (s) of these four.
+    """
+
+    jump: float
+    course: float
+    across: float
+    along: float
+    at: tuple[float, float, float, float]
+
+
+class Instant(NamedTuple):
+    """What is looked at of a state."""
+
+    t: float
+    x: float
+    y: float
+    h: float
+    v: float
+
+
+def scan(history: Sequence[Instant], smoothing: float = SMOOTHING) -> Worst:
+    """The worst of consecutive states of one actor, its yaw rate smoothed over so many seconds."""
+    worst, at, rate = [0.0] * 4, [0.0] * 4, 0.0
+    for before, after in pairwise(history):
+        dt = after.t - before.t
+        turn = _turn(before.h, after.h)
+        rate += dt / (smoothing + dt) * (turn / dt - rate)
+        way = math.hypot(after.x - before.x, after.y - before.y)
+        course = 0.0
+        if way > _CREEP:
+            direction = math.atan2(after.y - before.y, after.x - before.x)
+            course = abs(_turn(before.h + 0.5 * turn, direction))
+            course = min(course, math.pi - course)
+        found = (
+            abs(way - 0.5 * abs(before.v + after.v) * dt),
+            course,
+            abs(rate * after.v),
+            abs(after.v - before.v) / dt,
+        )
+        for i, value in enumerate(found):
+            if value > worst[i]:
+                worst[i], at[i] = value, after.t
+    return Worst(*worst, (at[0], at[1], at[2], at[3]))
+
+
+def scan_lines(
+    lines: Iterable[Mapping[str, Any]], smoothing: float = SMOOTHING
+) -> dict[str, Worst]:
+    """The worst of each actor of a trace."""
+    histories: dict[str, list[Instant]] = {}
+    for line in lines:
+        if line["kind"] == "state":
+            instant = Instant(*(line[name] for name in Instant._fields))
+            histories.setdefault(line["actor"], []).append(instant)
+    return {actor: scan(history, smoothing) for actor, history in histories.items()}
+
+
+def _turn(before: float, after: float) -> float:
+    return math.pi - (math.pi - (after - before)) % math.tau
