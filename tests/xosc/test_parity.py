@@ -77,7 +77,7 @@ def slow_but(path: Path) -> object:
     return path if name(path) in QUICK else pytest.param(path, marks=pytest.mark.slow)
 
 
-@pytest.mark.parametrize("path", map(slow_but, ALL), ids=name)
+@pytest.mark.parametrize("path", list(map(slow_but, ALL)), ids=name)
 def test_exact_is_like_the_world(path: Path) -> None:
     source = given(path)
     for document in scenarios(source):
