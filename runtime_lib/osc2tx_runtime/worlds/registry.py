@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
 from osc2tx_runtime.world.protocol import ControlMode
@@ -46,7 +47,7 @@ def find_world(name: str) -> WorldType:
     return found
 
 
-def _problem_of(found: WorldType) -> str:
+def _problem_of(found: Any) -> str:
     """Return what is wrong with the fields of a world; empty if nothing is."""
     if not isinstance(found.name, str) or not callable(found.make):
         return "a name and a function `make` are missing"
