@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla test test-carla test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla compiled test test-carla test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -39,6 +39,13 @@ demo-carla: $(VENV)/.carla
 $(VENV)/.carla: $(STAMP)
 	$(INSTALL) -e ".[carla-test]"
 	touch $@
+
+# The wheel of the runtime with its hot paths compiled, in dist/, and its traces beside those of the
+# files. From a copy: the extension modules would stand beside the files, and be used instead.
+compiled: $(STAMP)
+	rm -rf build/runtime_lib && mkdir -p build dist && cp -r runtime_lib build/runtime_lib
+	HATCH_BUILD_HOOK_ENABLE_MYPYC=1 $(BIN)/python -m pip wheel --quiet --no-deps -w dist build/runtime_lib
+	OSC2TX_COMPILED=$(abspath dist) $(BIN)/pytest -q tests/packaging/test_compiled.py
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

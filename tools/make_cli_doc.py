@@ -43,9 +43,12 @@ def _section(name: str) -> list[str]:
     context = click.Context(cli, info_name="osc2tx", max_content_width=100)
     command = cli.get_command(context, name)
     assert command is not None
-    inner = click.Context(command, info_name=name, parent=context)
+    return _described(command, click.Context(command, info_name=name, parent=context), "##")
+
+
+def _described(command: click.Command, inner: click.Context, heading: str) -> list[str]:
     usage = command.get_usage(inner).removeprefix("Usage: ")
-    lines = ["", f"## osc2tx {name}", "", "```", usage, "```", ""]
+    lines = ["", f"{heading} {inner.command_path}", "", "```", usage, "```", ""]
     lines += inspect.cleandoc(command.help or "").split("\n")
     rows = [
         record
@@ -56,6 +59,9 @@ def _section(name: str) -> list[str]:
     ]
     lines += ["", "| option | |", "|---|---|"] if rows else []
     lines += [f"| `{_code(option)}` | {_words(help)} |" for option, help in rows]
+    for name, each in command.commands.items() if isinstance(command, click.Group) else ():
+        below = click.Context(each, info_name=name, parent=inner)
+        lines += _described(each, below, f"{heading}#")
     return [line.rstrip() for line in lines]
 
 

@@ -16,7 +16,7 @@ FAMILIES = {
     "5": "Not supported by a backend",
     "6": "Relaxations of a dialect",
     "7": "Suppressions",
-    "8": "Other targets",
+    "8": "Runs",
     "9": "Internal",
 }
 

@@ -37,7 +37,12 @@ class Place:
         """Return the parameter; `None` for what is none, and for what the world changes."""
         path: list[sym.Symbol] = []
         current = expression
-        while isinstance(current, ast.MemberAccess):
+        while isinstance(current, ast.MemberAccess | ast.Cast):
+            if isinstance(current, ast.Cast):  # of an object: it is the same one
+                if not path:
+                    return None
+                current = current.base
+                continue
             symbol = self.model.symbol_of(current)
             if not isinstance(symbol, sym.FieldSymbol) or symbol.is_variable:
                 return None

@@ -34,6 +34,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "check": ("osc2tx.cli.check:check", "Report what is wrong with scenario files."),
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
     "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
+    "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),

@@ -7,10 +7,16 @@ from pathlib import Path
 import click
 
 from osc2tx.building.checks import check_jobs
-from osc2tx.building.jobs import find_jobs
+from osc2tx.building.jobs import find_jobs, run_all
 from osc2tx.cli.options import compile_options, target_options
 from osc2tx.cli.places import sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
+from osc2tx.cli.standard_input import (
+    compilation_of_standard_input,
+    is_standard_input,
+    stdin_filename,
+)
+from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
 
 
@@ -19,12 +25,21 @@ from osc2tx.config import ConfigFiles, GivenOptions
 @compile_options
 @target_options
 @click.option("--no-cache", is_flag=True, help="Check also what is as it was at the last check.")
+@stdin_filename
 @report_options
-def check(paths: tuple[str, ...], given: GivenOptions, no_cache: bool, reporter: Reporter) -> Exit:
+def check(
+    paths: tuple[str, ...],
+    given: GivenOptions,
+    no_cache: bool,
+    stdin_filename: str | None,
+    reporter: Reporter,
+) -> Exit:
     """Report what is wrong with scenario files; folders are searched for .osc files.
 
-    Without PATH, `sources` of the settings file count.
+    Without PATH, `sources` of the settings file count; `-` is standard input.
     """
+    if is_standard_input(paths, stdin_filename):
+        return _check_input(compilation_of_standard_input(stdin_filename, given), reporter)
     paths = sources_or_stated(paths, "check")
     configs = ConfigFiles()
     results = check_jobs(find_jobs(paths, given, configs), remember=not no_cache)
@@ -35,4 +50,13 @@ def check(paths: tuple[str, ...], given: GivenOptions, no_cache: bool, reporter:
     reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
     if any(Path(path).is_dir() for path in paths):
         code = max(code, reporter.warn(configs.unmatched_tables()))
+    return code
+
+
+def _check_input(compilation: Compilation, reporter: Reporter) -> Exit:
+    bugs = run_all([compilation], lambda item: item.check())
+    code, report = reporter.report([compilation], bugs)
+    for entry in compilation.scenarios:
+        reporter.say(f"{compilation.name}: {entry.summary}")
+    reporter.say(f"checked {count_of(1, 'file')}: {found(report)}")
     return code

@@ -12,10 +12,15 @@ from osc2tx.cli.diff_output import print_diff
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.places import sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
+from osc2tx.cli.standard_input import (
+    compilation_of_standard_input,
+    is_standard_input,
+    stdin_filename,
+)
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.support.real_paths import real_path
-from osc2tx_text import complain
+from osc2tx_text import complain, put
 
 
 @click.command()
@@ -23,21 +28,27 @@ from osc2tx_text import complain
 @click.option("--check", "check_only", is_flag=True, help="Write nothing; fail if a file differs.")
 @click.option("--diff", "show_diff", is_flag=True, help="Write nothing; print what would change.")
 @compile_options
+@stdin_filename
 @report_options
 def fmt(
     paths: tuple[str, ...],
     check_only: bool,
     show_diff: bool,
     given: GivenOptions,
+    stdin_filename: str | None,
     reporter: Reporter,
 ) -> Exit:
     """Lay scenario files out in the style of the standard; folders are searched for .osc files.
 
     Tokens and comments stay what they are. Files with syntax errors are not touched. Without PATH,
-    `sources` of the settings file count.
+    `sources` of the settings file count; `-` is standard input, and its text goes to standard
+    output.
     """
     if show_diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
+    if is_standard_input(paths, stdin_filename):
+        compilation = compilation_of_standard_input(stdin_filename, given)
+        return _format_input(compilation, reporter, check_only=check_only, show_diff=show_diff)
     compilations = compile_all(sources_or_stated(paths, "format"), given)
     formatted: dict[Path, str] = {}
 
@@ -60,6 +71,24 @@ def fmt(
     say = complain if show_diff else reporter.say
     say(f"{len(formatted)} of {total} {would}formatted")
     return max(code, Exit.STALE) if formatted and (check_only or show_diff) else code
+
+
+def _format_input(
+    compilation: Compilation, reporter: Reporter, *, check_only: bool, show_diff: bool
+) -> Exit:
+    bugs = run_all([compilation], lambda item: item.formatted)
+    code, _ = reporter.report([compilation], bugs)
+    source, text = compilation.source, None if bugs else compilation.formatted
+    if source is None or text is None:
+        return code
+    differs = text != source.text
+    if show_diff and differs:
+        print_diff(compilation.name, source.text, text)
+    elif check_only and differs:
+        complain(f"{compilation.name}: is not formatted")
+    elif not check_only and not show_diff:
+        put(text.removesuffix("\n"))
+    return max(code, Exit.STALE) if differs and (check_only or show_diff) else code
 
 
 def _write(path: Path, text: str) -> Exit:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib.util
+import os
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from osc2tx.compilation.inputs import InputError
 from osc2tx.support.real_paths import real_path
 from osc2tx_runtime import Scenario, ScenarioError
 
@@ -32,12 +34,12 @@ def scenarios_of_module(
     Raises:
         ScenarioError: A value of a type cannot be computed.
     """
+    files, main = module_files(module, siblings)
     with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
-        for each in (*siblings, module):
-            place = Path(folder, each.source).with_name(f"{each.stem}.py")
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_text(each.python, encoding="utf-8")
-            place.with_suffix(".map.json").write_text(each.source_map, encoding="utf-8")
+        for name, text in files.items():
+            Path(folder, name).parent.mkdir(parents=True, exist_ok=True)
+            Path(folder, name).write_text(text, encoding="utf-8")
+        place = Path(folder, main)
         with ExitStack() as imported:
             try:
                 scenarios = imported.enter_context(scenarios_of_file(place, Path(folder).name))
@@ -45,6 +47,44 @@ def scenarios_of_module(
                 message = f"a value cannot be computed: {error}"
                 raise ScenarioError(message, module.source) from error
             yield scenarios
+
+
+def module_files(
+    module: GeneratedModule, siblings: Sequence[GeneratedModule] = ()
+) -> tuple[dict[str, str], str]:
+    """Return the files of a module that was just generated, by path, and the path of its own.
+
+    Args:
+        module: The module.
+        siblings: All modules that it needs.
+    """
+    files = {}
+    for each in (*siblings, module):
+        place = Path(each.source).with_name(f"{each.stem}.py")
+        files[place.as_posix()] = each.python
+        files[place.with_suffix(".map.json").as_posix()] = each.source_map
+    return files, place.as_posix()
+
+
+def written_files(place: Path) -> tuple[dict[str, str], str]:
+    """Return a written module and those that it imports from around it, and the path of its own.
+
+    Raises:
+        InputError: One cannot be read.
+    """
+    place = real_path(place)
+    try:
+        found = [place, *(Path(file) for file in _siblings(place).values() if file)]
+        root = Path(os.path.commonpath([each.parent for each in found]))
+        maps = [each.with_suffix(".map.json") for each in found]
+        files = {
+            each.relative_to(root).as_posix(): each.read_text(encoding="utf-8")
+            for each in (*found, *maps)
+            if each in found or each.is_file()
+        }
+    except (OSError, SyntaxError, ValueError) as error:
+        raise InputError(f"{place}: cannot be imported: {error}") from error
+    return files, place.relative_to(root).as_posix()
 
 
 @contextmanager

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
@@ -44,7 +44,13 @@ def click_option(option: Option) -> click.Option:
 
 
 class RunCommand(click.Command):
-    """A command with the options of a run, and those of the world that it is to run in."""
+    """A command with the options of a run, and those of the world that it is to run in.
+
+    Attributes:
+        without: Names of options that it does not have.
+    """
+
+    without: frozenset[str] = frozenset()
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Find out which world it is, before anything else is read."""
@@ -56,7 +62,8 @@ class RunCommand(click.Command):
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """Return all options."""
-        own = (*OPTIONS, *ctx.meta.get(OWN_OPTIONS, ()))
+        every = (option for option in OPTIONS if option.name not in self.without)
+        own = (*every, *ctx.meta.get(OWN_OPTIONS, ()))
         params = super().get_params(ctx)
         return [*params[:-1], *map(click_option, own), params[-1]]  # `--help` stays last
 
@@ -72,6 +79,9 @@ def stated_world(args: Sequence[str]) -> str:
 
 OWN_OPTIONS = f"{__name__}.own_options"
 
+Texts: TypeAlias = Mapping[str, Sequence[str]]
+"""Options as they are written, by name."""
+
 
 @click.command(cls=RunCommand)
 @click.argument("file", metavar="FILE", type=click.Path())
@@ -86,7 +96,7 @@ def run(
     **written: str | bool | tuple[str, ...] | None,
 ) -> Exit:
     """Run a scenario file, or a module made from one."""
-    run_texts = {name: _texts(value) for name, value in written.items()}
+    run_texts = {name: option_texts(value) for name, value in written.items()}
     path = Path(file)
     if path.is_dir():
         raise InputError(f"{path}: is a folder; name one scenario file")
@@ -119,7 +129,7 @@ def _run_source(
         with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
             return _run_one_of(scenarios, path, wanted, settings, reporter)
     except ScenarioError as error:
-        complain(f"{error.source}: error: {error.message}")
+        complain(error.report(str(path)))
         return Exit(error.exit_code)
 
 
@@ -133,13 +143,6 @@ def only_one_to_run(compilation: Compilation) -> str | None:
     names = [each.name for each in own if not each.is_invoked and not each.is_action]
     is_named = any(each.name in ("top", "main") for each in own)
     return names[0] if len(names) == 1 and not is_named else None
-
-
-def _as_given(source: str | None, scenario: type[Scenario], path: Path) -> str:
-    """Return a place in a source by the path of the command line, if it is that file."""
-    if path.suffix == ".osc" and (source is None or source.startswith(scenario.source)):
-        return f"{path}{(source or '').removeprefix(scenario.source)}"
-    return source or scenario.source
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
@@ -166,7 +169,7 @@ def _run_one_of(
     try:
         result = _run_with_progress(scenario, settings)
     except ScenarioError as error:
-        complain(f"{_as_given(error.source, scenario, path)}: error: {error.message}")
+        complain(error.report(scenario.source, str(path) if path.suffix == ".osc" else None))
         return Exit(error.exit_code)
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
@@ -189,14 +192,14 @@ def choose_scenario(
         raise click.UsageError(f"{path}: {error.message}") from None
 
 
-def _texts(written: str | bool | tuple[str, ...] | None) -> tuple[str, ...]:
+def option_texts(written: str | bool | tuple[str, ...] | None) -> tuple[str, ...]:
     """Return what was written for an option; a flag is written `true`."""
     if isinstance(written, bool):
         return ("true",) if written else ()
     return (written,) if isinstance(written, str) else written or ()
 
 
-def merge_settings(config: Config, path: Path, given: Mapping[str, Sequence[str]]) -> RunSettings:
+def merge_settings(config: Config, path: Path, given: Texts) -> RunSettings:
     """Return the settings of a run: the command line beats the file, item by item.
 
     Maps are searched in the folders of the command line, those of the file, then beside the
@@ -206,20 +209,34 @@ def merge_settings(config: Config, path: Path, given: Mapping[str, Sequence[str]
         ConfigError: If a text in the file does not have the form of its option.
         SettingsError: If a text of the command line does not.
     """
+    return settings_from(merge_texts(config, path, given), path)
+
+
+def settings_from(texts: Texts, path: Path) -> RunSettings:
+    """Return the settings that options say, as they are written, for a scenario file."""
+    settings = read_options(texts)
+    return replace(settings, map_path=(*settings.map_path, real_path(path).parent))
+
+
+def merge_texts(config: Config, path: Path, given: Texts) -> dict[str, tuple[str, ...]]:
+    """Return the options of a run as they are written, on the command line or in the file.
+
+    Raises:
+        ConfigError: If a text in the file does not have the form of its option.
+    """
     stated = config.run_settings(path)
     try:
         read_options(stated)
     except SettingsError as error:
         where = f"{config.path}: in [scenarios.{path.stem}.run]"
         raise ConfigError(f"{where}: {error.message}") from None
-    own = {name.replace("_", "-"): texts for name, texts in given.items()}
+    own = {name.replace("_", "-"): tuple(texts) for name, texts in given.items()}
     texts = {
         name: (*stated.get(name, ()), *own.get(name, ()))  # the last one of a key counts
         for name in dict.fromkeys((*stated, *own))
     }
     texts["map-path"] = (*own.get("map-path", ()), *stated.get("map-path", ()))
-    settings = read_options(texts)
-    return replace(settings, map_path=(*settings.map_path, real_path(path).parent))
+    return texts
 
 
 def _run_with_progress(scenario: type[Scenario], settings: RunSettings) -> RunResult:

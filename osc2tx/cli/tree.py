@@ -47,7 +47,7 @@ def tree(
             place = chosen.source
             drawn = _FORMS[form](chosen().create_tree())
     except ScenarioError as error:
-        complain(f"{error.source or place}: error: {error.message}")
+        complain(error.report(place, str(file)))
         return Exit(error.exit_code)
     put(drawn)
     return code

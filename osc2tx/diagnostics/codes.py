@@ -2,7 +2,7 @@
 
 Families: 1xx text and syntax, 2xx names and imports, 3xx types and units, 4xx behaviors,
 modifiers and constraints, 5xx not supported by a backend, 6xx relaxations of a dialect, 7xx
-suppressions.
+suppressions, 8xx runs.
 A code is permanent; a retired one is not used again.
 """
 
@@ -197,4 +197,13 @@ CODES = _table(
     Code("OSC702", "unknown-suppression", WARNING, "A suppression names an unknown code."),
     Code("OSC703", "invalid-suppression", WARNING, "This cannot be suppressed."),
     Code("OSC704", "empty-suppression", WARNING, "A suppression names no code."),
+    # --- 8xx runs; the classes of errors in the runtime have these codes ---
+    Code("OSC801", "run-impossible", ERROR, "A run cannot begin, or cannot go on."),
+    Code("OSC802", "no-such-place", ERROR, "An actor cannot be put there."),
+    Code("OSC803", "two-masters", ERROR, "Two actions control the same of one actor."),
+    Code("OSC804", "not-in-the-runtime", ERROR, "The runtime does not do this."),
+    Code("OSC805", "not-in-this-world", ERROR, "The chosen world cannot do this."),
+    Code("OSC806", "run-option", ERROR, "An option of a run is wrong."),
+    Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
+    Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
 )

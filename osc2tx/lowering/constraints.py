@@ -113,8 +113,9 @@ class ConstraintLowering:
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
-            if any(c.place.prefix[:1] == (node,) for c in mentioned if c.subject == key):
-                continue  # the invoked scenario says it of itself
+            says_itself = any(c.subject == key for c in mentioned)
+            if says_itself and all(c.place.prefix[:1] == (node,) for c in mentioned):
+                continue
             setting = self.setting(key, parameter.type)
             if not setting.is_empty:
                 yield parameter, setting

@@ -28,7 +28,10 @@ def open_start_speed(
     if entry is None or entry.ends != "open" or entry.paces:
         return ()
     positions = [each for each in modifiers if each.name == "position"]
-    if any(entries[each.name].paces for each in modifiers if each not in positions):
+    others = [each for each in modifiers if each not in positions]
+    if not all(each.name in entries for each in others):
+        return ()  # those of a dialect
+    if any(entries[each.name].paces for each in others):
         return ()
     starts = [found for each in positions if each.at == "start" for found in _reference(each)]
     ends = [found for each in positions if each.at == "end" for found in _reference(each)]

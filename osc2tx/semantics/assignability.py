@@ -12,6 +12,7 @@ from osc2tx.semantics.types import (
     EVENT,
     UINT,
     Dimension,
+    EnumType,
     ListType,
     PhysicalType,
     RangeType,
@@ -87,11 +88,22 @@ def check_fits(
 def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> str | None:
     if isinstance(source, RangeType):
         return f"constrain it in its `with:` block: `keep(it in {expression.span.text})`"
+    if isinstance(expression, ast.StringLiteral):
+        return _unquoted(expression, target)
     if source == EVENT and target == BOOL:
         return f"to react to an event write `@{expression.span.text}`"
     if isinstance(expression, ast.PhysicalLiteral) and source == TIME and target == BOOL:
         return f"to let time pass write `elapsed({expression.span.text})`"
     return None
+
+
+def _unquoted(expression: ast.StringLiteral, target: Type) -> str | None:
+    """Say that a member of an enum, or a quantity, is written without quotes."""
+    text = expression.value
+    is_member = isinstance(target, EnumType) and text in target.symbol.members
+    is_quantity = isinstance(target, PhysicalType) and text[:1].isdigit() and len(text) < 30
+    is_truth = target == BOOL and text in ("true", "false")
+    return f"write it without quotes: `{text}`" if is_member or is_quantity or is_truth else None
 
 
 def _dimension_inside(type_: Type) -> Dimension | None:

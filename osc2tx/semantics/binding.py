@@ -106,7 +106,7 @@ def _match(
     pairs: list[tuple[Parameter, ast.Expression]] = []
     taken: set[Parameter] = set()
     implied: list[tuple[Parameter, ast.Expression]] = []
-    unknown: list[ast.Name] = []
+    unknown: dict[ast.Name, ast.Expression] = {}
     misplaced = misplaced_of(arguments)
     positional = _positional(parameters, callee)
     for index, argument in enumerate(arguments):
@@ -119,7 +119,7 @@ def _match(
             if parameter is None:
                 parameter = _find_alias(r, argument.name, parameters, callee, implied)
             if parameter is None:
-                unknown.append(argument.name)
+                unknown[argument.name] = argument.value
         else:
             parameter = positional[index] if index < len(positional) else None
             if parameter is None:

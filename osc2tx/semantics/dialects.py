@@ -101,6 +101,12 @@ class ParameterAlias:
         return f"{self.parameter}: …{further}"
 
 
+# What forks of ScenarioRunner give to actions of the library, and why nothing needs it here.
+LEFT_OUT: Mapping[tuple[str, str], str] = {
+    ("drive", "adjust"): "an actor follows its path as it is",
+    ("walk", "adjust"): "an actor follows its path as it is",
+}
+
 # Other names for what the standard has. Every dialect explains with them what to write instead;
 # one that relaxes OSC612 to OSC615 and OSC619 reads them as what they stand for.
 TYPE_ALIASES: Mapping[str, str] = {

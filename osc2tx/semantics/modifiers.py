@@ -10,7 +10,13 @@ from osc2tx.semantics.other_dialects import advise
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import choose
 from osc2tx.semantics.scope import CallableBehavior, is_subtype
-from osc2tx.semantics.symbols import ActionSymbol, ActorSymbol, ModifierSymbol
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    ActorSymbol,
+    FieldSymbol,
+    ModifierSymbol,
+    TypeSymbol,
+)
 from osc2tx.semantics.types import ERROR, OBJECT, ActorType, BehaviorType, ErrorType
 from osc2tx.semantics.unimported import report_unimported
 from osc2tx.syntax import ast
@@ -124,7 +130,7 @@ def _find_modifier(
         ]
     )
     if not fitting:
-        _report_misfit(r, name, candidates[0], invoked, actor)
+        _report_misfit(r, name, candidates[0], invoked, actor, env.owner)
         return None
     visible = r.scope.select(fitting, name, env.context)
     if not visible:
@@ -192,12 +198,30 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
     r.report("OSC212", name.span, f"no modifier `{name}`", **advice)
 
 
+def _receiver(modifier: ModifierSymbol, name: ast.Name, owner: TypeSymbol | None) -> str:
+    """Say of which actor a modifier may be applied."""
+    wanted = modifier.actor
+    assert wanted is not None
+    fields = [
+        member.name
+        for member in (() if owner is None else owner.members.values())
+        if isinstance(member, FieldSymbol)
+        and isinstance(member.type, ActorType)
+        and is_subtype(member.type.symbol, wanted)
+    ]
+    if fields:
+        return "write " + " or ".join(f"`{field}.{name}(…)`" for field in fields)
+    field = wanted.name.lower()
+    return f"declare `{field}: {wanted.name}`, and write `{field}.{name}(…)`"
+
+
 def _report_misfit(
     r: Resolution,
     name: ast.Name,
     modifier: ModifierSymbol,
     invoked: CallableBehavior | None,
     actor: ActorSymbol | None,
+    owner: TypeSymbol | None,
 ) -> None:
     if modifier.target is not None:
         wanted = f"it modifies `{modifier.target.qualified_name}`"
@@ -217,7 +241,7 @@ def _report_misfit(
             "OSC407",
             name.span,
             f"modifier `{modifier.qualified_name}` needs an actor",
-            help=f"write `<{wanted}>.{name}(…)`",
+            help=_receiver(modifier, name, owner),
         )
         return
     r.report(

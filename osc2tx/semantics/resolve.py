@@ -19,12 +19,13 @@ from osc2tx.semantics.member_lookup import find_member
 from osc2tx.semantics.physical import check_physical_types, resolve_unit
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.resolve_types import (
+    find_behavior,
     resolve_actor_name,
     resolve_behavior_name,
     resolve_type,
     resolve_type_name,
 )
-from osc2tx.semantics.scope import Context, base_of, supertypes
+from osc2tx.semantics.scope import CallableBehavior, Context, base_of, supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
@@ -114,9 +115,21 @@ def _resolve_behavior_base(r: Resolution, symbol: Symbol, context: Context) -> N
             elif action is not None:
                 _report_kind(r, base, "action")
         case ModifierSymbol(node=ast.ModifierDeclaration(behavior=ast.BehaviorName() as name)):
-            symbol.target = resolve_behavior_name(r, name, context)
+            symbol.target = _modified_behavior(r, symbol, name, context)
         case _:
             return
+
+
+def _modified_behavior(
+    r: Resolution, modifier: ModifierSymbol, name: ast.BehaviorName, context: Context
+) -> CallableBehavior | None:
+    """Return what a modifier is for; a plain name is one of its actor's, if that has one."""
+    if name.actor is None and modifier.actor is not None:
+        behavior = find_behavior(r, modifier.actor, name.name, context)
+        if behavior is not None:
+            r.references[name.name] = behavior
+            return behavior
+    return resolve_behavior_name(r, name, context)
 
 
 def _report_kind(r: Resolution, name: ast.Name | ast.BehaviorName, kind: str) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from osc2tx.diagnostics.suggestions import did_you_mean, one_of
 from osc2tx.semantics.aliases import standard_parameter, write_instead
-from osc2tx.semantics.dialects import PRELUDE_PARAMETERS, PreludeHint
+from osc2tx.semantics.dialects import LEFT_OUT, PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.everyday_words import fitting_word
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import is_subtype, supertypes
@@ -26,12 +26,22 @@ Parameters = Sequence[FieldSymbol | ParameterSymbol]
 
 
 def report_unknown(
-    r: Resolution, names: Sequence[ast.Name], parameters: Parameters, callee: Symbol
+    r: Resolution,
+    names: Mapping[ast.Name, ast.Expression],
+    parameters: Parameters,
+    callee: Symbol,
 ) -> None:
-    """Report names that no parameter has; those of a prelude together, the others one by one."""
+    """Report names that no parameter has; those of a prelude together, the others one by one.
+
+    Args:
+        r: The state of the pass.
+        names: The names, with the values given.
+        parameters: Those that there are.
+        callee: What has them.
+    """
     hints = {n: PRELUDE_PARAMETERS.get((callee.name, n.text)) for n in names}
     foreign = [n for n in names if hints[n] is not None and callee.origin == "library"]
-    for name in names:
+    for name, value in names.items():
         hint = hints[name]
         if hint is not None and name in foreign:
             if name is foreign[0]:
@@ -50,20 +60,24 @@ def report_unknown(
             "OSC402",
             name.span,
             f"`{callee.name}` has no parameter `{name}`",
-            help=_help(r, name.text, parameters, callee, name),
+            help=_help(r, name, value, parameters, callee),
             labels=declared_here(callee),
         )
 
 
 def _help(
-    r: Resolution, word: str, parameters: Parameters, callee: Symbol, name: ast.Name
+    r: Resolution, name: ast.Name, value: ast.Expression, parameters: Parameters, callee: Symbol
 ) -> str | None:
-    names = [p.name for p in parameters]
+    word, names = name.text, [p.name for p in parameters]
+    if (callee.name, word) in LEFT_OUT:
+        return f"leave `{word}: {value.span.text}` out; {LEFT_OUT[callee.name, word]}"
     if alias := standard_parameter(callee, name):
         return write_instead(alias.written_out)
     for parameter in parameters:
         if isinstance(parameter.type, EnumType) and word in parameter.type.symbol.members:
-            return write_instead(f"{parameter.name}: {word}")
+            given = value.span.text
+            member = given if given in parameter.type.symbol.members else word
+            return write_instead(f"{parameter.name}: {member}")
     if parameter_name := fitting_word(word, names):
         return write_instead(f"{parameter_name}: …")
     if _is_modified_by(r, callee, word):

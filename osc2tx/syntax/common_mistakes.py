@@ -230,6 +230,7 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     foreign.behind_a_call,
     _blank_before_unit,
     _range_with_unit,
+    foreign.label_of_two_words,
     foreign.statement,
     _unbalanced_bracket,
     _assignment,

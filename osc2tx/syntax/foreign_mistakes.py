@@ -11,6 +11,17 @@ _STAR, _PERCENT = (t.PUNCTUATION[symbol] for symbol in "*%")
 _DOTS, _DOUBLE_COLON = t.PUNCTUATION[".."], t.PUNCTUATION["::"]
 
 
+def label_of_two_words(place: Place) -> Advice | None:
+    """`switch 2: parallel():`."""
+    line, types = place.line, place.table.types
+    if types[line] not in t.WORDS or types[line + 1] not in (t.INTEGER, t.ID):
+        return None
+    if types[line + 2] != _COLON or types[line + 3] == t.NEWLINE or place.at > line + 2:
+        return None
+    words = f"{place.table.text(line)}_{place.table.text(line + 1)}"
+    return Advice("a label is a single word", f"write `{words}:`", line + 1)
+
+
 def statement(place: Place) -> Advice | None:
     """`if x:`, `for i in l:`, `class a:`."""
     word = place.table.text(place.line) if place.line != place.at else place.text()

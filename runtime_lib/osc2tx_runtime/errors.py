@@ -6,6 +6,7 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "BeyondMapError",
     "CapabilityError",
     "InputError",
     "OwnCode",
@@ -14,11 +15,31 @@ __all__ = [
     "SettingsError",
     "SimulatorError",
     "SlotConflict",
+    "SourcePlace",
     "UnsupportedError",
     "is_own",
     "name_of",
     "told",
 ]
+
+
+class SourcePlace(str):
+    """A place in a scenario: `cut_in.osc:12` as traces and reports have it, with its column.
+
+    Args:
+        file: The scenario file.
+        line: From 1.
+        column: From 1.
+    """
+
+    __slots__ = ("column",)
+    column: int
+
+    def __new__(cls, file: str, line: int, column: int) -> SourcePlace:
+        """Make the text."""
+        place = super().__new__(cls, f"{file}:{line}")
+        place.column = column
+        return place
 
 
 class ScenarioError(Exception):
@@ -29,9 +50,11 @@ class ScenarioError(Exception):
         source: Place in the scenario, `hello_world.osc:57`; None where unknown.
         exit_code: What `main` returns: 5 ran and failed, 4 unreadable input or no simulator, 2
             usage.
+        code: What `osc2tx explain` says more about.
     """
 
     exit_code = 5
+    code = "OSC801"
 
     def __init__(self, message: str, source: str | None = None) -> None:
         super().__init__(message)
@@ -42,6 +65,19 @@ class ScenarioError(Exception):
         """Note when it was met."""
         self.message = f"{self.message} (at {seconds:.3f} s)"
 
+    def report(self, file: str, given: str | None = None) -> str:
+        """Return the message as it is printed: `cut_in.osc:12:9: error[OSC802]: …`.
+
+        Args:
+            file: The scenario file, as the module knows it.
+            given: The same file, as the user has written it.
+        """
+        place = self.source or file
+        known = given is not None and place.startswith(file)
+        shown = f"{given}{place[len(file) :]}" if known else place
+        column = f":{place.column}" if isinstance(place, SourcePlace) else ""
+        return f"{shown}{column}: error[{self.code}]: {self.message}"
+
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
 
@@ -49,34 +85,49 @@ class ScenarioError(Exception):
 class PlacementError(ScenarioError):
     """An actor cannot be put where the scenario wants it."""
 
+    code = "OSC802"
+
+
+class BeyondMapError(ScenarioError):
+    """What was drawn is more than the map has there."""
+
 
 class SlotConflict(ScenarioError):
     """Two actions that run at the same time control the same thing of one actor."""
+
+    code = "OSC803"
 
 
 class UnsupportedError(ScenarioError):
     """The runtime does not do what the scenario asks for."""
 
+    code = "OSC804"
+
 
 class CapabilityError(ScenarioError):
     """The chosen world cannot do what the scenario asks for."""
+
+    code = "OSC805"
 
 
 class SettingsError(ScenarioError):
     """A run option is wrong."""
 
+    code = "OSC806"
     exit_code = 2
 
 
 class InputError(ScenarioError):
     """A file cannot be found, read or written."""
 
+    code = "OSC807"
     exit_code = 4
 
 
 class SimulatorError(ScenarioError):
     """The simulator is not there, does not answer any more, or refuses what the run needs."""
 
+    code = "OSC808"
     exit_code = 4
 
 

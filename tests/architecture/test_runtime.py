@@ -84,6 +84,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "report": {"language"},
     "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
     | {"errors", "interrupts", "language", "opendrive", "plain_numbers", "world", "worlds"},
+    "kpis": {"errors", "language", "opendrive", "running", "world"},
+    "campaigns": {"domain.routes", "domain.scenario", "errors", "kpis", "language", "opendrive"}
+    | {"plain_numbers", "running"},
     "modifiers": {"domain.modifiers"},
     "": {"domain.actions", "domain.actors", "domain.measuring", "domain.modifiers"}
     | {

@@ -1,5 +1,6 @@
 """What holds for all scenarios of the capabilities, whatever they are about."""
 
+import math
 import subprocess
 import sys
 
@@ -8,7 +9,7 @@ import pytest
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.report.trace_reader import read_run
 from tests.capabilities.conftest import SETTINGS, Load
-from tests.capabilities.kit import CAPABILITIES, Line, Perform
+from tests.capabilities.kit import CAPABILITIES, Line, Perform, Performance
 from tests.end_to_end.harness import (
     REPOSITORY,
     compilation_of,
@@ -16,6 +17,7 @@ from tests.end_to_end.harness import (
     permuted_module,
     run,
 )
+from tests.runtime.world.motion_scan import scan_lines
 
 NAMES = sorted(path.stem for path in CAPABILITIES.glob("*.osc"))
 MODULES = sorted((REPOSITORY / "generated" / "capabilities").glob("*.py"))
@@ -47,6 +49,33 @@ def test_it_runs_to_its_end(perform: Perform, name: str) -> None:
     assert read_run(run.trace.text.splitlines()).skipped == 0  # the report knows every line
 
 
+# What is not as vehicles move, and who asked for it: kinds of findings of the scan by scenario.
+ASKED_FOR: dict[str, tuple[set[str], str]] = {
+    "C09_assign_position": ({"jump"}, "a place is assigned"),
+    "C10_assign_orientation": ({"course", "across"}, "a heading is assigned"),
+    "C11_follow_path": ({"jump", "course", "across"}, "a path is replayed that begins elsewhere"),
+    "C11_relative_path": ({"course", "across"}, "a path with a corner is replayed"),
+    "C12_follow_trajectory": ({"jump", "along"}, "a trajectory is replayed that begins slower"),
+    "C12_relative_trajectory": ({"across"}, "a trajectory with a corner is replayed"),
+    "C18_braking_distances": ({"jump", "along"}, "a speed is assigned"),
+    "C22_lane_offset": ({"across"}, "a lane change at a constant rate, which the run names"),
+    "C22_lateral_speeds": ({"across"}, "a shape of its own ends moving, which the run names"),
+    "C23_physical_movement": ({"along"}, "physics need not hold"),
+}
+
+
+def found_in(run: Performance) -> set[str]:
+    """Kinds of impossible motion in a run."""
+    limits = {"jump": 0.05, "course": math.radians(3.0), "across": 9.0, "along": 12.0}
+    worst = scan_lines(run.lines, smoothing=0.0).values()
+    return {kind for kind, most in limits.items() if any(getattr(w, kind) > most for w in worst)}
+
+
+@pytest.mark.parametrize("name", RUNNING)
+def test_motion_is_possible_or_asked_for(perform: Perform, name: str) -> None:
+    assert found_in(perform(name)) == ASKED_FOR.get(name, (set(), ""))[0]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", WITHOUT_ORDER)
 def test_members_of_a_parallel_have_no_order(perform: Perform, load: Load, name: str) -> None:
@@ -69,6 +98,28 @@ def test_the_step_size_changes_nothing(perform: Perform, name: str) -> None:
         assert line["v"] == pytest.approx(other["v"], abs=2e-6)
         assert (line["x"], line["y"]) == pytest.approx((other["x"], other["y"]), abs=5e-3)
         assert line["lane"] == other["lane"]
+
+
+# A time headway follows from the own speed, which its feedback has by the step before: the end of a
+# flat approach comes 0.12 s later at steps of 0.05 s than at steps of 0.01 s (s beyond two steps).
+LATER = {"C15_headway": 0.05}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("dt", [0.1, 0.01])
+@pytest.mark.parametrize("name", RUNNING)
+def test_any_step_tells_the_same_story(perform: Perform, name: str, dt: float) -> None:
+    """The same verdict, and the same actions, which begin and end within two steps."""
+    usual, other = perform(name), perform(name, RunSettings(max_time=60.0, dt=dt))
+    assert other.status == usual.status
+    late = 2.0 * max(dt, 0.05) + LATER.get(name, 0.0) + 1e-9
+    ends, others = (
+        sorted((e["name"], e["status"], e["t"]) for e in run.of_kind("action"))
+        for run in (usual, other)
+    )
+    assert [end[:2] for end in ends] == [end[:2] for end in others]
+    for end, another in zip(ends, others, strict=True):
+        assert another[2] == pytest.approx(end[2], abs=late), end
 
 
 def tool(*arguments: str) -> None:

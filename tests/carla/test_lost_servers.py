@@ -120,7 +120,7 @@ def test_a_server_that_freezes(server: StandInProcess, tmp_path: Path, wait: Unt
     os.kill(server.pid, signal.SIGSTOP)
     _, errors = run.communicate()
     assert run.returncode == 4, errors
-    assert "error: " in errors
+    assert "error[OSC808]: " in errors
     assert last_line(trace)["status"] == "error"
     os.kill(server.pid, signal.SIGCONT)
     wait(lambda: server.ask("stand_in_actors") == {})

@@ -100,8 +100,8 @@ def test_an_action_without_an_actor_is_refused_where_nobody_brings_it(project: P
     done = run_module(build(project, "captured"), project / "t.jsonl")
     assert done.code == 5
     assert done.err == (
-        "captured.osc:14: error: there is no global action `capture`, and no installed package"
-        " brings one by the entry point group osc2tx.methods\n"
+        "captured.osc:14:9: error[OSC804]: there is no global action `capture`, and no installed"
+        " package brings one by the entry point group osc2tx.methods\n"
     )
 
 
@@ -109,8 +109,8 @@ def test_without_the_package_the_run_is_refused_at_its_line(project: Path) -> No
     done = run(project)
     assert done.code == 5
     assert done.err == (
-        "slow.osc:16: error: vehicle has no action `creep`, and no installed package brings one by"
-        " the entry point group osc2tx.methods\n"
+        "slow.osc:16:9: error[OSC804]: vehicle has no action `creep`, and no installed package"
+        " brings one by the entry point group osc2tx.methods\n"
     )
     assert not (project / "t.jsonl").exists()
 
@@ -124,7 +124,7 @@ def test_a_class_that_does_not_fit_its_declaration_is_named(
     done = run(project, packages)
     assert done.code == 5
     assert done.err == (
-        "slow.osc:16: error: ego creep: unknown argument 'w'; it is creep(v: float = 1.5,"
+        "slow.osc:16:9: error[OSC801]: ego creep: unknown argument 'w'; it is creep(v: float = 1.5,"
         " **options: Any)\n"
     )
 
@@ -150,7 +150,7 @@ def test_two_actions_on_one_slot_are_reported(
     done = run(project, packages)
     assert done.code == 5
     assert done.err == (
-        "slow.osc:17: error: ego.change_speed(target=5 * mps) (slow.osc:18) and"
+        "slow.osc:17:13: error[OSC803]: ego.change_speed(target=5 * mps) (slow.osc:18) and"
         " ego.creep(v=1.5 * mps) (slow.osc:17)"
         " control the longitudinal slot of ego at the same time; let them run one after the"
         " other (at 0.000 s)\n"

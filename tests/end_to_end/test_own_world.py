@@ -182,7 +182,7 @@ def test_one_that_dies_ends_the_run_with_4_and_the_trace_up_to_there(
     printed = capsys.readouterr()
     assert code == 4
     assert printed.out == "left\n"
-    assert "error: the simulator does not answer any more (at 0.500 s)" in printed.err
+    assert "error[OSC808]: the simulator does not answer any more (at 0.500 s)" in printed.err
     assert max(line.get("t", 0.0) for line in lines) == 0.5
     assert (lines[-1]["kind"], lines[-1]["status"]) == ("result", "error")
 
@@ -192,4 +192,4 @@ def test_one_that_is_not_there_ends_it_with_4(package: Path, shell: Shell) -> No
     shell.drive("a.osc")
     ended = shell("run", "a.osc", "--world", "sluggish", "--seed", "1")
     assert ended.code == 4
-    assert ended.err == "a.osc: error: there is no simulator at localhost:1\n"
+    assert ended.err == "a.osc: error[OSC808]: there is no simulator at localhost:1\n"

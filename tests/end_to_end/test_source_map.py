@@ -50,7 +50,7 @@ def broken_maps(source_map: str) -> Mapping[str, str]:
     own = json.loads(source_map)
     for entry in own["scenarios"].values():
         for key in ("constraints", "placements", "nodes"):
-            entry[key] = [1000 - line for line in entry[key]]
+            entry[key] = [[1000 - line, column] for line, column in entry[key]]
         entry["names"] = entry["draws"] = ["x"] * 20
     return {
         "not JSON": "{",

@@ -22,6 +22,11 @@ def test_every_dependency_has_its_reason() -> None:
     required: set[str] = set()
     for settings in (COMPILER, RUNTIME):
         requirements = [*settings["build-system"]["requires"], *settings["project"]["dependencies"]]
+        hooks = (
+            settings["tool"]["hatch"]["build"].get("targets", {}).get("wheel", {}).get("hooks", {})
+        )
+        for hook in hooks.values():
+            requirements += hook["dependencies"]
         for extra in settings["project"]["optional-dependencies"].values():
             requirements += extra
         required |= {found[0] for text in requirements if (found := NAME.match(text))}

@@ -15,6 +15,13 @@ from osc2tx_rules import Rule, violations
 # What no world has more of, either way, in SI: light is as fast, and no road leads further.
 LARGEST = {"speed": 299_792_458.0, "acceleration": 1e9, "length": 1e9}
 
+# How the standard says what modifiers of forks of ScenarioRunner say, which nothing carries out.
+INSTEAD = {
+    "follow_trajectory": "use the action of that name: `….follow_trajectory(absolute: …)`",
+    "road_action": "say it with `speed(…)`, `lane(…)` and, at a junction, a route for `along(…)`",
+    "set_color": "set the field `color` instead: `keep(it.color == …)`",
+}
+
 # Names that constructors of actions take for themselves.
 ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
 
@@ -112,6 +119,7 @@ class CallCheck:
                 "OSC508",
                 modifier.span,
                 f"action `{action}` cannot honour modifier `{modifier.name}` yet",
+                help=INSTEAD.get(modifier.name),
             )
             return
         if modifier.at == "end" and "at" not in entry.parameters:

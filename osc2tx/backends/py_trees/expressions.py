@@ -191,8 +191,12 @@ class ExpressionWriter:
     def _quantity(self, quantity: ir.Quantity) -> PyExpr:
         unit = self._use_unit(quantity.unit)
         number = literal(quantity.value)
-        if quantity.unit.offset:
+        offset = quantity.unit.offset
+        if offset and quantity.unit.is_standard:
             return PyExpr(f"{unit}({number})", Level.ATOM)
+        if offset:
+            product = f"{number.within(Level.TERM)} * {unit}"
+            return PyExpr(f"{product} + {literal(offset).within(Level.TERM)}", Level.SUM)
         return PyExpr(f"{number.within(Level.TERM)} * {unit}", Level.TERM)
 
     def _method_call(self, call: ir.MethodCall) -> PyExpr:

@@ -9,26 +9,35 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, field
 
+from osc2tx.diagnostics import Span
 from osc2tx_text import in_json
 
-VERSION = 2
+VERSION = 3
+
+Place = tuple[int, int]
+"""Line and column, both from 1."""
 
 
 @dataclass(slots=True)
 class ScenarioMap:
-    """The lines of one scenario.
+    """The places of one scenario in its source.
 
     Attributes:
-        fields: Line of each declaration, by Python name.
-        constraints: Line of each constraint, in order.
-        placements: Line of each placement, in order.
-        nodes: Line of each node of the tree, in pre-order.
+        fields: Place of each declaration, by Python name.
+        constraints: Place of each constraint, in order.
+        placements: Place of each placement, in order.
+        nodes: Place of each node of the tree, in pre-order.
     """
 
-    fields: dict[str, int] = field(default_factory=dict)
-    constraints: list[int] = field(default_factory=list)
-    placements: list[int] = field(default_factory=list)
-    nodes: list[int] = field(default_factory=list)
+    fields: dict[str, Place] = field(default_factory=dict)
+    constraints: list[Place] = field(default_factory=list)
+    placements: list[Place] = field(default_factory=list)
+    nodes: list[Place] = field(default_factory=list)
+
+
+def place_of(span: Span) -> Place:
+    """Return where a piece of the source begins."""
+    return span.line, span.column
 
 
 def render_source_map(maps: dict[str, ScenarioMap]) -> str:

@@ -104,8 +104,16 @@ class EventBuilder(StatementBuilder):
 
     # --- Calls ----------------------------------------------------------------------------------
 
-    def _call_parts(self, expression: ast.Expression, what: str) -> CallParts | None:
-        """Take `actor.name(arguments)` apart; missing parentheses are reported and forgiven."""
+    def _call_parts(
+        self, expression: ast.Expression, what: str, *, in_type: bool = False
+    ) -> CallParts | None:
+        """Take `actor.name(arguments)` apart; missing parentheses are reported and forgiven.
+
+        Args:
+            expression: What stands there.
+            what: What it has to be.
+            in_type: Whether a field could stand there as well.
+        """
         callee: ast.Expression = expression
         arguments: tuple[ast.Argument, ...] = ()
         if isinstance(expression, ast.Call):
@@ -121,7 +129,12 @@ class EventBuilder(StatementBuilder):
         elif callee is expression:
             shown = shortened(expression.span.text)
             message = f"missing parentheses after `{shown}`"
-            self._report("OSC100", expression.span, message, f"write {what} as `{shown}()`")
+            help_ = f"write {what} as `{shown}()`"
+            if isinstance(callee, ast.NameExpression) and in_type:
+                message = f"`{shown}` alone says nothing"
+                help_ = f"a field has a type, `{shown}: type`; a modifier is `{shown}(…)`"
+                parts = None
+            self._report("OSC100", expression.span, message, help_)
         return parts
 
     def _report_no_call(self, expression: ast.Expression, what: str) -> None:

@@ -92,7 +92,7 @@ class NameStatementBuilder(MemberBuilder):
             self._ending(children[1], Place.NOWHERE)
             return None
         what = "an invocation" if place is Place.DO else "a modifier application"
-        parts = self._call_parts(expression, what)
+        parts = self._call_parts(expression, what, in_type=place in _FIELDS)
         if place is Place.DO:
             return self._invocation(parts, head, children[1], None)
         self._refuse_with(children[1], "a modifier application")

@@ -51,6 +51,7 @@ class BaseAction(Leaf):
         self.label = label
         self._limits = None if duration is None else Limits(self, duration)
         self._start_step = 0
+        self._is_ours = not is_own(type(self))
         self.registered = registered_as(type(self))
         self.become(self.registered)
 
@@ -114,6 +115,13 @@ class BaseAction(Leaf):
 
     # --- how it runs ---
 
+    def look_ahead(self) -> None:
+        """See whether the map has what is asked for, when all is placed and set up.
+
+        Raises:
+            BeyondMapError: Wherever its actor can be by then, it has not.
+        """
+
     def initialise(self) -> None:
         """Claim the slots and start."""
         self._start_step = self.context.step
@@ -138,7 +146,10 @@ class BaseAction(Leaf):
 
     def _content(self) -> Status:
         """Update; it does not end before its effects are carried out."""
-        status = checked(self, with_blame(self, self.on_update))
+        if self._is_ours:  # each step of each action comes by here
+            status = self.on_update()
+        else:
+            status = checked(self, with_blame(self, self.on_update))
         pending = status is SUCCESS and self.context.effects.is_pending(self)
         return RUNNING if pending else status
 
@@ -193,7 +204,7 @@ def with_blame(action: BaseAction, function: Callable[[], T]) -> T:
     Raises:
         ScenarioError: If the class of the action does not come from this library.
     """
-    if not is_own(type(action)):
+    if action._is_ours:
         return function()
     with OwnCode(f"{action.action_name}: {name_of(type(action))} raised", action.source):
         return function()

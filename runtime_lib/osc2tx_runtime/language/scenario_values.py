@@ -37,6 +37,7 @@ class ScenarioValues:
         settings: Of the run.
         parameters: Values of the parameters, in order; the scenario that runs also has those of
             all that it invokes.
+        is_drawn: Whether some value of the scenario that runs, or of one it invokes, was drawn.
     """
 
     def __init__(
@@ -59,8 +60,10 @@ class ScenarioValues:
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
-        self._generator = random.Random(settings.seed)
+        self._generator = random.Random(settings.draws_from)
         self._attempt = 0
+        self._first: ScenarioValues = self if caller is None else caller._first
+        self.is_drawn = False
         self._draws = False  # whether a value was drawn, so that another draw may help
         self._kept = 0
         self._broken: ArithmeticError | NotKeptError | None = None  # by the last draw
@@ -227,7 +230,7 @@ class ScenarioValues:
                 return
             if not self._draws:
                 raise self._error()
-        self._walk = Walk(random.Random(f"{self.settings.seed}/{self._key}/walk"), height)
+        self._walk = Walk(random.Random(f"{self.settings.draws_from}/{self._key}/walk"), height)
         if not self._walk.arrive():
             raise self._error()
 
@@ -265,8 +268,11 @@ class ScenarioValues:
         given: Any,
     ) -> Any:
         chosen = self.settings.set
+        if self.settings.draws is not None:
+            generator = self.settings.draws(path)
         is_open = given is None and path not in chosen
-        self._draws |= isinstance(default if is_open else given, Range | Choice)
+        if isinstance(default if is_open else given, Range | Choice):
+            self._draws = self._first.is_drawn = True
         try:
             return choose(path, default, domain, generator, given=given, settings=chosen)
         except ScenarioError as error:
@@ -283,4 +289,4 @@ class ScenarioValues:
         if not self._path and not what.startswith("global/"):
             return self._generator
         again = f"/{self._attempt}" if self._attempt else ""
-        return random.Random(f"{self.settings.seed}/{what}{again}")
+        return random.Random(f"{self.settings.draws_from}/{what}{again}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping
+import random
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -41,11 +42,13 @@ class RunSettings:
         destination: Where vehicles go: id to an actor id or `ROAD,LANE,S`.
         set: Values of the scenario's parameters, SI units: name to number or text.
         seed: Of all that is sampled.
+        draw: Which draw of the seed counts; the map has no room for those before.
         dt: Length of a step in seconds.
         max_time: Simulated seconds after which the run ends with status `timeout`.
         trace: Where to write the trace (JSON Lines).
         report: Where to write the report (HTML).
         allow_external: Functions of the user that the scenario may call, `module.function`.
+        draws: Gives what a parameter is drawn with, by its name; without: the seed does.
     """
 
     map_path: tuple[Path, ...] = ()
@@ -61,11 +64,18 @@ class RunSettings:
     destination: Mapping[str, str] = field(default_factory=dict)
     set: Mapping[str, float | str] = field(default_factory=dict)
     seed: int = 0
+    draw: int = 0
     dt: float = 0.05
     max_time: float = 300.0
     trace: Path | None = None
     report: Path | None = None
     allow_external: tuple[str, ...] = ()
+    draws: Callable[[str], random.Random] | None = None
+
+    @property
+    def draws_from(self) -> int | str:
+        """What the draws of parameters depend on."""
+        return f"{self.seed}/draw {self.draw}" if self.draw else self.seed
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.dt) and self.dt > 0):

@@ -7,14 +7,19 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
+
+from osc2tx_runtime.errors import SourcePlace
 
 __all__ = ["SourceMap", "read_source_map"]
 
-VERSION = 2
+VERSION = 3
+
+Entry = tuple[int, int]
+"""Line and column, both from 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,21 +28,21 @@ class SourceMap:
 
     Attributes:
         file: Scenario file as shown to people.
-        fields: Lines of the fields, by name.
-        constraints: Lines of the `keep` calls, in their order.
-        placements: Lines of the `place` calls, in their order.
-        nodes: Lines of the nodes, in pre-order.
+        fields: Line and column of the fields, by name.
+        constraints: Those of the `keep` calls, in their order.
+        placements: Those of the `place` calls, in their order.
+        nodes: Those of the nodes, in pre-order.
     """
 
     file: str
-    fields: Mapping[str, int] = field(default_factory=dict)
-    constraints: tuple[int, ...] = ()
-    placements: tuple[int, ...] = ()
-    nodes: tuple[int, ...] = ()
+    fields: Mapping[str, Entry] = field(default_factory=dict)
+    constraints: tuple[Entry, ...] = ()
+    placements: tuple[Entry, ...] = ()
+    nodes: tuple[Entry, ...] = ()
 
-    def place(self, line: int | None) -> str:
-        """Return `file:line`, or the file alone."""
-        return self.file if line is None else f"{self.file}:{line}"
+    def place(self, entry: Entry | None) -> str:
+        """Return `file:line`, which knows its column, or the file alone."""
+        return self.file if entry is None else SourcePlace(self.file, *entry)
 
     def of_field(self, name: str) -> str:
         """Return the place of a field."""
@@ -79,10 +84,10 @@ def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
     fields = _table(entry.get("fields"))
     return SourceMap(
         file=file,
-        fields={name: line for name, line in fields.items() if isinstance(line, int)},
-        constraints=_lines(entry.get("constraints")),
-        placements=_lines(entry.get("placements")),
-        nodes=_lines(entry.get("nodes")),
+        fields={name: (entry[0], entry[1]) for name, entry in fields.items() if _is_entry(entry)},
+        constraints=_places(entry.get("constraints")),
+        placements=_places(entry.get("placements")),
+        nodes=_places(entry.get("nodes")),
     )
 
 
@@ -90,11 +95,16 @@ def _table(value: Any) -> Mapping[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
-def _lines(value: Any) -> tuple[int, ...]:
-    if not isinstance(value, list) or not all(isinstance(line, int) for line in value):
+def _is_entry(value: Any) -> TypeGuard[Sequence[int]]:
+    is_pair = isinstance(value, list) and len(value) == 2
+    return is_pair and all(isinstance(number, int) for number in value)
+
+
+def _places(value: Any) -> tuple[Entry, ...]:
+    if not isinstance(value, list) or not all(map(_is_entry, value)):
         return ()
-    return tuple(value)
+    return tuple((line, column) for line, column in value)
 
 
-def _at(lines: tuple[int, ...], index: int) -> int | None:
-    return lines[index] if index < len(lines) else None
+def _at(places: tuple[Entry, ...], index: int) -> Entry | None:
+    return places[index] if index < len(places) else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.deviation import Deviation
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["TRACE_VERSION", "TraceWriter", "number"]
+__all__ = ["TRACE_VERSION", "OnSample", "TraceWriter", "number", "to_json"]
 
 TRACE_VERSION = 1
 ACTION_ORDER = {"start": 0, "end": 1, "fail": 2}
@@ -51,6 +51,10 @@ def to_json(value: Any) -> str:
     return json.dumps(str(getattr(value, "id", value)))
 
 
+OnSample = Callable[[str, Mapping[str, Any]], None]
+"""Takes `cover` or `record`, and what the trace says of the value."""
+
+
 class TracedAction(Protocol):
     """What the trace says of an action."""
 
@@ -72,13 +76,15 @@ class TraceWriter:
 
     Args:
         enabled: Keep lines at all.
+        on_sample: Is told of the value of each coverage item, also if no lines are kept.
 
     Attributes:
         lines: The lines so far, without line ends.
     """
 
-    def __init__(self, enabled: bool = True) -> None:
+    def __init__(self, enabled: bool = True, on_sample: OnSample | None = None) -> None:
         self.enabled = enabled
+        self._on_sample = on_sample
         self.lines: list[str] = []
         self._events: set[tuple[str, str]] = set()
         self._actions: list[tuple[tuple[int, str], int, str]] = []
@@ -165,6 +171,8 @@ class TraceWriter:
 
     def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
         """Note the value of a coverage item, kind `cover` or `record`."""
+        if self._on_sample is not None:
+            self._on_sample(kind, values)
         if self.enabled:
             self._listed(7, kind, values)
 

@@ -8,6 +8,7 @@ which says stop.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.language.settings import FAIL_ON
@@ -27,14 +28,24 @@ class Criteria:
 
     Args:
         context: The run.
+        wanted: Names of criteria; by default those of the settings.
+        is_noted: Whether the trace says what was against one.
 
     Attributes:
         broken: What was against a criterion: `collision of a and b at 3.20 s`.
     """
 
-    def __init__(self, context: ExecutionContext) -> None:
+    def __init__(
+        self,
+        context: ExecutionContext,
+        wanted: Iterable[str] | None = None,
+        *,
+        is_noted: bool = True,
+    ) -> None:
         self._context = context
-        self._wanted = frozenset(context.settings.fail_on) & frozenset(FAIL_ON)
+        self._is_noted = is_noted
+        asked = context.settings.fail_on if wanted is None else wanted
+        self._wanted = frozenset(asked) & frozenset(FAIL_ON)
         self._on_road: dict[str, bool] = {}
         self._lines: dict[str, tuple[str, float, ActorState]] = {}
         self._time = 0.0
@@ -87,5 +98,6 @@ class Criteria:
             self._lines[actor_id] = (line.signal, line.distance - state.shape.front, state)
 
     def _break(self, name: str, what: str) -> None:
-        self._context.trace.criterion(name, what)
+        if self._is_noted:
+            self._context.trace.criterion(name, what)
         self.broken.append(f"{what} at {self._time:.2f} s")

@@ -21,6 +21,7 @@ from osc2tx_runtime.language.tree.base import (
 from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
 from osc2tx_runtime.language.tree.failure_reasons import failure_reason, timeout_reason
 from osc2tx_runtime.running.criteria import Criteria
+from osc2tx_runtime.running.observer import Observer
 
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
@@ -41,7 +42,10 @@ class Outcome:
 
 
 def run_tree(
-    root: Behaviour, context: ExecutionContext, on_progress: OnProgress | None = None
+    root: Behaviour,
+    context: ExecutionContext,
+    on_progress: OnProgress | None = None,
+    observer: Observer | None = None,
 ) -> Outcome:
     """Run a tree that is set up until it ends or the time is over.
 
@@ -53,7 +57,7 @@ def run_tree(
     outcome = Outcome("error", "", 0)
     try:
         criteria = Criteria(context)
-        outcome = judged(loop(root, context, criteria, on_progress), criteria)
+        outcome = judged(loop(root, context, criteria, on_progress, observer), criteria)
     except BaseException as error:
         if isinstance(error, ScenarioError) and not isinstance(error, SettingsError):
             error.happened(context.time)
@@ -111,9 +115,12 @@ def loop(
     context: ExecutionContext,
     criteria: Criteria,
     on_progress: OnProgress | None,
+    observer: Observer | None,
 ) -> Outcome:
     """Settle one instant after the other until the tree ends or the time is over."""
     pulse = pulse_of(root)
+    if observer is not None:
+        observer.begin(context)
     world, settings = context.world, context.settings
     last_step = context.steps(settings.max_time)
     progress_steps = max(1, context.steps(1.0))
@@ -138,6 +145,8 @@ def loop(
         for one, other in world.collisions():
             context.note_collision(step, one, other)
         criteria.observe(step)
+        if observer is not None:
+            observer.observe(step)
         for kind, values in world.take_notes():
             context.trace.other(8, kind, **values)
         if settings.physics == "fail" and world.overloads():

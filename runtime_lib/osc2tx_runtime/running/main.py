@@ -82,7 +82,7 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
         result = run_scenario(scenario, settings, progress, keep_trace=False)
     except ScenarioError as error:
         clear_progress(progress)
-        complain(f"{error.source or scenario.source}: error: {error.message}")
+        complain(error.report(scenario.source))
         return error.exit_code
     except KeyboardInterrupt:
         clear_progress(progress)

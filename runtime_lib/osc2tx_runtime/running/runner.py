@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.routes.map_search import find_map
-from osc2tx_runtime.errors import OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import OnProgress, overloads, run_tree
 from osc2tx_runtime.running.map_warnings import map_warnings
+from osc2tx_runtime.running.observer import Observer
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.worlds import WorldRequest, find_world
@@ -23,6 +29,8 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
 
 __all__ = ["RunResult", "run_scenario", "setup_tree"]
+
+REDRAWS = 100  # draws of one seed, where the map has no room for what is drawn
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +57,14 @@ class RunResult:
 
 
 def run_scenario(
-    scenario_class: type[Scenario],
+    scenario_class: Callable[[RunSettings], Scenario],
     settings: RunSettings | None = None,
     on_progress: OnProgress | None = None,
     *,
     world: World | None = None,
     keep_trace: bool = True,
+    observer: Observer | None = None,
+    read: Callable[[Path], RoadMap] = read_map,
 ) -> RunResult:
     """Run a scenario from its placement to its verdict.
 
@@ -65,24 +75,55 @@ def run_scenario(
         world: The world to run in; by default the one of the settings, on the scenario's map. It
             is closed at the end.
         keep_trace: Keep the lines of the trace even if no file is asked for.
+        observer: Looks at the run while it goes on.
+        read: Reads the map; who makes many runs need not read it each time.
 
     Raises:
         ScenarioError: If the scenario cannot start, or cannot go on.
     """
     settings = settings or RunSettings()
     check_outputs(settings)
+    run = partial(_run, on_progress, observer, read, keep_trace=keep_trace)
+    may_redraw = world is None and settings.world == "embedded" and settings.draws is None
+    for draw in range(REDRAWS if may_redraw else 0):
+        scenario = scenario_class(replace(settings, draw=settings.draw + draw))
+        try:
+            return run(scenario, None, is_last=False)
+        except BeyondMapError:
+            if not scenario.is_drawn:
+                break
     scenario = scenario_class(settings)
+    return run(scenario, world, is_last=True)
+
+
+def _run(
+    on_progress: OnProgress | None,
+    observer: Observer | None,
+    read: Callable[[Path], RoadMap],
+    scenario: Scenario,
+    world: World | None,
+    *,
+    keep_trace: bool,
+    is_last: bool,
+) -> RunResult:
+    """Run a scenario with the values that are drawn.
+
+    Raises:
+        BeyondMapError: The map surely has no room for what it asks for, unless it `is_last`.
+    """
     root = scenario.create_tree()
-    world = checked_world(world or make_world(scenario))
+    world = checked_world(world or make_world(scenario, read))
     try:
-        context = make_context(scenario, world, keep_trace)
+        context = make_context(scenario, world, keep_trace, observer)
         place_actors(scenario, context)
         setup_tree(root, context)
         check_requirements(root, context)
+        if not is_last:
+            look_ahead(root)
         try:
             write_header(scenario, context)
             world.begin()
-            outcome = run_tree(root, context, on_progress)
+            outcome = run_tree(root, context, on_progress, observer)
         finally:
             write_files(context)
     finally:
@@ -98,7 +139,14 @@ def run_scenario(
     )
 
 
-def make_world(scenario: Scenario) -> object:
+def look_ahead(root: Behaviour) -> None:
+    """Let every action see whether the map has what it asks for."""
+    for node in root.iterate():
+        if isinstance(node, BaseAction):
+            node.look_ahead()
+
+
+def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
     """Make the world that the settings choose, for the scenario's map.
 
     Raises:
@@ -113,6 +161,7 @@ def make_world(scenario: Scenario) -> object:
         settings.seed,
         settings.control,
         settings.world_options,
+        read,
     )
     found = find_world(settings.world)
     for actor, control in settings.control.items():
@@ -126,7 +175,9 @@ def make_world(scenario: Scenario) -> object:
         return found.make(request)
 
 
-def make_context(scenario: Scenario, world: World, keep_trace: bool) -> ExecutionContext:
+def make_context(
+    scenario: Scenario, world: World, keep_trace: bool, observer: Observer | None = None
+) -> ExecutionContext:
     """Return the context of a run."""
     settings = scenario.settings
     enabled = keep_trace or settings.trace is not None or settings.report is not None
@@ -136,7 +187,7 @@ def make_context(scenario: Scenario, world: World, keep_trace: bool) -> Executio
         scenario.actors,
         events=scenario.events,
         objects=scenario.map_objects,
-        trace=TraceWriter(enabled),
+        trace=TraceWriter(enabled, None if observer is None else observer.sampled),
         label_events=scenario.label_events,
         one_of=scenario.one_of,
         first_come=scenario.first_come,

@@ -34,7 +34,7 @@ from .tracking import Tracking
 __all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
 
 
-@dataclass(slots=True)
+@dataclass
 class CommandedActor(MovingActor):
     """An actor with what it is asked for.
 

@@ -55,7 +55,7 @@ _STILL = 1e-9  # m/s
 _ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 
-@dataclass(slots=True)
+@dataclass
 class MovingActor:
     """An actor over its steps, with its commands at work.
 
@@ -116,7 +116,7 @@ class MovingActor:
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
         run = self._stopping or self._speed
         speed = state.v if run is None else run.speed_after(state, inputs)
-        path = self._speed.path if isinstance(self._speed, PlacedRun) else None
+        path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.limited:
             way = curvature_ahead(road_map, self.bound, self.route)
             speed = self.wheels.held(speed, state, way, dt)

@@ -127,7 +127,8 @@ def lateral_on_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | 
     if place is None or along is None:
         return None
     pose = road_map.pose(road_map.advance(place, along).position)
-    return (b.y - pose.y) * math.cos(pose.h) - (b.x - pose.x) * math.sin(pose.h)
+    left = (b.y - pose.y) * math.cos(pose.h) - (b.x - pose.x) * math.sin(pose.h)
+    return left / math.cos(pose.roll) if pose.roll else left
 
 
 def gap_between(along: float, caller: Shape, other: Shape) -> float:

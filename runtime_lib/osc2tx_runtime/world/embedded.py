@@ -153,7 +153,8 @@ class EmbeddedWorld:
     def motion(self, actor: str) -> Motion:
         """Velocity and acceleration of an actor at the present step, in its own axes."""
         member = self._member(actor)
-        return member.motion or self._track.of(actor, member.state, self.dt)
+        lies = member.tilt is LEVEL and member.state.lane_position is not None
+        return member.motion or self._track.of(actor, member.state, self.dt, lies=lies)
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
         """Where an actor would be after some time if it went on in its lane at its speed."""

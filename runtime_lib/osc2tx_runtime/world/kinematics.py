@@ -2,7 +2,9 @@
 
 How fast it goes, and how this changes, says the state: `v` on the ground and `a`. In which
 direction of its own axes it goes says the way of the last step, seen from the attitude in the
-middle of it; on a circle this is exactly forwards. Turning is the change of attitude over the last
+middle of it; on a circle this is exactly forwards. How steeply says the slope of the surface that
+it lies on: heights of maps have steps of fractions of a millimetre, which the shortest step of time
+would make a leap of. Turning is the change of attitude over the last
 step. What changes in the moving axes and what their turning adds make up the acceleration:
 a = du/dt + w x u.
 
@@ -77,20 +79,21 @@ class Track:
             last = self._steps[-1]
             self._steps = (*self._steps[:-1], last._replace(jumped=last.jumped | {actor}))
 
-    def of(self, actor: str, now: ActorState, dt: float) -> Kinematics:
+    def of(self, actor: str, now: ActorState, dt: float, *, lies: bool = False) -> Kinematics:
         """Return the motion of an actor.
 
         Args:
             actor: Its id.
             now: Its present state.
             dt: Length of a step (s).
+            lies: Its pitch and roll are those of the surface below it.
         """
         states = [now]
         for step in reversed(self._steps):
             if actor in step.jumped or actor not in step.states:
                 break
             states.append(step.states[actor])
-        return Kinematics(states, dt)
+        return Kinematics(states, dt, lies=lies)
 
 
 class Kinematics:
@@ -99,14 +102,15 @@ class Kinematics:
     Args:
         states: The present one, and as many of the last two as motion has led here from.
         dt: Length of a step (s).
+        lies: Its pitch and roll are those of the surface below it.
     """
 
-    def __init__(self, states: list[ActorState], dt: float) -> None:
+    def __init__(self, states: list[ActorState], dt: float, *, lies: bool = False) -> None:
         self._now = states[0]
         self._dt = dt
         steps = list(pairwise(states))
         self._rates = [_rates(before, after, dt) for after, before in steps]
-        self._ways = [_direction(before, after) for after, before in steps]
+        self._ways = [_direction(before, after, lies=lies) for after, before in steps]
 
     @property
     def velocity(self) -> Velocity:
@@ -151,7 +155,7 @@ def _forwards(state: ActorState) -> Vector:
     return (1.0 / math.cos(state.pitch), 0.0, 0.0)
 
 
-def _direction(before: ActorState, after: ActorState) -> Vector:
+def _direction(before: ActorState, after: ActorState, *, lies: bool) -> Vector:
     """Way of a step in the own axes in the middle of it, per metre on the ground forwards."""
     dx, dy, dz = after.x - before.x, after.y - before.y, after.z - before.z
     ground = math.hypot(dx, dy)
@@ -167,6 +171,8 @@ def _direction(before: ActorState, after: ActorState) -> Vector:
     sign = -1.0 if backwards else 1.0
     roll, pitch = 0.5 * (before.roll + after.roll), 0.5 * (before.pitch + after.pitch)
     forwards, left, up = math.cos(aside), math.sin(aside), sign * dz / ground
+    if lies:
+        up = left * math.tan(roll) / math.cos(pitch) - forwards * math.tan(pitch)
     # From axes that are level to those of the actor: by its pitch, then by its roll.
     x = forwards * math.cos(pitch) - up * math.sin(pitch)
     nod = forwards * math.sin(pitch) + up * math.cos(pitch)

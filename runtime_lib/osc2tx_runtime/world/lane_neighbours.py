@@ -61,9 +61,10 @@ def neighbouring(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosi
 
 
 def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:
-    """How far (m) a point is to the left of the centre of a lane."""
+    """How far (m) a point is to the left of the centre of a lane, along its surface."""
     centre = road_map.pose(lane)
-    return (y - centre.y) * math.cos(centre.h) - (x - centre.x) * math.sin(centre.h)
+    left = (y - centre.y) * math.cos(centre.h) - (x - centre.x) * math.sin(centre.h)
+    return left / math.cos(centre.roll) if centre.roll else left
 
 
 def lane_under(road_map: RoadMap, bound: LanePosition, pose: Pose) -> LanePosition:

@@ -40,6 +40,10 @@ class PlacedRun:
         self._done = False
         self.path: float | None = None
 
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Speed (m/s) at the next step; called once per step."""
+        raise NotImplementedError
+
     def progress(self) -> Progress:
         """Done at the end of the course."""
         if self._failed is not None:

@@ -27,6 +27,7 @@ class WorldRequest:
         seed: Of all that is sampled.
         control: Who moves an actor, by its id; `""` stands for all others.
         options: Values of the world's own options that were given, by `Option.field`.
+        read: Reads the map; who makes many runs need not read it each time.
     """
 
     map_file: str | None
@@ -35,6 +36,7 @@ class WorldRequest:
     seed: int = 0
     control: Mapping[str, ControlMode] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
+    read: Callable[[Path], RoadMap] = read_map
 
     def road_map(self) -> RoadMap:
         """Read the map of the scenario.
@@ -44,7 +46,7 @@ class WorldRequest:
         """
         path = self.find_map()
         try:
-            return read_map(path)
+            return self.read(path)
         except (MapError, OSError) as error:
             raise InputError(f"the map cannot be read: {error}") from error
 

@@ -76,9 +76,9 @@ def test_conflicts_of_own_actions_are_reported(tmp_path: Path) -> None:
     done = run(tmp_path, body)
     assert done.code == 5
     assert done.err == (
-        "slow.osc: error: ego.change_speed(target=5.0) (slow.osc) and ego.creep() (slow.osc)"
-        " control the longitudinal slot of ego at the same time; let them run one after the other"
-        " (at 0.000 s)\n"
+        "slow.osc: error[OSC803]: ego.change_speed(target=5.0) (slow.osc) and ego.creep()"
+        " (slow.osc) control the longitudinal slot of ego at the same time; let them run one after"
+        " the other (at 0.000 s)\n"
     )
 
 
@@ -86,7 +86,7 @@ def test_a_broken_package_is_named(tmp_path: Path) -> None:
     done = run(tmp_path, 'Serial("s", creep(self.ego))', actions="import no_such_module\n")
     assert done.code == 5
     assert done.err == (
-        "slow.osc: error: the actions in my_actions of my-actions cannot be loaded:"
+        "slow.osc: error[OSC801]: the actions in my_actions of my-actions cannot be loaded:"
         " ModuleNotFoundError: No module named 'no_such_module'\n"
     )
 

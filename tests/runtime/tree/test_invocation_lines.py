@@ -32,8 +32,11 @@ class Outer(Scenario):
         return Serial("outer", self.invoke("first", Inner), Wait(elapsed(0.2)))
 """
 MAP = {
-    "version": 2,
-    "scenarios": {"inner": {"nodes": [2, 3]}, "outer": {"nodes": [5, 6, 7]}},
+    "version": 3,
+    "scenarios": {
+        "inner": {"nodes": [[2, 1], [3, 1]]},
+        "outer": {"nodes": [[5, 1], [6, 1], [7, 1]]},
+    },
 }
 
 

@@ -97,9 +97,13 @@ def test_timeout(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("argv", "code", "message"),
     [
-        (["--signal", "og@1"], 2, "waits.osc: error: --signal og: the scenario has no such event"),
-        (["--dt", "x"], 2, "waits.osc: error: `x` is no time"),
-        (["--trace", "/proc/none/x"], 4, "waits.osc: error: the trace cannot be written"),
+        (
+            ["--signal", "og@1"],
+            2,
+            "waits.osc: error[OSC806]: --signal og: the scenario has no",
+        ),
+        (["--dt", "x"], 2, "waits.osc: error[OSC806]: `x` is no time"),
+        (["--trace", "/proc/none/x"], 4, "waits.osc: error[OSC807]: the trace cannot be written"),
     ],
 )
 def test_errors(
@@ -118,7 +122,7 @@ def test_missing_map(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixt
 
     monkeypatch.undo()
     assert main(NoMap, argv=[]) == 4
-    assert "waits.osc: error: map `Town77` not found" in capsys.readouterr().err
+    assert "waits.osc: error[OSC807]: map `Town77` not found" in capsys.readouterr().err
 
 
 def test_error_of_the_scenario_keeps_its_place(capsys: pytest.CaptureFixture[str]) -> None:
@@ -127,7 +131,7 @@ def test_error_of_the_scenario_keeps_its_place(capsys: pytest.CaptureFixture[str
             raise ScenarioError("nothing to do", "waits.osc:9")
 
     assert main(Broken, argv=[]) == 5
-    assert capsys.readouterr().err == "waits.osc:9: error: nothing to do\n"
+    assert capsys.readouterr().err == "waits.osc:9: error[OSC801]: nothing to do\n"
 
 
 def test_usage_is_for_argparse(capsys: pytest.CaptureFixture[str]) -> None:

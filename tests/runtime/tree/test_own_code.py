@@ -125,7 +125,7 @@ def test_whatever_it_raises_is_an_error_of_the_scenario(
 
     hooks = {"on_start": effect} if where == "effect" else {where: raiser(error)}
     told = ended(capsys, **hooks)
-    assert told.startswith(f"own.osc:7: error: ego hooked: {__name__}.Hooked raised ")
+    assert told.startswith(f"own.osc:7: error[OSC801]: ego hooked: {__name__}.Hooked raised ")
     assert type(error).__name__ in told
 
 
@@ -134,7 +134,7 @@ def test_whatever_it_raises_is_an_error_of_the_scenario(
 )
 def test_a_status_that_is_none(capsys: pytest.CaptureFixture[str], status: Any) -> None:
     told = ended(capsys, on_update=lambda _: status)
-    assert told.startswith("own.osc:7: error: ego hooked returns ")
+    assert told.startswith("own.osc:7: error[OSC801]: ego hooked returns ")
     assert "no status of a node" in told
 
 
@@ -179,7 +179,7 @@ def test_commands_are_checked_when_they_are_handed_in(
     capsys: pytest.CaptureFixture[str], command: Any, problem: str
 ) -> None:
     told = ended(capsys, on_start=lambda action: action.command("longitudinal", command))
-    assert told.startswith(f"own.osc:7: error: ego hooked: {problem}")
+    assert told.startswith(f"own.osc:7: error[OSC801]: ego hooked: {problem}")
 
 
 @pytest.mark.parametrize("number", [3, np.float64(3), np.float32(3), np.int64(3)], ids=repr)
@@ -200,7 +200,7 @@ def test_what_an_effect_assigns_is_checked(
         action.effect("place", 1, lambda: action.context.world.assign("ego", **assigned))
 
     told = ended(capsys, on_start=start)
-    assert told.startswith("own.osc:7: error: ego cannot be put so: ")
+    assert told.startswith("own.osc:7: error[OSC801]: ego cannot be put so: ")
 
 
 # --- worlds ---

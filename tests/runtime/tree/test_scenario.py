@@ -45,8 +45,8 @@ class Mapped(Scenario):
             Parallel("both", Wait(elapsed(0.2)), Serial("rest", duration=0.1)),
         )
 """
-NODES = [9, 11, 10, 12, 13, 14]
-ENTRY = {"fields": {"hero": 4}, "constraints": [], "placements": [6], "nodes": NODES}
+NODES = [[line, 13] for line in (9, 11, 10, 12, 13, 14)]
+ENTRY = {"fields": {"hero": [4, 9]}, "constraints": [], "placements": [[6, 9]], "nodes": NODES}
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def nodes_of(root: Any) -> list[tuple[str, str]]:
 
 
 def test_the_map_gives_places(load: Any) -> None:
-    scenario = load({"version": 2, "scenarios": {"mapped": ENTRY}})()
+    scenario = load({"version": 3, "scenarios": {"mapped": ENTRY}})()
     assert nodes_of(scenario.create_tree()) == [
         ("mapped", "mapped.osc:9"),
         ("until elapsed 1 s", "mapped.osc:11"),
@@ -95,12 +95,12 @@ def test_the_map_gives_places(load: Any) -> None:
         "{broken",
         "[]",
         "[" * 100_000,
-        {"version": 1, "scenarios": {"mapped": ENTRY}},
-        {"version": 2, "scenarios": {}},
-        {"version": 2, "scenarios": {"mapped": [9, 11]}},
-        {"version": 2, "scenarios": {"mapped": {**ENTRY, "nodes": NODES[:-1]}}},
-        {"version": 2, "scenarios": {"mapped": {**ENTRY, "nodes": 5}}},
-        {"version": 2, "scenarios": {"mapped": {**ENTRY, "nodes": ["9"] * 6}}},
+        {"version": 2, "scenarios": {"mapped": ENTRY}},
+        {"version": 3, "scenarios": {}},
+        {"version": 3, "scenarios": {"mapped": [[9, 1], [11, 1]]}},
+        {"version": 3, "scenarios": {"mapped": {**ENTRY, "nodes": NODES[:-1]}}},
+        {"version": 3, "scenarios": {"mapped": {**ENTRY, "nodes": 5}}},
+        {"version": 3, "scenarios": {"mapped": {**ENTRY, "nodes": [[9, "1"]] * 6}}},
     ],
 )
 def test_without_a_fitting_map_the_nodes_speak_for_themselves(load: Any, content: object) -> None:

@@ -7,10 +7,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-__all__ = ["Worst", "scan", "scan_lines"]
+__all__ = ["SMOOTHING", "Instant", "Worst", "scan", "scan_lines"]
 
-_CREEP = 0.05  # m of a step from which on it has a course
-_SMOOTHING = 0.1  # s over which yaw rates are looked at
+_CREEP = 0.02  # m of a step from which on it has a course
+SMOOTHING = 0.1
+"""Seconds over which yaw rates are looked at: maps have small kinks where roads join."""
 
 
 class Worst(NamedTuple):
@@ -41,13 +42,13 @@ class Instant(NamedTuple):
     v: float
 
 
-def scan(history: Sequence[Instant]) -> Worst:
-    """The worst of consecutive states of one actor."""
+def scan(history: Sequence[Instant], smoothing: float = SMOOTHING) -> Worst:
+    """The worst of consecutive states of one actor, its yaw rate smoothed over so many seconds."""
     worst, at, rate = [0.0] * 4, [0.0] * 4, 0.0
     for before, after in pairwise(history):
         dt = after.t - before.t
         turn = _turn(before.h, after.h)
-        rate += dt / (_SMOOTHING + dt) * (turn / dt - rate)
+        rate += dt / (smoothing + dt) * (turn / dt - rate)
         way = math.hypot(after.x - before.x, after.y - before.y)
         course = 0.0
         if way > _CREEP:
@@ -66,14 +67,16 @@ def scan(history: Sequence[Instant]) -> Worst:
     return Worst(*worst, (at[0], at[1], at[2], at[3]))
 
 
-def scan_lines(lines: Iterable[Mapping[str, Any]]) -> dict[str, Worst]:
+def scan_lines(
+    lines: Iterable[Mapping[str, Any]], smoothing: float = SMOOTHING
+) -> dict[str, Worst]:
     """The worst of each actor of a trace."""
     histories: dict[str, list[Instant]] = {}
     for line in lines:
         if line["kind"] == "state":
             instant = Instant(*(line[name] for name in Instant._fields))
             histories.setdefault(line["actor"], []).append(instant)
-    return {actor: scan(history) for actor, history in histories.items()}
+    return {actor: scan(history, smoothing) for actor, history in histories.items()}
 
 
 def _turn(before: float, after: float) -> float:

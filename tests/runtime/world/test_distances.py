@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
@@ -11,6 +12,7 @@ from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.collision import box_of, contact_interval, overlapping, swept_contacts
+from osc2tx_runtime.world.commands import LaneOffset
 from osc2tx_runtime.world.distances import (
     along_lanes,
     gap_between,
@@ -21,6 +23,8 @@ from osc2tx_runtime.world.distances import (
     time_to_collision,
     time_to_cover,
 )
+from osc2tx_runtime.world.lane_neighbours import offset_from
+from tests.runtime.opendrive.small_maps import one_road
 
 CAR = Shape(5.0, 2.0, 1.5, 1.0)  # front 4 m, rear 1 m from the reference point
 TRUCK = Shape(10.0, 2.5, 3.5, 2.0)
@@ -150,3 +154,29 @@ def test_pairs_far_apart_are_sorted_out() -> None:
     assert swept_contacts(boxes, ends) == []
     ends[3] = box_of(state(396.0, 0.0))
     assert swept_contacts(boxes, ends) == [(3, 4)]
+
+
+def test_offsets_on_a_banked_road_are_measured_along_it(make_spec: Callable[..., Any]) -> None:
+    """The t of OpenDRIVE lies in the surface: seen from above it is shorter by the cosine."""
+    roll = 0.5
+    bank = f'<lateralProfile><superelevation s="0" a="{roll}" b="0" c="0" d="0"/></lateralProfile>'
+    road_map = one_road("line", 200.0, extra=bank)
+    world = EmbeddedWorld(road_map)
+    world.add(make_spec("a"))
+    world.add(make_spec("b"))
+    world.place("a", LanePosition("1", -1, 20.0, 0.4), 10.0)
+    world.place("b", LanePosition("1", -1, 40.0, -0.6), 10.0)
+    state = world.state("a")
+    assert offset_from(road_map, LanePosition("1", -1, 20.0), state.x, state.y) == pytest.approx(
+        0.4
+    )
+    assert world.aside(world.state("a"), world.state("b")) == pytest.approx(-1.0)
+    world.command("a", "lateral", LaneOffset(1.0, "smooth", duration=2.0))
+    before = world.state("a")
+    for _ in range(45):
+        world.step()
+        now = world.state("a")
+        assert abs(now.y - before.y) < 0.05  # from where it was, without a jump
+        before = now
+    assert now.offset == pytest.approx(1.0)
+    assert now.y == pytest.approx((-1.5 + 1.0) * math.cos(roll))

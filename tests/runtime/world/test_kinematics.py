@@ -194,3 +194,20 @@ def test_a_lane_change_goes_where_the_car_looks(
         # What throws to the side is the turning of the way.
         assert pushed(motion)[1] == pytest.approx(10.0 * about(motion)[2], abs=1e-9)
     assert most > 0.05
+
+
+@pytest.mark.parametrize("dt", [0.05, 0.01, 0.002])
+def test_a_tiny_step_in_the_height_of_a_map_is_no_leap(make_spec: MakeSpec, dt: float) -> None:
+    """The map gives its heights in tenths of millimetres; a step of 0.3 mm is their rounding."""
+    step = (
+        '<elevationProfile><elevation s="0" a="0" b="0.05" c="0" d="0"/>'
+        '<elevation s="50" a="2.5003" b="0.05" c="0" d="0"/></elevationProfile>'
+    )
+    world = EmbeddedWorld(one_road("line", 100.0, extra=step), dt)
+    world.add(make_spec("a"))
+    world.place("a", LanePosition("1", -1, 49.0), SPEED)
+    for _ in range(round(0.2 / dt)):
+        world.step()
+        assert along(world.motion("a"))[2] == pytest.approx(0.0, abs=1e-9)
+        assert pushed(world.motion("a")) == near(0.0, 0.0, 0.0, by=1e-6)
+    assert world.state("a").z == pytest.approx(2.5003 + 0.05, abs=1e-3)

@@ -1,13 +1,18 @@
 """What is said about the codes is true: the examples are compiled."""
 
+import re
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
+from osc2tx.cli import cli
+from osc2tx.cli.reporting import Session
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.explanations import Explanation
 from osc2tx.options import CompileOptions
+from osc2tx_runtime.errors import ScenarioError
 
 PRELUDE = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
 WITHOUT_TEXT = {
@@ -15,6 +20,11 @@ WITHOUT_TEXT = {
     "OSC105",
     "OSC115",
     "OSC517",
+    "OSC804",
+    "OSC805",
+    "OSC806",
+    "OSC807",
+    "OSC808",
 }  # too long to write down, or not about a text
 
 
@@ -34,6 +44,22 @@ def codes_of(explanation: Explanation, text: str, folder: Path) -> dict[str, Sev
     return {report.code: report.severity for report in compilation.diagnostics}
 
 
+def codes_of_run(explanation: Explanation, text: str, folder: Path) -> dict[str, Severity]:
+    """Return the code of the error that ends a run of an example, if one does."""
+    path = folder / "example.osc"
+    path.write_text(PRELUDE + text, encoding="utf-8")
+    said = CliRunner().invoke(cli, ["run", str(path)], standalone_mode=False, obj=Session())
+    places = re.findall(rf"^{re.escape(str(path))}:\d+:\d+: error\[(OSC\d+)\]", said.output, re.M)
+    assert (said.return_value == 0) == (not places), said.output
+    return dict.fromkeys(places, Severity.ERROR)
+
+
+def test_errors_of_runs_have_codes() -> None:
+    kinds = [ScenarioError, *ScenarioError.__subclasses__()]
+    own = [kind.code for kind in kinds if kind.__module__ == ScenarioError.__module__]
+    assert sorted(own) == [code for code in CODES if code.startswith("OSC8")]
+
+
 def test_a_code_has_an_example_and_a_remedy() -> None:
     for code, known in CODES.items():
         explanation = known.explanation
@@ -50,10 +76,11 @@ EXAMPLES = sorted(set(CODES) - WITHOUT_TEXT)
 def test_the_faulty_text_shows_the_code_and_the_mended_does_not(code: str, tmp_path: Path) -> None:
     explanation = CODES[code].explanation
     assert explanation is not None
-    shown = codes_of(explanation, explanation.faulty, tmp_path)
+    find = codes_of_run if code.startswith("OSC8") else codes_of
+    shown = find(explanation, explanation.faulty, tmp_path)
     assert code in shown
     assert errors(shown, code) <= {code}
-    left = codes_of(explanation, explanation.fixed, tmp_path)
+    left = find(explanation, explanation.fixed, tmp_path)
     assert code not in left
     assert not errors(left, code)
 

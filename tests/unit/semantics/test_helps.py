@@ -137,6 +137,80 @@ MODIFIER = {
 }  # fmt: skip
 
 
+# What users of ScenarioRunner write, in dialect `carla`: a field or modifier of the scenario, a
+# member of its `do`, or a modifier of `npc.drive(path)`.
+CARLA_HEAD = """\
+import basic.osc
+
+scenario {name}:
+    path: Path
+    npc: Model3
+{fields}    do serial:
+        {member}
+"""
+CARLA = {
+    "unknown model": ("    a: Mercedes\n", "", "OSC624", "actor Mercedes inherits vehicle"),
+    "set_map alone": ('    set_map("Town05")\n', "", "OSC407", "path.set_map(…)"),
+    "unit of a fork": ("    a: acceleration = 3kphps\n", "", "OSC613", "kmphps"),
+    "True": ("    a: bool = True\n", "", "OSC201", "`true`"),
+    "name alone": ("    npc3\n", "", "OSC100", "npc3: type"),
+    "control in quotes": (
+        "",
+        'npc.drive(path) with:\n            follow_trajectory(control: "physics")',
+        "OSC301",
+        "`physics`",
+    ),
+    "adjust": ("", "npc.drive(path, adjust: true)", "OSC402", "leave `adjust: true` out"),
+    "blank before a unit": (
+        "",
+        "npc.drive(path) with:\n            speed(20 kph)",
+        "OSC100",
+        "`20kph`",
+    ),
+    "speed in quotes": (
+        "",
+        'npc.drive(path) with:\n            speed("20kph")',
+        "OSC301",
+        "`20kph`",
+    ),
+    "side as name": (
+        "",
+        "npc.drive(path) with:\n            change_lane(lane_changes: 1, right: left)",
+        "OSC402",
+        "`side: left`",
+    ),
+    "label of two words": (
+        "",
+        "switch 2: parallel():\n            npc.drive(path)",
+        "OSC100",
+        "switch_2:",
+    ),
+    "label twice": (
+        "",
+        "get_ahead: npc.drive(path, duration: 1s)\n        get_ahead: npc.drive(path)",
+        "OSC625",
+        "a label of its own",
+    ),
+    "actor of the caller": ("", "other()", "OSC628", "npc: Model3"),
+    "event of the runner": ("", "wait @drive_distance", "OSC603", "object_distance"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("fields", "member", "code", "help_"), CARLA.values(), ids=CARLA)
+def test_constructs_of_users_of_scenario_runner(
+    fields: str, member: str, code: str, help_: str
+) -> None:
+    """Each is a coded warning, or an error with what to write instead."""
+    text = CARLA_HEAD.format(name="top", fields=fields, member=member or "npc.drive(path)")
+    text += "\nscenario other:\n    do npc.drive(duration: 1s)\n"
+    _, sink = build_text(text, dialect="carla")
+    (report,) = [report for report in sink.sorted() if report.code == code]
+    assert help_ in (report.help or "")
+    assert report.severity.value == ("warning" if code.startswith("OSC6") else "error")
+    errors = {r.code for r in sink.sorted() if r.severity.value == "error"}
+    assert errors <= {code}
+
+
 def scenario(*, fields: Sequence[str] = (), member: str = "wait elapsed(1s)") -> str:
     """A scenario with two vehicles."""
     lines = "".join(f"    {line}\n" for line in (*FIELDS, *fields))

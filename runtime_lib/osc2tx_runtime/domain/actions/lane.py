@@ -9,10 +9,12 @@ from osc2tx_rules import above, at_least, at_most_one
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
+from osc2tx_runtime.domain.planning.lanes_ahead import leads_beside, may_leave_lane_before
 from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.domain.routes.road_graph import graph_of
+from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide, SideLeftRight
+from osc2tx_runtime.errors import BeyondMapError, ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, action
 from osc2tx_runtime.language.tree.base import Status
@@ -148,6 +150,21 @@ class ChangeLane(_OnLane):
         self.reference = reference
         self.offset = offset
         self.target = target
+
+    def look_ahead(self) -> None:
+        """See whether there can be so many lanes, unless it may be in another lane by then."""
+        count, place = self.num_of_lanes, self.here.lane_position
+        if place is None or callable(count) or self.side in (None, "same"):
+            return
+        if self.target is not None or self.reference is not None or may_leave_lane_before(self):
+            return
+        side: SideLeftRight = "left" if self._direction(count) == 1 else "right"
+        if not leads_beside(graph_of(self.world.map), place, side, count):
+            raise BeyondMapError(
+                f"nowhere on its way are there {count} driving lanes to the {side} of lane"
+                f" {place.lane} of road {place.road}",
+                self.source,
+            )
 
     def on_start(self) -> None:
         """Commands the change."""

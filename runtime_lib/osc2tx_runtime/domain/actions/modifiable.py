@@ -72,6 +72,7 @@ class ModifiableAction(ModifiedMotion):
         self._counted = (0, 0.0)
         self._watched: PlaceWatch | None = None
         self._toward: object = None  # the lane of a reference, or its heading
+        self._only_goes_on = False
 
     def become(self, method: Method) -> None:
         """Take the method; a goal bounds the action."""
@@ -159,6 +160,7 @@ class ModifiableAction(ModifiedMotion):
         """Start."""
         self._reached, self._jumped, self._covered, self._to_cover = False, False, 0.0, None
         self._toward = self._watched = None
+        self._only_goes_on = False
         super().initialise()
 
     def on_started(self) -> None:
@@ -184,6 +186,7 @@ class ModifiableAction(ModifiedMotion):
             super().command(LONGITUDINAL, Careful(None))
         if side is not None:
             self.command(LATERAL, side)
+        self._only_goes_on = self._has_nothing_to_see_to()
 
     def command(self, slot: str, command: Command) -> None:
         """Command the actor, with care if a modifier asks for it."""
@@ -202,6 +205,28 @@ class ModifiableAction(ModifiedMotion):
             return avoid.avoid
         standard = self.context.settings.conduct == "standard"
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
+
+    def pulse(self) -> Status:
+        """Look only for what hinders it, where it has nothing else to see to."""
+        if self._only_goes_on and self.status is Status.RUNNING:
+            progress_of, actor_id = self.context.world.progress, self.actor.id
+            for slot in self.slots or (LONGITUDINAL,):
+                if progress_of(actor_id, slot).failed is not None:
+                    break
+            else:
+                return Status.RUNNING
+        return super().pulse()
+
+    def _has_nothing_to_see_to(self) -> bool:
+        """Whether only what surrounds the action ends it, and it commands nothing any more."""
+        watched = (self._limits, self._to_cover, self._watched, self._toward, self.orient)
+        return (
+            self.registered.ends == "open"
+            and not self.has_goal
+            and all(each is None for each in watched)
+            and self._is_ours
+            and type(self).on_update is ModifiableAction.on_update
+        )
 
     def on_update(self) -> Status:
         """Ends with its goal; keeps up with references."""

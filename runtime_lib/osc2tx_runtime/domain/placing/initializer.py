@@ -12,7 +12,13 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.start_order import Start, couple, cycle_of, is_behind
+from osc2tx_runtime.domain.placing.start_order import (
+    Start,
+    couple,
+    cycle_of,
+    is_behind,
+    joined,
+)
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
@@ -137,11 +143,8 @@ class ScenarioInitializer:
         """One start per physical actor, in the order of the cast."""
         written: dict[str, Placement] = {}
         for placement in placements:
-            known = written.setdefault(placement.actor.id, placement)
-            if known is not placement:
-                raise PlacementError(
-                    f"{placement.actor.id} is placed already ({known.source})", placement.source
-                )
+            known = written.get(placement.actor.id)
+            written[placement.actor.id] = placement if known is None else joined(known, placement)
         starts = []
         for actor in self._context.actors.values():
             given = written.get(actor.id)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
@@ -16,7 +18,10 @@ from osc2tx_runtime.domain.modifiers import (
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.errors import PlacementError
 
-__all__ = ["Start", "couple", "cycle_of", "is_behind"]
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.placement import Placement
+
+__all__ = ["Start", "couple", "cycle_of", "is_behind", "joined"]
 
 
 class Start:
@@ -75,6 +80,26 @@ def is_behind(start: Start, anchor: Start, placed: Sequence[Start]) -> bool:
                 seen.add(reference.id)
                 waiting.append(by_id[reference.id])
     return False
+
+
+def joined(first: Placement, second: Placement) -> Placement:
+    """Return what two members of a scenario say together of the start of an actor.
+
+    Raises:
+        PlacementError: They speak of the same thing, and differ.
+    """
+    said = {_subject(modifier): modifier for modifier in first.modifiers}
+    for modifier in second.modifiers:
+        if said.setdefault(_subject(modifier), modifier) != modifier:
+            raise PlacementError(
+                f"{second.actor.id} is placed already ({first.source})", second.source
+            )
+    throughout = first.throughout and second.throughout
+    return replace(first, modifiers=tuple(said.values()), throughout=throughout)
+
+
+def _subject(modifier: Modifier) -> tuple[str, str]:
+    return modifier.name, str(getattr(modifier, "direction", ""))
 
 
 def couple(starts: Sequence[Start]) -> None:

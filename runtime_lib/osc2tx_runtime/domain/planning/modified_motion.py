@@ -6,7 +6,8 @@ from functools import cached_property
 from typing import Unpack
 
 from osc2tx_runtime.domain.actors import MovableObject
-from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.modifiers import Modifier, Orient
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.tree.duration_limits import Limits
 
@@ -33,6 +34,11 @@ class ModifiedMotion(MotionAction):
     def lasting(self) -> tuple[Modifier, ...]:
         """The modifiers but those that only speak of the start."""
         return tuple(modifier for modifier in self.modifiers if not modifier.is_start)
+
+    @cached_property
+    def orient(self) -> Orient | None:
+        """How a vehicle is to be tilted for some time; None if nothing is said of it."""
+        return one_of_kind(self.lasting, Orient) if self.movable.lane_bound else None
 
     @property
     def end_is_known(self) -> bool:

@@ -10,7 +10,6 @@ from osc2tx_runtime.domain.modifiers.base import own_course
 from osc2tx_runtime.domain.placing.pose_resolution import (
     heading_base,
     heading_of,
-    one_of_kind,
     tilt_of,
 )
 from osc2tx_runtime.domain.planning.motion_action import Refused
@@ -83,8 +82,8 @@ def tilt_again(action: ModifiedMotion) -> None:
     Raises:
         Refused: The road is tilted otherwise by now.
     """
-    turned = one_of_kind(action.lasting, Orient)
-    if turned is None or not action.movable.lane_bound:
+    turned = action.orient
+    if turned is None:
         return
     if action.may_jump:
         _jump(action, None, tilt_of(action.world, [turned], action.here))
@@ -94,8 +93,8 @@ def tilt_again(action: ModifiedMotion) -> None:
 
 def lies_so(action: ModifiedMotion) -> bool:
     """Whether a vehicle is tilted as it is to be at the end; always for those that turn."""
-    turned = one_of_kind(action.lasting, Orient)
-    if turned is None or not action.movable.lane_bound:
+    turned = action.orient
+    if turned is None:
         return True
     try:
         check_tilt(action, turned)

@@ -66,8 +66,8 @@ def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
     fits = len(nodes) == len(source_map.nodes)
     for node in own_nodes(root):
         node.source = source_map.file
-    for node, line in zip(nodes, source_map.nodes if fits else (), strict=False):
-        node.source = source_map.place(line)
+    for node, entry in zip(nodes, source_map.nodes if fits else (), strict=False):
+        node.source = source_map.place(entry)
 
 
 def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:

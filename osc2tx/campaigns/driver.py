@@ -1,0 +1,105 @@
+"""Leads a campaign: chooses rows, has them run, stores what came of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import dataclass, replace
+
+from osc2tx.campaigns.engine import Engine
+from osc2tx.campaigns.identity import Texts, identity_of, plan_to
+from osc2tx.campaigns.planner import Planner, columns_of, is_allowed
+from osc2tx.campaigns.samplers import sampler_by_name
+from osc2tx.campaigns.sampling import Sampler, Wanted
+from osc2tx.campaigns.store import Store
+from osc2tx_runtime.campaigns import Executor, Plan, Row
+
+__all__ = ["Progress", "run_campaign"]
+
+OnProgress = Callable[["Progress"], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a campaign is.
+
+    Attributes:
+        wanted: Rows that there are to be; None if nobody knows.
+        done: Rows in the store.
+        failed: Those of them that did not succeed.
+        new: Rows that came since this call began.
+        left_out: Points that break a constraint.
+    """
+
+    wanted: int | None
+    done: int
+    failed: int
+    new: int
+    left_out: int
+
+
+def run_campaign(
+    plan: Plan,
+    texts: Texts,
+    wanted: Wanted,
+    store: Store,
+    engine: Engine,
+    on_progress: OnProgress = lambda progress: None,
+) -> Progress:
+    """Run the rows of a campaign that its store does not have yet.
+
+    Args:
+        plan: What the rows have in common.
+        texts: The options of the runs, as they are written.
+        wanted: The sampler, and how many rows there are to be.
+        store: Where results are kept, and perhaps some are already.
+        engine: Runs the rows.
+        on_progress: Is told whenever rows were stored.
+
+    Raises:
+        CampaignError: The store is of another campaign, or rows cannot be chosen or run.
+        ScenarioError: The scenario cannot have any values.
+    """
+    with closing(Executor(plan)) as executor:
+        sampler = make_sampler(executor, wanted)
+        store.claim(
+            identity_of(plan, texts, executor, sampler, wanted),
+            plan_to(plan, texts, plan.settings.map_path),
+        )
+        if wanted.samples is not None:
+            store.wanted = wanted.samples
+        planner = Planner(executor, sampler, wanted.samples, store.done(), store.left_out())
+        counts = store.counts()
+        so_far = Progress(
+            wanted.samples,
+            sum(counts.values()),
+            sum(counts.values()) - counts.get("success", 0),
+            0,
+            len(store.left_out()),
+        )
+        on_progress(so_far)
+        with closing(engine.run(plan, planner.rows())) as results:
+            for found in results:
+                left_out, planner.newly_left_out = planner.newly_left_out, []
+                store.add(found, left_out)
+                so_far = replace(
+                    so_far,
+                    done=so_far.done + len(found),
+                    failed=so_far.failed + sum(each.status != "success" for each in found),
+                    new=so_far.new + len(found),
+                    left_out=so_far.left_out + len(left_out),
+                )
+                on_progress(so_far)
+        store.add((), planner.newly_left_out)
+        return replace(so_far, left_out=len(store.left_out()))
+
+
+def make_sampler(executor: Executor, wanted: Wanted) -> Sampler:
+    """Return the sampler of a campaign."""
+
+    def allows(row: Row) -> bool:
+        return is_allowed(executor, row)
+
+    needs_columns = wanted.name.partition(":")[0] not in ("random", "table")
+    columns = columns_of(executor) if needs_columns else []
+    return sampler_by_name(wanted, columns, allows)

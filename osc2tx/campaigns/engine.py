@@ -1,0 +1,209 @@
+"""Runs rows in processes of this machine; a row that ends its process costs nobody else.
+
+Each worker has a pipe of its own, tells of each row as soon as it is done, and has only a few rows
+at once. So it is known which row a worker was at when it died: that one is tried once more, alone,
+and then is `crashed`; those behind it go to others.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections import deque
+from collections.abc import Generator, Iterator
+from contextlib import suppress
+from dataclasses import replace
+from multiprocessing.connection import Connection, wait
+from typing import Protocol
+
+from osc2tx.campaigns.errors import CampaignError
+from osc2tx_runtime.campaigns import Plan, Row, RowResult
+from osc2tx_runtime.campaigns.rows import CRASHED
+from osc2tx_runtime.campaigns.worker import Refused, work
+
+__all__ = ["Engine", "LocalEngine"]
+
+ATTEMPTS = 2
+STARTS = 3  # of workers that end before they are ready, with no row done meanwhile
+
+
+class Engine(Protocol):
+    """Runs rows, wherever that is."""
+
+    def run(self, plan: Plan, rows: Iterator[Row]) -> Generator[list[RowResult], None, None]:
+        """Yield what came of rows, in any order, some at a time; take rows when there is room."""
+
+
+class LocalEngine:
+    """Processes of this machine.
+
+    Args:
+        workers: How many.
+        batch: How many rows a worker has at once.
+        timeout: Seconds by the clock that a row may take; None for as long as it likes.
+    """
+
+    def __init__(self, workers: int, batch: int = 16, timeout: float | None = None) -> None:
+        self._workers, self._batch, self._timeout = workers, batch, timeout
+
+    def run(self, plan: Plan, rows: Iterator[Row]) -> Generator[list[RowResult], None, None]:
+        """Yield what came of rows as it comes.
+
+        Raises:
+            CampaignError: No worker can be started.
+        """
+        pool = _Pool(plan, self._workers, self._batch, self._timeout, rows)
+        try:
+            while pool.feed():
+                found = pool.collect()
+                if found:
+                    yield found
+        finally:
+            pool.close()
+
+
+class _Worker:
+    """A process and the rows that it has.
+
+    Attributes:
+        rows: Those that it was given, the one that it is at first.
+        since: When it began with that one.
+        is_ready: Whether it has imported the module.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.pipe: Connection
+        self.pipe, theirs = context.Pipe()
+        self.process = context.Process(target=work, args=(theirs, plan), daemon=True)
+        self.process.start()
+        theirs.close()
+        self.rows: deque[Row] = deque()
+        self.since = time.monotonic()
+        self.is_ready = False
+
+    def give(self, rows: list[Row]) -> None:
+        """Give it rows; it has none."""
+        self.rows.extend(rows)
+        self.since = time.monotonic()
+        self.pipe.send(rows)
+
+    def end(self) -> None:
+        """End it at once."""
+        self.process.kill()
+        self.process.join()
+        self.pipe.close()
+
+
+class _Pool:
+    """The workers of one campaign."""
+
+    def __init__(
+        self, plan: Plan, workers: int, batch: int, timeout: float | None, rows: Iterator[Row]
+    ) -> None:
+        self._plan, self._most, self._batch, self._timeout = plan, workers, batch, timeout
+        self._rows = rows
+        self._again: deque[Row] = deque()  # of workers that died
+        self._suspects: deque[Row] = deque()  # those that they were at
+        self._attempts: dict[int, int] = {}
+        self._workers: list[_Worker] = []
+        self._failed_starts = 0
+
+    def feed(self) -> bool:
+        """Give rows to those who have none; return whether there is something to wait for."""
+        while len(self._workers) < self._most:
+            self._workers.append(_Worker(self._plan))
+        for worker in self._workers:
+            if worker.is_ready and not worker.rows:
+                rows = self._next_rows()
+                if rows:
+                    self._give(worker, rows)
+        is_fresh = not any(worker.is_ready for worker in self._workers)
+        return is_fresh or any(worker.rows for worker in self._workers)
+
+    def _give(self, worker: _Worker, rows: list[Row]) -> None:
+        with suppress(OSError):  # it is dead, which `collect` finds out
+            worker.give(rows)
+
+    def _next_rows(self) -> list[Row]:
+        if self._suspects:
+            return [self._suspects.popleft()]
+        found: list[Row] = []
+        while len(found) < self._batch:
+            row = self._again.popleft() if self._again else next(self._rows, None)
+            if row is None:
+                break
+            found.append(row)
+        return found
+
+    def collect(self) -> list[RowResult]:
+        """Wait for what workers tell; return what came of rows."""
+        pipes = {worker.pipe: worker for worker in self._workers}
+        wait(list(pipes), timeout=self._patience())
+        found: list[RowResult] = []
+        for pipe, worker in pipes.items():
+            try:
+                while pipe.poll():
+                    self._hear(worker, pipe.recv(), found)
+            except (EOFError, OSError):
+                found += self._bury(worker)
+        if self._timeout is not None:
+            for worker in list(self._workers):
+                if worker.rows and time.monotonic() - worker.since > self._timeout:
+                    found.append(self._give_up(worker))
+        return found
+
+    def _patience(self) -> float | None:
+        if self._timeout is None:
+            return None
+        now = time.monotonic()
+        ends = [each.since + self._timeout - now for each in self._workers if each.rows]
+        return max(0.0, min(ends)) + 0.01 if ends else None
+
+    def _hear(self, worker: _Worker, told: object, found: list[RowResult]) -> None:
+        if isinstance(told, Refused):
+            raise CampaignError(told.message)
+        if not isinstance(told, RowResult):
+            worker.is_ready = True
+            return
+        self._failed_starts = 0
+        worker.rows.popleft()
+        worker.since = time.monotonic()
+        found.append(_tried(told, self._attempts.get(told.row.number, 0) + 1))
+
+    def _bury(self, worker: _Worker) -> list[RowResult]:
+        """Take a dead worker away; return the row that it died of, if that was the last try."""
+        worker.end()
+        self._workers.remove(worker)
+        if not worker.is_ready:
+            self._failed_starts += 1
+            if self._failed_starts >= STARTS:
+                code = worker.process.exitcode
+                raise CampaignError(f"a worker cannot be started: it ended with exit code {code}")
+        if not worker.rows:
+            return []
+        row = worker.rows.popleft()
+        self._again.extendleft(reversed(worker.rows))
+        tried = self._attempts[row.number] = self._attempts.get(row.number, 0) + 1
+        if tried < ATTEMPTS:
+            self._suspects.append(row)
+            return []
+        reason = f"the process of this row ended, {tried} times"
+        return [RowResult(row, {}, CRASHED, reason, attempts=tried)]
+
+    def _give_up(self, worker: _Worker) -> RowResult:
+        worker.end()
+        self._workers.remove(worker)
+        row = worker.rows.popleft()
+        self._again.extendleft(reversed(worker.rows))
+        reason = f"took longer than {self._timeout:g} s by the clock"
+        return RowResult(row, {}, CRASHED, reason, attempts=self._attempts.get(row.number, 0) + 1)
+
+    def close(self) -> None:
+        """End all workers."""
+        for worker in self._workers:
+            worker.end()
+
+
+def _tried(result: RowResult, attempts: int) -> RowResult:
+    return result if attempts == 1 else replace(result, attempts=attempts)

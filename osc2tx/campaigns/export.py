@@ -1,0 +1,57 @@
+"""Tables of all rows, for other tools."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from osc2tx.campaigns.errors import CampaignError
+from osc2tx.campaigns.store import Store
+from osc2tx_runtime.errors import InputError
+from osc2tx_runtime.running.output_files import write_output
+
+__all__ = ["export_rows", "flat_rows"]
+
+
+def export_rows(store: Store, file: Path) -> int:
+    """Write a table; its form follows from the end of its name. Return how many rows it has.
+
+    Raises:
+        CampaignError: The form is not known, or the file cannot be written.
+    """
+    rows = list(flat_rows(store))
+    if file.suffix == ".csv":
+        text = _csv(rows)
+    elif file.suffix == ".jsonl":
+        text = "".join(f"{json.dumps(row, allow_nan=False)}\n" for row in rows)
+    else:
+        raise CampaignError(f"{file}: name a file .csv or .jsonl")
+    try:
+        write_output("table", file, text)
+    except InputError as error:
+        raise CampaignError(str(error)) from error
+    return len(rows)
+
+
+def flat_rows(store: Store) -> Iterator[dict[str, Any]]:
+    """Yield all rows by number, each with plain values."""
+    for run in store.runs():
+        yield {
+            **{name: run[name] for name in ("number", "seed", "status", "reason", "time")},
+            **{f"parameter {name}": value for name, value in run["parameters"].items()},
+            **{f"kpi {name}": value for name, value in run["measures"].items()},
+            **({"digest": run["digest"]} if run["digest"] else {}),
+        }
+
+
+def _csv(rows: list[dict[str, Any]]) -> str:
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    out = io.StringIO()
+    writer = csv.DictWriter(out, names, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)  # floats as `repr` has them
+    return out.getvalue()

@@ -1,0 +1,57 @@
+"""Runs one row of a store again, with its trace and its report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+from osc2tx.campaigns.errors import CampaignError
+from osc2tx.campaigns.identity import plan_from
+from osc2tx.campaigns.store import Store, row_of
+from osc2tx_runtime import RunResult
+from osc2tx_runtime.campaigns import Executor
+from osc2tx_runtime.campaigns.executor import trace_digest
+
+__all__ = ["replay_row"]
+
+
+def replay_row(
+    store: Store, number: int, trace: Path | None, report: Path | None, folders: Sequence[Path] = ()
+) -> tuple[str, RunResult]:
+    """Run a row again.
+
+    Args:
+        store: The campaign.
+        number: Of the row.
+        trace: Where its trace is to be written.
+        report: Where its report is to be written.
+        folders: Where its map is looked for first.
+
+    Returns:
+        The name of the scenario, and how the run ended.
+
+    Raises:
+        CampaignError: There is no such row, or the run is another one than the store has.
+        ScenarioError: The row could not be run, and cannot.
+    """
+    run = store.run(number)
+    plan = plan_from(store.plan)
+    settings = replace(plan.settings, map_path=(*folders, *plan.settings.map_path))
+    with closing(Executor(replace(plan, settings=settings))) as executor:
+        result, values = executor.run_whole(row_of(run), trace, report)
+    found = {
+        "parameters": values,
+        "steps": result.steps,
+        "time": result.time,
+        "digest": trace_digest("".join(f"{line}\n" for line in result.trace_lines)),
+    }
+    wrong = [
+        f"{name} {run[name]} was stored, {value} came out"
+        for name, value in found.items()
+        if run[name] is not None and run[name] != value
+    ]
+    if wrong:
+        raise CampaignError(f"{store.path}: row {number} is another run now: {'; '.join(wrong)}")
+    return plan.scenario, result

@@ -1,0 +1,22 @@
+"""`osc2tx campaign`: a scenario run many times, each time with other values."""
+
+from __future__ import annotations
+
+import click
+
+from osc2tx.cli.campaign_results import export, replay
+from osc2tx.cli.campaign_run import run
+
+
+@click.group()
+def campaign() -> None:
+    """Run a scenario many times, each time with other values, and look at what came of it.
+
+    What came of the runs is in one file, the store. A row has a number, and the number one meaning:
+    it depends on the scenario, the sampler and the seed, not on who runs it and when. A campaign
+    that was interrupted goes on with the next call.
+    """
+
+
+for command in (run, replay, export):
+    campaign.add_command(command)

@@ -1,0 +1,253 @@
+"""`osc2tx campaign run`: runs rows and stores what came of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+from osc2tx.building.jobs import compile_all, run_all
+from osc2tx.building.workers import processors
+from osc2tx.campaigns import CampaignError
+from osc2tx.campaigns.driver import Progress, run_campaign
+from osc2tx.campaigns.engine import LocalEngine
+from osc2tx.campaigns.samplers import SAMPLERS
+from osc2tx.campaigns.sampling import Wanted
+from osc2tx.campaigns.store import Store
+from osc2tx.cli.module_loading import module_files, written_files
+from osc2tx.cli.options import compile_options
+from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
+from osc2tx.cli.run import (
+    RunCommand,
+    Texts,
+    choose_scenario,
+    merge_texts,
+    only_one_to_run,
+    option_texts,
+    settings_from,
+)
+from osc2tx.compilation.inputs import InputError, find_inputs
+from osc2tx.compilation.needed_modules import sibling_modules
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx_runtime import ScenarioError
+from osc2tx_runtime.campaigns import Condition, Modules, Plan
+from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.kpis import MEASURES
+from osc2tx_text import complain, is_watched, visible
+
+OnProgress = Callable[[Progress], None]
+
+
+class CampaignCommand(RunCommand):
+    """A command with the options of runs, but those that name files of one."""
+
+    without = frozenset({"trace", "report"})
+
+
+@click.command(cls=CampaignCommand)
+@click.argument("file", metavar="FILE", type=click.Path())
+@click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
+@click.option(
+    "--samples",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="How many rows there are to be in the end; without: as many as the last call said.",
+)
+@click.option(
+    "--sampler",
+    metavar="|".join(SAMPLERS),
+    default="random",
+    help="Which values rows have.  [default: random]",
+)
+@click.option(
+    "--levels",
+    metavar="N",
+    type=click.IntRange(min=2),
+    default=5,
+    help="Values of a range for grid and pairwise.  [default: 5]",
+)
+@click.option(
+    "--store",
+    "place",
+    metavar="FILE",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Where the results are.  [default: SCENARIO.campaign]",
+)
+@click.option(
+    "--workers",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="How many processes run rows.  [default: one for each processor]",
+)
+@click.option(
+    "--batch",
+    metavar="N",
+    type=click.IntRange(min=1),
+    default=16,
+    help="How many rows a process is given at once.  [default: 16]",
+)
+@click.option(
+    "--timeout",
+    metavar="SECONDS",
+    type=click.FloatRange(min=0.0, min_open=True),
+    help="By the clock: a row that takes longer is ended, and counts as crashed.",
+)
+@click.option(
+    "--kpi",
+    "kpis",
+    metavar="NAME",
+    multiple=True,
+    help="What is measured: all of osc2tx, or those named here; `none` for nothing.",
+)
+@click.option(
+    "--fail-if",
+    metavar="KPI<NUMBER",
+    multiple=True,
+    help="A row fails also if this holds, in SI units: min_ttc<1.5",
+)
+@click.option("--digests", is_flag=True, help="Make each trace, and store its digest.")
+@compile_options
+@report_options
+def run(
+    file: str,
+    scenario: str | None,
+    samples: int | None,
+    sampler: str,
+    levels: int,
+    place: Path | None,
+    workers: int | None,
+    batch: int,
+    timeout: float | None,
+    kpis: tuple[str, ...],
+    fail_if: tuple[str, ...],
+    digests: bool,
+    given: GivenOptions,
+    reporter: Reporter,
+    **written: str | bool | tuple[str, ...] | None,
+) -> Exit:
+    """Run a scenario many times, until its store has so many rows.
+
+    Rows that are in the store are not run again: after Ctrl-C, or whatever ended it, the same
+    command goes on. Samplers: `random` draws as `osc2tx run` does; `sobol` and `halton` fill the
+    space evenly and go on for ever, `lhs` for a number of rows; `grid` has all combinations of a
+    few values, `pairwise` all pairs; `table:FILE` the rows of a CSV file.
+    """
+    path = Path(file)
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder; name one scenario file")
+    find_inputs([path])
+    texts = {name: option_texts(value) for name, value in written.items()}
+    try:
+        texts = merge_texts(ConfigFiles().for_source(path), path, texts)
+        settings = settings_from(texts, path)
+        conditions = tuple(map(Condition.parse, fail_if))
+    except SettingsError as error:
+        raise click.UsageError(error.message) from None
+    found = _files_of(path, scenario, given, reporter)
+    if isinstance(found, Exit):
+        return found
+    files, module, name = found
+    measures = tuple(MEASURES) if not kpis else tuple(each for each in kpis if each != "none")
+    plan = Plan(files, module, name, settings, measures, conditions, digests)
+    wanted = Wanted(sampler, settings.seed, samples, levels)
+    engine = LocalEngine(workers or processors(), batch, timeout)
+    try:
+        return _run(plan, texts, wanted, place or Path(f"{name}.campaign"), engine, reporter)
+    except CampaignError as error:
+        raise click.UsageError(str(error)) from None
+    except ScenarioError as error:
+        complain(f"{error.source or path}: error: {error.message}")
+        return Exit(error.exit_code)
+
+
+def _run(
+    plan: Plan, texts: Texts, wanted: Wanted, place: Path, engine: LocalEngine, reporter: Reporter
+) -> Exit:
+    with Store(place, is_new=True) as store:
+        wanted = _with_samples(wanted, store)
+        try:
+            with _progress_bar(plan.scenario) as show:
+                ended = run_campaign(plan, texts, wanted, store, engine, show)
+        except KeyboardInterrupt:
+            done = sum(store.counts().values())
+            complain(
+                f"{plan.scenario}: interrupted with {count_of(done, 'row')} in {place}; the same"
+                " command goes on"
+            )
+            return Exit.INTERRUPTED
+        for line in summary(plan.scenario, store, ended):
+            reporter.say(line)
+        return Exit.FAILED if ended.failed else Exit.OK
+
+
+def _with_samples(wanted: Wanted, store: Store) -> Wanted:
+    """Take the number of rows from the store where the command line has none, and note it."""
+    samples = wanted.samples or store.wanted
+    ends_by_itself = wanted.name.partition(":")[0] in ("grid", "pairwise", "table")
+    if samples is None and not ends_by_itself:
+        raise CampaignError("say how many rows there are to be: --samples 1000")
+    return Wanted(wanted.name, wanted.seed, samples, wanted.levels)
+
+
+def summary(name: str, store: Store, ended: Progress) -> Iterator[str]:
+    """Yield the lines that say what is in a store."""
+    counts = ", ".join(f"{number} {status}" for status, number in store.counts().items())
+    yield f"{name}: {count_of(ended.done, 'row')} in {store.path}, {ended.new} new: {counts}"
+    if ended.left_out:
+        share = ended.done / (ended.done + ended.left_out)
+        yield (
+            f"  {count_of(ended.left_out, 'point')} of the sampler break a constraint and were left"
+            f" out: {share:.1%} were accepted"
+        )
+
+
+def _files_of(
+    path: Path, scenario: str | None, given: GivenOptions, reporter: Reporter
+) -> tuple[dict[str, str], str, str] | Exit:
+    """Return the files of a scenario's module, the name of the module and of the scenario."""
+    if path.suffix == ".py":
+        reporter.report_nothing()
+        files, module = written_files(path)
+    else:
+        (compilation,) = compile_all([path], given)
+        code, _ = reporter.report([compilation], run_all([compilation], lambda item: item.module))
+        if code is not Exit.OK:
+            return code
+        if compilation.module is None:
+            raise click.UsageError(f"{path} declares no scenario")
+        files, module = module_files(compilation.module, sibling_modules(compilation))
+        scenario = scenario or only_one_to_run(compilation)
+    loaded = Modules(files)
+    try:
+        return files, module, choose_scenario(loaded.load(module), scenario, path).name
+    except ScenarioError as error:
+        raise InputError(f"{path}: {error.message}") from error
+    finally:
+        loaded.close()
+
+
+@contextmanager
+def _progress_bar(name: str) -> Iterator[OnProgress]:
+    """Yield what shows progress: rate, failures, remaining time; nothing beside a terminal."""
+    if not is_watched():
+        yield lambda progress: None
+        return
+    from rich import progress as bars
+    from rich.console import Console
+
+    columns = (
+        bars.TextColumn("{task.description}", markup=False),
+        bars.BarColumn(),
+        bars.TextColumn("{task.completed:.0f} of {task.total}, {task.fields[failed]} failed"),
+        bars.TextColumn("{task.speed} rows/s"),
+        bars.TimeRemainingColumn(),
+    )
+    with bars.Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(visible(name), total=None, failed=0)
+
+        def show(progress: Progress) -> None:
+            bar.update(task, completed=progress.done, total=progress.wanted, failed=progress.failed)
+
+        yield show

@@ -1,0 +1,59 @@
+"""Texts from standard input, as editors and hooks give them."""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from pathlib import Path
+
+import click
+
+from osc2tx.building.jobs import options_of
+from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.inputs import InputError
+from osc2tx.config import ConfigFiles, GivenOptions
+
+WORD = "-"
+UNNAMED = "stdin.osc"
+
+stdin_filename = click.option(
+    "--stdin-filename",
+    metavar="PATH",
+    help="With `-` for PATH: what to call the text, and where its settings and imports are.",
+)
+
+
+def is_standard_input(paths: tuple[str, ...], name: str | None) -> bool:
+    """Whether a command line asks for the text of standard input.
+
+    Raises:
+        click.UsageError: If it asks for files as well, or names what it does not ask for.
+    """
+    if WORD in paths and len(paths) > 1:
+        raise click.UsageError("`-` stands for standard input, and for nothing beside it")
+    if name is not None and WORD not in paths:
+        raise click.UsageError("--stdin-filename is for `-`, the text of standard input")
+    return paths == (WORD,)
+
+
+def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Compilation:
+    """Return the compilation of the text on standard input; no stage has run yet.
+
+    Raises:
+        InputError: If it is no text in UTF-8.
+    """
+    data = sys.stdin.buffer.read()
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"standard input: no UTF-8 at byte offset {error.start}") from None
+    path = Path(name or UNNAMED)
+    config = ConfigFiles().for_source(path)
+    return Compilation(
+        path,
+        path.as_posix(),
+        config.options_for(path, given),
+        roots=config.roots,
+        text=text,
+        options_of=partial(options_of, given=given),
+    )

@@ -1,0 +1,25 @@
+"""Rows of a campaign: one scenario run many times, each time with other values.
+
+`points` says which values a row has, `rows` what a row asks for and gives, `modules` imports the
+module from its text, `executor` runs rows one after the other. A worker needs no more than this
+package: the compiler samples, stores and reports.
+"""
+
+from __future__ import annotations
+
+from .executor import Executor
+from .modules import Modules, scenarios_of
+from .points import LeftOut, Point
+from .rows import Condition, Plan, Row, RowResult
+
+__all__ = [
+    "Condition",
+    "Executor",
+    "LeftOut",
+    "Modules",
+    "Plan",
+    "Point",
+    "Row",
+    "RowResult",
+    "scenarios_of",
+]

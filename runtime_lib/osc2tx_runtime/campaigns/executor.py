@@ -1,0 +1,156 @@
+"""Runs rows of a campaign in this process, one after the other."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import time
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.domain.scenario import Scenario
+from osc2tx_runtime.errors import ScenarioError, told
+from osc2tx_runtime.kpis import Measuring, measures_by_name
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.trace import to_json
+from osc2tx_runtime.opendrive import RoadMap, read_map
+from osc2tx_runtime.running.runner import RunResult, run_scenario
+
+from .modules import Modules, scenario_in
+from .points import LeftOut, Point
+from .rows import Plan, Row, RowResult
+
+__all__ = ["Executor", "trace_digest"]
+
+
+class Executor:
+    """Runs rows; the module and the map are read once.
+
+    Args:
+        plan: What the rows have in common.
+
+    Raises:
+        ScenarioError: The module cannot be imported, or a measure is not known.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._measures = measures_by_name(plan.measures)
+        self._modules = Modules(plan.files)
+        self._scenario = scenario_in(self._modules.load(plan.module), plan.scenario)
+        self._read = lru_cache(maxsize=4)(_read)
+
+    def close(self) -> None:
+        """Forget the module."""
+        self._modules.close()
+
+    def settings_of(self, row: Row) -> RunSettings:
+        """Return the settings of a row."""
+        draws = None if row.shares is None else Point(row.shares, row.seed)
+        values = {**self._plan.settings.set, **row.set}
+        return replace(self._plan.settings, seed=row.seed, set=values, draws=draws)
+
+    def values_of(self, row: Row) -> tuple[dict[str, Any], Point | None]:
+        """Return the values that a row has, without running it, and what they were drawn with.
+
+        Raises:
+            LeftOut: They break a constraint.
+            ScenarioError: There are none.
+        """
+        settings = self.settings_of(row)
+        scenario = self._scenario(settings)
+        scenario.create_tree()  # scenarios that are invoked have values of their own
+        assert settings.draws is None or isinstance(settings.draws, Point)
+        return dict(scenario.parameters), settings.draws
+
+    def map_path(self, row: Row) -> Path:
+        """Return the file of the map that a row is on.
+
+        Raises:
+            ScenarioError: There is none.
+        """
+        settings = self.settings_of(row)
+        return find_map(self._scenario(settings).map_file(), settings.map_path)
+
+    def run_whole(
+        self, row: Row, trace: Path | None, report: Path | None
+    ) -> tuple[RunResult, dict[str, Any]]:
+        """Run a row as `osc2tx run` does, with its trace; return its values too.
+
+        Raises:
+            ScenarioError: It cannot be run.
+        """
+        made: list[Scenario] = []
+
+        def make(settings: RunSettings) -> Scenario:
+            made.append(self._scenario(settings))
+            return made[-1]
+
+        settings = replace(self.settings_of(row), trace=trace, report=report)
+        result = run_scenario(make, settings)
+        return result, dict(made[-1].parameters)
+
+    def run(self, row: Row) -> RowResult:
+        """Run a row; whatever goes wrong in the scenario is part of the result."""
+        begin = time.perf_counter()
+        made: list[Scenario] = []
+
+        def make(settings: RunSettings) -> Scenario:
+            made.append(self._scenario(settings))
+            return made[-1]
+
+        measuring = Measuring(self._measures.values())
+        status, reason, source, result = "error", "", None, None
+        try:
+            result = run_scenario(
+                make,
+                self.settings_of(row),
+                keep_trace=self._plan.digests,
+                observer=measuring,
+                read=lambda path: self._read(path, path.stat().st_mtime_ns),
+            )
+            status, reason = result.status, result.reason
+        except ScenarioError as error:
+            reason, source = error.message, error.source
+        except LeftOut as left:
+            reason = f"the values of this row break a constraint ({left})"
+        except Exception as error:  # a bug of ours or of the user's code costs this row alone
+            reason = f"internal error: {told(error)}"
+        measures = {
+            name: value if value is None or math.isfinite(value) else None
+            for name, value in measuring.results().items()
+        }
+        broken = [text for each in self._plan.fail_if if (text := each.broken_by(measures))]
+        if broken and status != "error":
+            status, reason = "failure", "; ".join(filter(None, (*broken, reason)))
+        return RowResult(
+            row=row,
+            values=dict(made[-1].parameters) if made else {},
+            status=status,
+            reason=reason,
+            source=source,
+            steps=0 if result is None else result.steps,
+            time=0.0 if result is None else result.time,
+            measures=measures,
+            collisions=measuring.collisions,
+            samples=tuple((kind, to_json(values)) for kind, values in measuring.samples),
+            digest=digest_of(result) if self._plan.digests and result is not None else None,
+            seconds=time.perf_counter() - begin,
+        )
+
+
+def digest_of(result: RunResult) -> str:
+    """Return the SHA-256 of a trace, as a file of it has it."""
+    return trace_digest("".join(f"{line}\n" for line in result.trace_lines))
+
+
+def trace_digest(text: str) -> str:
+    """Return the SHA-256 of the text of a trace."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _read(path: Path, changed: int) -> RoadMap:
+    return read_map(path)

@@ -1,0 +1,85 @@
+"""Imports a generated module, and those that it needs, from their texts."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+import tempfile
+from collections.abc import Mapping
+from itertools import count
+from pathlib import Path
+from types import ModuleType
+
+from osc2tx_runtime.domain.scenario import Scenario
+from osc2tx_runtime.errors import OwnCode, SettingsError
+
+__all__ = ["Modules", "scenarios_of"]
+
+_NUMBERS = count()  # modules of one process have names of their own
+
+
+class Modules:
+    """The modules of a campaign in a folder of their own, which is gone when this is closed.
+
+    A process can have one of them at a time: modules find each other on `sys.path`.
+
+    Args:
+        files: Path of each module inside of the folder to its text.
+    """
+
+    def __init__(self, files: Mapping[str, str]) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="osc2tx-campaign-")
+        self._name = f"osc2tx_campaign_{next(_NUMBERS)}"
+        self._path = list(sys.path)
+        self._known = set(sys.modules)
+        for name, text in files.items():
+            place = Path(self._folder.name, name)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_text(text, encoding="utf-8")
+
+    def load(self, name: str) -> dict[str, type[Scenario]]:
+        """Import a module; return its scenarios by their names in the source."""
+        place = Path(self._folder.name, name)
+        folders = [str(place.parent), *map(str, place.parent.parents)]
+        root = folders.index(self._folder.name)
+        sys.path[:0] = folders[: root + 1]
+        importlib.invalidate_caches()
+        spec = importlib.util.spec_from_file_location(self._name, place)
+        assert spec is not None and spec.loader is not None, "every .py file has a loader"
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[self._name] = module
+        with OwnCode(f"{name} cannot be imported:"):
+            spec.loader.exec_module(module)
+        return scenarios_of(module)
+
+    def close(self) -> None:
+        """Forget all modules of the folder."""
+        sys.path[:] = self._path
+        for name in set(sys.modules) - self._known:
+            place = getattr(sys.modules[name], "__file__", None)
+            if name == self._name or (place and place.startswith(self._folder.name)):
+                del sys.modules[name]
+        self._folder.cleanup()
+
+
+def scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:
+    """Return the scenarios that a module declares, by their names in the source."""
+    return {
+        value.name: value
+        for value in vars(module).values()
+        if isinstance(value, type)
+        and issubclass(value, Scenario)
+        and value.__module__ == module.__name__
+    }
+
+
+def scenario_in(scenarios: Mapping[str, type[Scenario]], name: str) -> type[Scenario]:
+    """Return a scenario by its name.
+
+    Raises:
+        SettingsError: There is none.
+    """
+    if name not in scenarios:
+        raise SettingsError(f"there is no scenario `{name}`; there is: {', '.join(scenarios)}")
+    return scenarios[name]

@@ -1,0 +1,95 @@
+"""Points of the unit cube as values of parameters: how far along its domain each of them is."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+__all__ = ["Column", "LeftOut", "Point"]
+
+
+class LeftOut(Exception):
+    """Values of a point break a constraint, or cannot be computed together."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A parameter whose value is drawn.
+
+    Attributes:
+        name: As in settings: in an invoked scenario with the path before it.
+        kind: What it is drawn from: a range of real or whole numbers, or some values.
+        count: How many values those are; 0 for real numbers.
+    """
+
+    name: str
+    kind: Literal["real", "whole", "choice"]
+    count: int = 0
+
+
+class Point:
+    """The place of a row between the first (0) and the last value (1) of each parameter.
+
+    As `RunSettings.draws` it takes the place of the seed. A bound may depend on other parameters:
+    what is drawn is a share of the range as it is then.
+
+    Args:
+        shares: By name of the parameter.
+        rest: Seed of what is not among them.
+
+    Attributes:
+        columns: What was drawn, in order.
+    """
+
+    def __init__(self, shares: Mapping[str, float], rest: int = 0) -> None:
+        self._shares = shares
+        self._rest = rest
+        self._asked: set[str] = set()
+        self.columns: dict[str, Column] = {}
+
+    def __call__(self, name: str) -> random.Random:
+        """Return what a parameter is drawn with.
+
+        Raises:
+            LeftOut: It was drawn before: the scenario wants other values, and there are none.
+        """
+        if name in self._asked:
+            raise LeftOut(name)
+        self._asked.add(name)
+        share = self._shares.get(name)
+        if share is None:
+            share = random.Random(f"{self._rest}/{name}").random()
+        return _Placed(name, share, self.columns)
+
+
+class _Placed(random.Random):
+    """Draws a value at a place of its domain."""
+
+    def __init__(self, name: str, share: float, columns: dict[str, Column]) -> None:
+        super().__init__(0)
+        self._name, self._share, self._columns = name, share, columns
+
+    def random(self) -> float:
+        """Return the place itself."""
+        self._columns[self._name] = Column(self._name, "real")
+        return self._share
+
+    def uniform(self, a: float, b: float) -> float:
+        """Return a number between two others."""
+        self._columns[self._name] = Column(self._name, "real")
+        return min(max(a + (b - a) * self._share, min(a, b)), max(a, b))
+
+    def randint(self, a: int, b: int) -> int:
+        """Return a whole number from one to another, both included."""
+        self._columns[self._name] = Column(self._name, "whole", b - a + 1)
+        return a + self._index(b - a + 1)
+
+    def choice(self, seq: Sequence[Any]) -> Any:  # type: ignore[override]
+        """Return an element."""
+        self._columns[self._name] = Column(self._name, "choice", len(seq))
+        return seq[self._index(len(seq))]
+
+    def _index(self, count: int) -> int:
+        return min(int(self._share * count), count - 1)

@@ -1,0 +1,14 @@
+"""Measures of a run, taken in the loop of steps: how near actors came, how hard they braked.
+
+`measure` says what a measure is, `pairs` has those of two actors, `encroachment` the time between
+two of them at one place, `motion` those of one actor, `rules` collisions, lanes and lights,
+`registry` finds them by name, those of installed packages too, `measuring` takes them in a run.
+"""
+
+from __future__ import annotations
+
+from .measure import Measure
+from .measuring import Measuring
+from .registry import MEASURES, measures_by_name
+
+__all__ = ["MEASURES", "Measure", "Measuring", "measures_by_name"]

@@ -1,0 +1,179 @@
+"""Processes that run rows: how many there are, and that some die, shows nowhere but in the row."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import pytest
+
+from osc2tx.campaigns import CampaignError
+from osc2tx.campaigns.engine import LocalEngine
+from osc2tx.campaigns.sampling import row_seed
+from osc2tx.campaigns.store import Store
+from osc2tx_runtime.campaigns import Plan, Row
+from tests.campaigns.kit import TRIANGLE, Here, digest, parameters, plan_of, run
+from tests.end_to_end.harness import SCENARIOS
+
+pytestmark = pytest.mark.slow
+
+
+def lethal(body: str) -> Plan:
+    """A scenario that does something to its process when `a` is drawn."""
+    plan = plan_of(TRIANGLE)
+    text = f"""import os
+import time
+
+from case import Triangle
+
+
+class Lethal(Triangle):
+    name = "lethal"
+
+    def behavior(self):
+        {body}
+        return super().behavior()
+"""
+    return replace(
+        plan, files={**plan.files, "lethal.py": text}, module="lethal.py", scenario="lethal"
+    )
+
+
+def rows(number: int) -> list[Row]:
+    return [Row(each, row_seed(0, each)) for each in range(number)]
+
+
+def test_workers_and_batches_do_not_show(tmp_path: Path) -> None:
+    plan = plan_of(TRIANGLE, "min_gap", "max_deceleration", "min_pet")
+    run(plan, tmp_path / "here", "sobol", 40, Here())
+    run(plan, tmp_path / "one", "sobol", 40, LocalEngine(1, 16))
+    run(plan, tmp_path / "two", "sobol", 40, LocalEngine(2, 3))
+    assert digest(tmp_path / "here") == digest(tmp_path / "one") == digest(tmp_path / "two")
+
+
+def test_a_row_that_kills_its_process_costs_itself_alone() -> None:
+    plan = lethal("if self.a > 6.0: os._exit(3)")
+    fine = {n: each for n, each in enumerate(drawn(20)) if each <= 6.0}
+    found = [each for batch in LocalEngine(2, 5).run(plan, iter(rows(20))) for each in batch]
+    assert sorted(each.row.number for each in found) == list(range(20))
+    assert {each.row.number for each in found if each.status == "success"} == set(fine)
+    crashed = [each for each in found if each.status == "crashed"]
+    assert crashed and all(each.attempts == 2 for each in crashed)
+
+
+def drawn(number: int) -> list[float]:
+    from osc2tx_runtime.campaigns import Executor
+
+    executor = Executor(plan_of(TRIANGLE))
+    try:
+        return [executor.values_of(row)[0]["a"] for row in rows(number)]
+    finally:
+        executor.close()
+
+
+def test_a_row_that_hangs_is_given_up() -> None:
+    plan = lethal("if self.a > 6.0: time.sleep(1e6)")
+    engine = LocalEngine(1, 4, timeout=5.0)
+    found = [each for batch in engine.run(plan, iter(rows(8))) for each in batch]
+    assert len(found) == 8
+    late = {each.row.number for each in found if "longer than 5 s" in each.reason}
+    assert late == {number for number, a in enumerate(drawn(8)) if a > 6.0} != set()
+
+
+def test_a_module_that_cannot_be_imported_is_told() -> None:
+    plan = replace(plan_of(TRIANGLE), files={"case.py": "import nothing_of_this_name\n"})
+    with pytest.raises(CampaignError, match="nothing_of_this_name"):
+        list(LocalEngine(1).run(plan, iter(rows(1))))
+
+
+def test_killed_workers_do_not_show(tmp_path: Path) -> None:
+    """Workers are killed at five random moments; who dies then is only tried once more."""
+    generator = random.Random(4)
+    plan = plan_of(TRIANGLE, "min_gap")
+    run(plan, tmp_path / "calm", "random", 300, LocalEngine(2, 10))
+
+    class Killed(LocalEngine):
+        def run(self, plan, rows):  # type: ignore[no-untyped-def]
+            moments = {generator.randrange(5, 250) for _ in range(5)}
+            done = 0
+            for found in super().run(plan, rows):
+                before, done = done, done + len(found)
+                if any(before <= moment < done for moment in moments):
+                    os.kill(generator.choice(children()), signal.SIGKILL)
+                yield found
+
+    run(plan, tmp_path / "killed", "random", 300, Killed(2, 10))
+    assert digest(tmp_path / "killed") == digest(tmp_path / "calm")
+
+
+def children() -> list[int]:
+    """Return the workers of this process."""
+    import multiprocessing
+
+    return [each.pid for each in multiprocessing.active_children() if each.pid is not None]
+
+
+def campaign(place: Path, samples: int, *options: str) -> list[str]:
+    command = [sys.executable, "-m", "osc2tx", "campaign", "run", str(SCENARIOS / "cut_in.osc")]
+    more = ["--store", str(place), "--workers", "2", "--batch", "3", "--kpi", "min_gap"]
+    return [*command, *more, "--samples", str(samples), *options]
+
+
+@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
+def test_a_driver_that_is_killed_goes_on(tmp_path: Path, blow: signal.Signals) -> None:
+    """Killed at three moments, told by what it has stored; nothing stored is lost or run again."""
+    generator = random.Random(int(blow))
+    place = tmp_path / "store"
+    stored: set[int] = set()
+    for _ in range(3):
+        process = subprocess.Popen(
+            campaign(place, 60), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        target = len(stored) + generator.randrange(1, 12)
+        while process.poll() is None and len(numbers(place)) < target:
+            time.sleep(0.05)
+        process.send_signal(blow)
+        assert process.wait(600) == (-blow if blow is signal.SIGKILL else 130)
+        assert stored <= numbers(place)
+        stored = numbers(place)
+    assert 0 < len(stored) < 60
+    ended = subprocess.run(campaign(place, 60), capture_output=True, text=True, check=True)
+    assert f"60 rows in {place}, {60 - len(stored)} new: 60 success" in ended.stdout
+    assert ended.stderr == ""  # no progress beside a terminal
+    whole = tmp_path / "whole"
+    subprocess.run(campaign(whole, 60), capture_output=True, check=True)
+    assert digest(place) == digest(whole)
+
+
+def numbers(place: Path) -> set[int]:
+    try:
+        return set(islice(parameters(place), 1000))
+    except CampaignError:  # not there yet, or just being made
+        return set()
+
+
+def test_rows_of_a_scenario_of_ours_are_replayed_to_the_byte(tmp_path: Path) -> None:
+    """And they are the runs of `osc2tx run` with the seed of the row."""
+    place = tmp_path / "store"
+    done = subprocess.run(
+        campaign(place, 4, "--digests"), capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    with Store(place) as store:
+        runs = list(store.runs())
+    for run_ in runs[:2]:
+        number = str(run_["number"])
+        traces = tmp_path / f"{number}.jsonl", tmp_path / f"{number}-again.jsonl"
+        base = [sys.executable, "-m", "osc2tx"]
+        again = ["campaign", "replay", str(place), number, "--trace", str(traces[0])]
+        alone = ["run", str(SCENARIOS / "cut_in.osc"), "--seed", str(run_["seed"])]
+        for command in (again, [*alone, "--trace", str(traces[1])]):
+            subprocess.run([*base, *command], check=True, capture_output=True)
+        assert traces[0].read_bytes() == traces[1].read_bytes()
