@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,18 +15,22 @@ import pytest
 
 REPOSITORY = Path(__file__).parents[2]
 TUTORIAL = REPOSITORY / "docs" / "tutorial.md"
+CAMPAIGNS = REPOSITORY / "docs" / "how-to" / "campaigns.md"
 _BLOCK = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _SECONDS = re.compile(r"in \d+\.\d+s\b")
 
 
 @pytest.mark.slow
-def test_tutorial(tmp_path: Path, request: pytest.FixtureRequest) -> None:
-    """Every command of the tutorial prints what stands there, one after the other."""
-    text = TUTORIAL.read_text(encoding="utf-8")
+@pytest.mark.parametrize("page", [TUTORIAL, CAMPAIGNS], ids=lambda page: page.stem)
+def test_commands_of_pages(page: Path, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    """Every command of a page prints what stands there, one after the other."""
+    text = page.read_text(encoding="utf-8")
     shell = Shell(tmp_path)
+    if page is CAMPAIGNS:  # its reader has a project already
+        shutil.copytree(REPOSITORY / "scenarios", tmp_path / "scenarios")
     shown = _BLOCK.sub(lambda block: f"```console\n{shell.repeat(block[1])}```", text)
     if request.config.getoption("--update-golden"):
-        TUTORIAL.write_text(shown, encoding="utf-8")
+        page.write_text(shown, encoding="utf-8")
     assert _SECONDS.sub("in 1.00s", text) == _SECONDS.sub("in 1.00s", shown)
 
 
