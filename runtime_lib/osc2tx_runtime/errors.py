@@ -176,11 +176,18 @@ def told(error: BaseException) -> str:
 
 def is_own(factory: type) -> bool:
     """Whether a class is code of the user's own, whatever it says of its module."""
-    module = sys.modules.get(factory.__module__)
-    is_ours = f"{factory.__module__}.".startswith("osc2tx_runtime.")
+    stated = module_of(factory)
+    module = sys.modules.get(stated)
+    is_ours = f"{stated}.".startswith("osc2tx_runtime.")
     return not is_ours or getattr(module, factory.__qualname__, None) is not factory
 
 
 def name_of(factory: type) -> str:
     """Return the full name of a class."""
-    return f"{factory.__module__}.{factory.__qualname__}"
+    return f"{module_of(factory)}.{factory.__qualname__}"
+
+
+def module_of(factory: type) -> str:
+    """Return the name of the module of a class, which may state anything."""
+    stated: object = factory.__module__
+    return stated if type(stated) is str else "?"

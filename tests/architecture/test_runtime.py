@@ -80,7 +80,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"domain.modifiers", "enums", "language", "units"},
     # what carries a scenario out, and what generated modules import
     "worlds": {"errors", "opendrive", "world"},
-    "simulators": {"enums", "errors", "opendrive", "world", "worlds"},
+    "simulators": {"enums", "errors", "opendrive", "plain_numbers", "world", "worlds"},
     "report": {"language"},
     "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
     | {"errors", "interrupts", "language", "opendrive", "plain_numbers", "world", "worlds"},

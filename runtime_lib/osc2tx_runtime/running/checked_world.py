@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
 
+from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.world.checked_calls import CheckedCalls
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_runtime.world.kinematics import Kinematics
@@ -22,6 +23,7 @@ ANSWERS: Mapping[str, Any] = {
     "dt": float,
     "environment": Mapping[str, float],
     "lights": LightState,
+    "map": RoadMap,
     "motion": Kinematics,
     "name": str,
     "overloads": Sequence[Any],
@@ -32,6 +34,10 @@ ANSWERS: Mapping[str, Any] = {
     "trailer_of": str | None,
     "warnings": Sequence[str],
 }
+
+_OF_A_WORLD = {name: member for name, member in vars(World).items() if not name.startswith("_")}
+METHODS = frozenset(name for name, member in _OF_A_WORLD.items() if callable(member))
+ATTRIBUTES = (_OF_A_WORLD.keys() | set(World.__annotations__)) - METHODS
 
 
 def checked_world(world: object) -> World:
@@ -57,7 +63,9 @@ class _CheckedWorld:
             raise AttributeError(name)
         found = self._calls.ask(name, lambda: getattr(self._world, name), Any)
         wanted = ANSWERS.get(name, Any)
-        if callable(found):
+        if name in METHODS and not callable(found):
+            self._calls.refuse(name, "is no method")
+        if name in METHODS or (callable(found) and name not in ATTRIBUTES):
             return self._method(name, found, wanted)
         return self._calls.ask(name, lambda: found, wanted)
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from traceback import format_exc
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
 from osc2tx_runtime.interrupts import INTERRUPTED, as_usual
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
@@ -155,7 +155,11 @@ def make_parser(
     own = parser.add_argument_group(f"options of the world {world.name}")
     for group, options in ((parser, OPTIONS), (own, world.options)):
         for option in options:
-            add_option(group, option)
+            try:
+                add_option(group, option)
+            except argparse.ArgumentError:
+                told = f"the world {world.name} has an option --{option.name} of its own"
+                raise SettingsError(f"{told}, which every run has") from None
     return parser
 
 
@@ -166,7 +170,8 @@ def _plain(text: str) -> str:
 
 def add_option(group: argparse._ActionsContainer, option: Option) -> None:
     """Add an option of the tables to a parser."""
-    shown = "" if option.default is None else f" (default: {option.default})"
+    with OwnCode(f"--{option.name}: the default raised", error=SettingsError):
+        shown = "" if option.default is None else f" (default: {option.default})"
     text = _plain(f"{option.help}{shown}")
     if option.is_flag:
         group.add_argument(f"--{option.name}", help=text, action="store_const", const="true")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast, get_args
 
-from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.language.settings import FAIL_ON, RunSettings
 from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.world.protocol import ControlMode
@@ -199,7 +199,8 @@ def read_options(texts: Mapping[str, str | Sequence[str] | None]) -> RunSettings
     values = _take(OPTIONS, given)
     if given:
         world = find_world(values.get("world", "embedded"))
-        values["world_options"] = _take(world.options, given)
+        with OwnCode(f"an option of the world {world.name} cannot be read:", error=SettingsError):
+            values["world_options"] = _take(world.options, given)
     if given:
         raise SettingsError(f"unknown option --{min(given)}")
     return RunSettings(**values)

@@ -30,9 +30,8 @@ def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
         for problem in problems_of(action, context)
     }
     if problems:
-        lines = [f"the world {context.world.name} cannot run this scenario:"]
-        lines += [f"{source}: {problem}" if source else problem for source, problem in problems]
-        raise CapabilityError("\n  ".join(lines))
+        told = "; ".join(f"{where}: {what}" if where else what for where, what in problems)
+        raise CapabilityError(f"the world {context.world.name} cannot run this scenario: {told}")
 
 
 def problems_of(action: BaseAction, context: ExecutionContext) -> Iterator[str]:

@@ -48,10 +48,12 @@ class CheckedCalls:
         """
         if self._error is None:
             found = call()
+            problem = problem_of(found, wanted)
         else:
             with OwnCode(f"{self._told} raised", error=self._error):
                 found = call()
-        if problem := problem_of(found, wanted):
+                problem = problem_of(found, wanted)  # its numbers may be own classes
+        if problem:
             self.refuse(name, problem)
         return found
 

@@ -20,6 +20,7 @@ from .protocol import ActorSpec, ControlMode
 from .scene import Scene, Setpoint
 from .single_track import SingleTrack
 from .stop_lines_ahead import StopLines
+from .value_checks import problem_of
 
 __all__ = ["DriversPlant"]
 
@@ -93,11 +94,11 @@ class DriversPlant:
         name = f"the driver of {actor}, {name_of(type(driver))},"
         with OwnCode(f"{name} raised"):
             control = driver.step(observation, scene.dt)
-        if not isinstance(control, Control):
-            raise ScenarioError(f"{name} answers a {type(control).__name__}, not a Control")
-        if not (math.isfinite(control.acceleration) and math.isfinite(control.steering)):
-            raise ScenarioError(f"{name} answers {control}")
-        return control
+            if not isinstance(control, Control):
+                raise ScenarioError(f"{name} answers a {type(control).__name__}, not a Control")
+            if problem := problem_of(control, Control):
+                raise ScenarioError(f"{name} answers a Control whose {problem}")
+            return Control(float(control.acceleration), float(control.steering))
 
     def _measured(self, scene: Scene, setpoint: Setpoint) -> Measurement:
         vehicle, place = self._vehicles[setpoint.spec.id], setpoint.now.lane_position

@@ -54,6 +54,8 @@ def _check_for(wanted: Hashable) -> Check:
             value,
             "whole number",
         )
+    if get_origin(wanted) is Callable:
+        return lambda value: _unless(callable(value), value, "function")
     kind: Any = get_origin(wanted) or wanted
     if getattr(kind, "_is_protocol", False):
         return lambda value: _unless(all(hasattr(value, n) for n in _members(kind)), value, kind)

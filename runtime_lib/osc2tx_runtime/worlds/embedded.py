@@ -58,9 +58,10 @@ def driver_of(actor: str, path: str) -> Driver:
     try:
         with OwnCode("cannot be made:"):
             driver: Driver = getattr(import_module(module), name)()
+            has_step = callable(getattr(driver, "step", None))
     except ScenarioError as error:
         raise SettingsError(f"--ego {actor}={path}: {error.message}") from error
-    if not callable(getattr(driver, "step", None)):
+    if not has_step:
         raise SettingsError(f"--ego {actor}={path}: has no method step(observation, dt)")
     return driver
 

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import re
+from typing import Any
+
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
+from osc2tx_runtime.world.protocol import ControlMode
+from osc2tx_runtime.world.value_checks import problem_of
 
 from .embedded import EMBEDDED
+from .option import Option
 from .world_type import WorldType
 
 __all__ = ["ENTRY_POINTS", "find_world"]
 
 ENTRY_POINTS = "osc2tx.worlds"
 """Group of entry points; each names a `WorldType`, by the name that `--world` takes."""
+
+NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
 def find_world(name: str) -> WorldType:
@@ -34,4 +42,26 @@ def find_world(name: str) -> WorldType:
         raise SettingsError(error.message) from error
     if not isinstance(found, WorldType):
         raise SettingsError(f"--world {name}: {entries[name].value} is no WorldType")
+    if problem := _problem_of(found):
+        raise SettingsError(f"--world {name}: {entries[name].value}: {problem}")
     return found
+
+
+def _problem_of(found: Any) -> str:
+    """Return what is wrong with the fields of a world; empty if nothing is."""
+    if not isinstance(found.name, str) or not callable(found.make):
+        return "a name and a function `make` are missing"
+    if problem := problem_of(found.controls, tuple[ControlMode, ...]) or (
+        "is empty" if not found.controls else ""
+    ):
+        return f"controls {problem}"
+    if problem := problem_of(found.options, tuple[Option, ...]):
+        return f"options {problem}"
+    for option in found.options:
+        texts = (option.name, option.metavar, option.help)
+        if not all(isinstance(text, str) for text in texts) or not NAME.fullmatch(option.name):
+            return "name, metavar and help of an option are texts, the name of a-z, 0-9 and -"
+        if not callable(option.parse) or not (option.gather is None or callable(option.gather)):
+            return f"option {option.name}: parse and gather are functions"
+    names = [option.name for option in found.options]
+    return "two options have the same name" if len(set(names)) < len(names) else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.plain_numbers import to_int
 from osc2tx_runtime.worlds import Option
 from osc2tx_runtime.worlds.option import parse_pair, parse_seconds
 
@@ -22,7 +23,10 @@ def parse_address(text: str) -> tuple[str, int]:
     """Read `localhost:2000`, `localhost` or `:2000`."""
     host, _, port = text.strip().partition(":")
     try:
-        return host or DEFAULT_ADDRESS[0], int(port) if port else DEFAULT_ADDRESS[1]
+        number = to_int(port) if port else DEFAULT_ADDRESS[1]
+        if not 0 < number < 65536:
+            raise ValueError("no port")
+        return host or DEFAULT_ADDRESS[0], number
     except ValueError:
         raise SettingsError(
             f"--carla {text}: write HOST:PORT, as in --carla localhost:2000"

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -82,7 +83,9 @@ def _sensor(path: Path, written: Any) -> Sensor:
         point = written.get("spawn_point", {})
         x, y, z, roll, pitch, yaw = (float(point.get(axis, 0.0)) for axis in AXES)
         attributes = {key: str(value) for key, value in written.get("attributes", {}).items()}
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        if not all(map(isfinite, (x, y, z, roll, pitch, yaw))):
+            raise ValueError("a place is no number")
+    except (ArithmeticError, AttributeError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"{path}: a sensor needs id, type and spawn_point ({error})") from error
     if not kind.startswith("sensor."):
         raise InputError(f"{path}: {name}: {kind} is no blueprint of a sensor")
