@@ -26,6 +26,7 @@ from tests.unit.backends.xosc.documents import PLAIN, compiled
 from tests.xosc.played import (
     Played,
     compare,
+    values_of,
     world,
 )
 
@@ -83,7 +84,8 @@ def both(given: Given, name: str, dt: float, folder: Path) -> tuple[XmlScenario,
     """Return the document, what the world does, and what esmini does."""
     document = documents(given)[name]
     assert document.xml is not None
-    expected = world(given.path, document, replace(given.settings, dt=dt), given.options)
+    settings = replace(given.settings, dt=dt)
+    expected = world(given.path, name, settings, given.options, values_of(document))
     return document, expected, play(given, document.xml, dt, folder)
 
 

@@ -122,12 +122,15 @@ class Body:
             return
         onward = math.copysign(math.sqrt(max(way * way - aside * aside, 0.0)), way) * self.along
         ahead = road_map.advance(self.place, onward, self.route)
-        if abs(ahead.travelled - onward) > 1e-6:
-            self.v = 0.0
+        left = abs(onward) - abs(ahead.travelled)
         self.place = ahead.position._replace(offset=self.place.offset + aside)
         pose = road_map.pose(self.place)
         turned = math.atan2(aside * self.along, abs(onward)) if onward else 0.0
-        self.pose = Pose(pose.x, pose.y, (pose.h if self.along > 0 else pose.h + math.pi) + turned)
+        h = (pose.h if self.along > 0 else pose.h + math.pi) + turned
+        self.pose = Pose(pose.x, pose.y, h)
+        if left > 1e-6:  # of the end of a road the standard says nothing: straight on
+            self.place = None
+            self.move(road_map, math.copysign(left, way), None, dt)
 
     def note_motion(self, before: Pose, dt: float) -> None:
         """Take down velocity and lateral acceleration over a step."""

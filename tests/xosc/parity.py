@@ -15,7 +15,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
-from tests.xosc.played import Difference, Played, compare, world
+from tests.xosc.played import Difference, Played, compare, values_of, world
 from tests.xosc.storyboard import NOTHING, Evaluator, map_of
 
 FINE = 0.01  # s
@@ -93,7 +93,8 @@ def difference(given: Given, document: XmlScenario, *, is_lazy: bool = False) ->
         AssertionError: An event has not happened, came too late, or in another order.
     """
     assert document.xml is not None
-    expected = world(given.path, document, given.settings, given.options)
+    declared = values_of(document)
+    expected = world(given.path, document.name, given.settings, given.options, declared)
     carries = PROFILES[given.xml.profile].carries_acceleration
     found = played(
         document.xml,

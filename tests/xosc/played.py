@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import combinations
 from pathlib import Path
+from types import MappingProxyType
 
 import pytest
 from lxml import etree
@@ -70,16 +71,21 @@ def module(path: Path, options: CompileOptions) -> GeneratedModule:
 
 
 def world(
-    path: Path, document: XmlScenario, settings: RunSettings, options: CompileOptions
+    path: Path,
+    name: str,
+    settings: RunSettings,
+    options: CompileOptions,
+    declared: Mapping[str, float | str] = MappingProxyType({}),
 ) -> Played:
-    """Return what the embedded world does with the values that a document stands for."""
+    """Return what the embedded world does with the values that a document declares."""
     with scenarios_of_module(module(path, options)) as scenarios:
-        scenario, declared = scenarios[document.name], values_of(document)
+        scenario = scenarios[name]
         result = run_scenario(scenario, settings)
         # Others of the document hold what an event carries, or follow from parameters.
         names = json.loads(result.trace_lines[0])["parameters"]
-        values = {name: declared.get(name.replace(".", "_")) for name in names}
-        values = {name: value for name, value in values.items() if value is not None}
+        values = {
+            path: declared[name] for path in names if (name := path.replace(".", "_")) in declared
+        }
         if values:
             result = run_scenario(scenario, replace(settings, set={**values, **settings.set}))
     assert result.status == "success", result.reason
