@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -16,8 +17,10 @@ from osc2tx.cli.standard_input import (
     is_standard_input,
     stdin_filename,
 )
-from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
+
+if TYPE_CHECKING:
+    from osc2tx.compilation.driver import Compilation
 
 
 @click.command()

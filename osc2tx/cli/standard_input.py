@@ -5,13 +5,16 @@ from __future__ import annotations
 import sys
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from osc2tx.building.jobs import options_of
-from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions
+
+if TYPE_CHECKING:
+    from osc2tx.compilation.driver import Compilation
 
 WORD = "-"
 UNNAMED = "stdin.osc"
@@ -42,6 +45,8 @@ def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Comp
     Raises:
         InputError: If it is no text in UTF-8.
     """
+    from osc2tx.compilation.driver import Compilation  # a remembered check needs no stage
+
     data = sys.stdin.buffer.read()
     try:
         text = data.decode("utf-8-sig")

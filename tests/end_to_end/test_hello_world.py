@@ -160,13 +160,14 @@ def test_the_default_placement_has_the_truck_too_fast_in_a_turn(
     trace = run(load(generate(FILE)), default)
     warning = next(each for each in trace.warnings if each.startswith("npc"))
     said = re.fullmatch(
-        r"npc cannot be driven so: (\S+) m/s\^2 across its way at (\S+) m/s are more than the 8\.8"
-        r" m/s\^2 that the dry road holds \(road (\d+), lane -3, s (\S+) m; from .*\)",
+        r"npc cannot be driven so: (\S+) m/s\^2 across its way at (\S+) m/s and a radius of \S+ m"
+        r" are more than the 3\.9 m/s\^2 at which it tips over"
+        r" \(road (\d+), lane -4, s (\S+) m; from .*\)",
         warning,
     )
     assert said is not None, warning
     across, speed, place = float(said[1]), float(said[2]), float(said[4])
-    assert (said[3], round(speed)) == ("10", 15)
+    assert (said[3], round(speed)) == ("46", 15)
     there = [e for e in trace.states("npc") if e["road"] == said[3]]
     at = min(range(len(there)), key=lambda k: abs(there[k]["s"] - place))
     turned = math.remainder(there[at]["h"] - there[at - 1]["h"], math.tau) / 0.05

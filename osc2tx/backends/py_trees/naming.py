@@ -32,6 +32,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "global_parameter",
         "invoke",
         "invoked",
+        "is_drawn",
         "keep",
         "label_events",
         "map_file",

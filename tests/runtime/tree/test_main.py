@@ -15,9 +15,12 @@ from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree import Behaviour, Event, OneOf, Serial, Status, Wait, elapsed
 from osc2tx_runtime.language.tree.base import Leaf
+from osc2tx_runtime.opendrive import read_map
 from osc2tx_runtime.running import runner
 from osc2tx_runtime.running.main import main
 from tests.runtime.tree.kit import FakeWorld
+
+ROADS = read_map(Path(osc2tx_runtime.__file__).parent / "maps" / "highway.xodr")
 
 
 class GiveUp(Leaf):
@@ -41,8 +44,9 @@ class Waits(Scenario):
 
 @pytest.fixture(autouse=True)
 def fake(monkeypatch: pytest.MonkeyPatch) -> None:
-    def world(scenario: Scenario) -> Any:
+    def world(scenario: Scenario, read: object) -> Any:
         made = FakeWorld((), scenario.settings.dt)
+        made.map = ROADS
         made.contacts[3] = [("hero", "npc")]
         return made
 
@@ -62,7 +66,7 @@ def test_success(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     lines = [json.loads(line) for line in trace.read_text().splitlines()]
     assert lines[0] == {
         **{"kind": "header", "version": 1, "scenario": "waits", "source": "waits.osc"},
-        **{"map": "fake", "dt": 0.05, "seed": 0, "parameters": {"time": 1.0, "bad": False}},
+        **{"map": "highway", "dt": 0.05, "seed": 0, "parameters": {"time": 1.0, "bad": False}},
         **{"actors": {}, "one_of": "race"},
     }
     assert {"t": 1.0, "kind": "choice", "name": "first", "policy": "race"}.items() <= next(

@@ -15,7 +15,7 @@ def test_build_writes_and_then_has_nothing_to_do(shell: Shell) -> None:
         "1 module in out: 3 files written; 0 errors, 0 warnings\n",
     )
     assert "0 files written" in shell("build", "in", "-o", "out").out
-    assert json.loads((shell.folder / "out/a.map.json").read_text())["version"] == 2
+    assert json.loads((shell.folder / "out/a.map.json").read_text())["version"] == 3
 
 
 def test_build_check_lists_what_would_change(shell: Shell) -> None:

@@ -56,7 +56,7 @@ def codes_of_run(explanation: Explanation, text: str, folder: Path) -> dict[str,
 
 def test_errors_of_runs_have_codes() -> None:
     kinds = [ScenarioError, *ScenarioError.__subclasses__()]
-    own = [kind.code for kind in kinds if kind.__module__ == ScenarioError.__module__]
+    own = {kind.code for kind in kinds if kind.__module__ == ScenarioError.__module__}
     assert sorted(own) == [code for code in CODES if code.startswith("OSC8")]
 
 
