@@ -37,7 +37,7 @@ class ScenarioValues:
         settings: Of the run.
         parameters: Values of the parameters, in order; the scenario that runs also has those of
             all that it invokes.
-        is_drawn: Whether some value of the scenario that runs, or of one it invokes, was drawn.
+        has_drawn_values: Whether some value of the scenario that runs, or of one it invokes, was drawn.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class ScenarioValues:
         self._generator = random.Random(settings.draws_from)
         self._attempt = 0
         self._first: ScenarioValues = self if caller is None else caller._first
-        self.is_drawn = False
+        self.has_drawn_values = False
         self._draws = False  # whether a value was drawn, so that another draw may help
         self._kept = 0
         self._broken: ArithmeticError | NotKeptError | None = None  # by the last draw
@@ -272,7 +272,7 @@ class ScenarioValues:
             generator = self.settings.draws(path)
         is_open = given is None and path not in chosen
         if isinstance(default if is_open else given, Range | Choice):
-            self._draws = self._first.is_drawn = True
+            self._draws = self._first.has_drawn_values = True
         try:
             return choose(path, default, domain, generator, given=given, settings=chosen)
         except ScenarioError as error:

@@ -90,7 +90,7 @@ def run_scenario(
         try:
             return run(scenario, None, is_last=False)
         except BeyondMapError:
-            if not scenario.is_drawn:
+            if not scenario.has_drawn_values:
                 break
     scenario = scenario_class(settings)
     return run(scenario, world, is_last=True)
