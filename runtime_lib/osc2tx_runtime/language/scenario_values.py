@@ -37,7 +37,8 @@ class ScenarioValues:
         settings: Of the run.
         parameters: Values of the parameters, in order; the scenario that runs also has those of
             all that it invokes.
-        has_drawn_values: Whether some value of the scenario that runs, or of one it invokes, was drawn.
+        has_drawn_values: Whether some value of the scenario that runs, or of one it invokes, was
+            drawn.
     """
 
     def __init__(

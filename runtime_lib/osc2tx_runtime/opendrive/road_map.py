@@ -279,6 +279,11 @@ class RoadMap:
         """Those in a lane, at its end and at its begin."""
         return self._seams_by_lane.get((road, lane), ())
 
+    def has_seams(self, a: LanePosition, b: LanePosition) -> bool:
+        """Whether there are any in the lanes of two places."""
+        found = self._seams_by_lane
+        return bool(found) and ((a.road, a.lane) in found or (b.road, b.lane) in found)
+
     @cached_property
     def _seams_by_lane(self) -> Mapping[tuple[str, int], tuple[Seam, ...]]:
         found: dict[tuple[str, int], tuple[Seam, ...]] = {}

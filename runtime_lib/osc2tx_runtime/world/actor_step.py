@@ -157,7 +157,8 @@ class MovingActor:
             if abs(ahead.travelled - along) > 1e-6:
                 return self._over_the_end(place, along - ahead.travelled, speed, road_map, dt)
             self.blocked = None
-            self._cross(place, along, speed, road_map)
+            if self.residual is not None or road_map.has_seams(bound, place):
+                self._cross(place, along, speed, road_map)
         else:
             place = bound
         if offset != place.offset:
