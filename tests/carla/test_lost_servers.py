@@ -104,7 +104,7 @@ def test_a_server_that_is_killed(server: StandInProcess, tmp_path: Path, wait: U
     os.kill(server.pid, signal.SIGKILL)
     _, errors = run.communicate()
     assert run.returncode == 4, errors
-    assert errors.count("error:") == 1
+    assert errors.count("error[OSC") == errors.count("\n") == 1
     end = last_line(trace)
     assert (end["kind"], end["status"]) == ("result", "error")
     assert end["steps"] > 30
