@@ -9,6 +9,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
+from osc2tx.backends.xosc.actions.slow_shifts import note_slow
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_shift, fastest
@@ -114,6 +115,7 @@ def lane_change(
     course = course_of_shift(way, profile, peak, duration, leaf.limits)
     if not jumps:
         _note_drift(leaf, way, (profile, peak, duration), course)
+        note_slow(leaf, way, course)
     time = 0.0 if jumps else course.duration
     shape = "step" if jumps else _shape(leaf, course, profile)
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
@@ -239,6 +241,7 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
     way = abs(offset - _offset(leaf.state))
     course = course_of_shift(way, profile, peak, None, leaf.limits)
     _note_drift(leaf, way, (profile, peak, None), course)
+    note_slow(leaf, way, course)
     shape = _shape(leaf, course, profile)
     # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
     half_turn = math.pi / course.duration

@@ -11,7 +11,8 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, P
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import change_speed, hold_speed, jump_to
 from osc2tx.backends.xosc.actions.speed_modifiers import time_to_cover
-from osc2tx.backends.xosc.actions.walkers import stand, walk_on
+from osc2tx.backends.xosc.actions.walkers import change_pace, stand, walk_on
+from osc2tx.backends.xosc.facts.actors import course_of_speed
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 
@@ -63,6 +64,13 @@ def _change_speed(leaf: Leaf) -> Performance:
         raise Inexpressible("it has no target", leaf.node.span)
     profile = arguments.member("rate_profile", "none")
     peak = arguments.number("rate_peak")
+    state = leaf.state
+    if leaf.member.walks and state.pose is not None:
+        if state.speed is None or not state.speed.is_known:
+            raise Inexpressible("how fast it walks is not known", leaf.node.span)
+        course = course_of_speed(state.speed.low, target, profile, peak, leaf.duration, leaf.limits)
+        walk = change_pace(leaf, target, course)
+        return Performance((walk, *apply_modifiers(leaf)), "goal", course.duration)
     change = change_speed(leaf, target, profile, peak, leaf.duration)
     return Performance((change, *apply_modifiers(leaf)), "goal")
 
@@ -72,6 +80,9 @@ def _assign_speed(leaf: Leaf) -> Performance:
     target = leaf.arguments.number("speed")
     if target is None:
         raise Inexpressible("it has no speed", leaf.node.span)
+    if leaf.member.walks and leaf.state.pose is not None:
+        course = course_of_speed(target, target, "none", None, None, leaf.limits)
+        return Performance((change_pace(leaf, target, course),), "goal", 0.0)
     return Performance((jump_to(leaf, target),), "goal")
 
 

@@ -41,8 +41,7 @@ def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
     place = target.element
     state = leaf.state
     if leaf.member.walks and target.pose is not None:
-        heading = target.pose.h if state.pose is None else state.pose.h
-        pose = target.pose._replace(h=heading)
+        pose = target.pose  # which looks along the road: a point has no heading
         place, after = world_position(pose), replace(state, pose=pose, lane=None, offset=None)
     else:
         offset = None if target.lane is None else known(round(target.lane.offset, 6))

@@ -46,6 +46,18 @@ def walk_on(leaf: Leaf, target: float | None) -> Change:
     return Change(WAY, (action,), leaf.duration, during, after)
 
 
+def change_pace(leaf: Leaf, goal: float, course: Profile) -> Change:
+    """Return the walk straight on during which the speed comes to a goal (m/s), and on."""
+    state = leaf.state
+    assert state.pose is not None
+    action = _trajectory(leaf, state.pose, course, LONG)
+    pose = _ahead(state.pose, _covered(course, course.duration))
+    after = replace(state, speed=known(goal), pose=pose)
+    passed = known(goal) if state.speed is None else state.speed.over(known(goal))
+    during = replace(after, speed=passed, pose=None)
+    return Change(WAY, (action,), course.duration, during, after)
+
+
 def stand(leaf: Leaf) -> Change:
     """Return the stop of a walker."""
     state = leaf.state
@@ -61,10 +73,7 @@ def stand(leaf: Leaf) -> Change:
         )
         return change
     course = course_of_speed(state.speed.low, 0.0, "asap", None, None, leaf.limits)
-    action = _trajectory(leaf, state.pose, course, LONG)
-    pose = _ahead(state.pose, _covered(course, course.duration))
-    after = replace(state, speed=known(0.0), pose=pose)
-    return Change(WAY, (action,), course.duration, replace(after, pose=None), after)
+    return change_pace(leaf, 0.0, course)
 
 
 def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Element:

@@ -7,6 +7,7 @@ from math import cos, pi, sin
 from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.stationary_actors import faces_along, standing_heading
+from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -88,7 +89,7 @@ def _signed(
     is_ahead, rule, value = ahead_is_positive, c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
-    _note_facing(ctx, c, freespace, system)
+    note_facing(ctx, c, freespace, system)
     has_order = direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2")
     if value == 0.0 and not freespace:  # only the order counts
         if not has_order:
@@ -97,7 +98,7 @@ def _signed(
                 "conditions on distances have no sign, so they cannot ask for that of a distance"
             )
             raise Inexpressible(reason, c.source.span, remedy)
-        return ((_is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
+        return ((is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
     distance = of_entity(
         me,
         element(
@@ -110,19 +111,42 @@ def _signed(
             rule=rule,
         ),
     )
-    if has_order:
+    return in_order(ctx, c, distance, direction, is_ahead, rule, f"{value:g} m")
+
+
+def in_order(
+    ctx: Context,
+    c: Comparison,
+    measure: Element,
+    direction: str,
+    is_ahead: bool,
+    rule: str,
+    amount: str,
+) -> Groups:
+    """Return the conditions for a measure without a sign, and for the side that it is on.
+
+    Args:
+        ctx: The context.
+        c: The comparison.
+        measure: Compares the amount.
+        direction: `longitudinal` or `lateral`.
+        is_ahead: The reference is ahead of the actor where the measure is positive.
+        rule: Of the measure.
+        amount: What it is compared with, with its unit.
+    """
+    me, other = c.actor, c.reference()
+    if direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2"):
         if rule.startswith("less") and not c.is_edge:
-            return ((distance,), (_is_clear(ctx, me, other, ahead=is_ahead),))
-        return ((distance, _is_clear(ctx, me, other, ahead=not is_ahead)),)
-    span = c.source.span
+            return ((measure,), (is_clear(ctx, me, other, ahead=is_ahead),))
+        return ((measure, is_clear(ctx, me, other, ahead=not is_ahead)),)
     ctx.report.approximate(
         f"sign of {c.name}",
-        span,
+        c.source.span,
         "conditions on distances have no sign",
-        f"differs only while {other} is on the other side of {me} by more than {value:g} m",
+        f"differs only while {other} is on the other side of {me} by more than {amount}",
         Remedy(version="1.2") if direction == "longitudinal" else Remedy(),
     )
-    return ((distance,),)
+    return ((measure,),)
 
 
 def _shifted(ctx: Context, c: Comparison, direction: str, system: str) -> Groups | None:
@@ -156,7 +180,7 @@ def _shifted(ctx: Context, c: Comparison, direction: str, system: str) -> Groups
     return ((of_entity(c.actor, condition),),)
 
 
-def _is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
+def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
     """Return the condition that another actor is not ahead of one, or not behind, on any lane.
 
     Ahead is where the one looks, whatever the other one does.
@@ -176,9 +200,20 @@ def _is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
     )
 
 
-def _note_facing(ctx: Context, c: Comparison, freespace: bool, system: str) -> None:
-    """Report a space between ends that depends on which end the other one turns this way."""
-    if not freespace or system != "road":
+def note_facing(ctx: Context, c: Comparison, freespace: bool, system: str) -> None:
+    """Report what a distance along the road depends on: how the other one looks, and its lane."""
+    if system != "road":
+        return
+    mine, theirs = (_lane_at_start(ctx, name) for name in (c.actor, c.reference()))
+    if ctx.roads is not None and mine and theirs and ctx.roads.are_opposed(mine, theirs):
+        ctx.report.approximate(
+            c.name,
+            c.source.span,
+            f"no lane leads from {c.actor} to {c.reference()} or back as they start: distances are"
+            " along lanes in the world, and along the road in the XML",
+            "where the scenario fails because there is no distance, the XML goes on",
+        )
+    if not freespace:
         return
     shape = next(m.shape for m in ctx.entities if m.name == c.reference())
     off = abs(shape.front - shape.rear)
@@ -190,6 +225,13 @@ def _note_facing(ctx: Context, c: Comparison, freespace: bool, system: str) -> N
         f"{c.reference()} may look another way than {c.actor}, so that another end of it faces it",
         f"at most {off:.2g} m",
     )
+
+
+def _lane_at_start(ctx: Context, name: str) -> LanePosition | None:
+    state = ctx.at_start.get(name)
+    if state is None or state.pose is None or ctx.roads is None:
+        return None if state is None else state.lane
+    return ctx.roads.locate(state.pose.x, state.pose.y, state.pose.z)
 
 
 def space_headway(ctx: Context, c: Comparison) -> Groups:

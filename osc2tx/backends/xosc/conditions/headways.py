@@ -9,18 +9,18 @@ from osc2tx.backends.xosc.conditions.comparisons import (
     of_entity,
     relative_speed,
 )
-from osc2tx.backends.xosc.conditions.distances import overhang
+from osc2tx.backends.xosc.conditions.distances import in_order, note_facing, overhang
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 
 def time_headway(ctx: Context, c: Comparison) -> Groups:
-    """Compare the time until the actor is where the front of the reference is now."""
-    behind, ahead, rule, value = c.actor, c.reference(), c.rule, c.value
-    if value < 0.0:
-        behind, ahead, rule, value = ahead, behind, MIRRORED[rule], -value
-    difference = overhang(ctx, behind, ahead)
+    """Compare the time until the front of one is where that of the other is now.
+
+    It is positive if the reference leads.
+    """
+    difference = overhang(ctx, c.actor, c.reference())
     if difference:
         ctx.report.approximate(
             "time_headway",
@@ -28,23 +28,34 @@ def time_headway(ctx: Context, c: Comparison) -> Groups:
             "a time in the XML counts between reference points, not between fronts",
             f"off by the time for {abs(difference):.2g} m",
         )
-    return ((_headway(ctx, behind, ahead, rule, value, freespace=False),),)
+    return _between(ctx, c, is_ahead=True, freespace=False)
 
 
 def time_gap(ctx: Context, c: Comparison) -> Groups:
-    """Compare the time until the follower is where the rear of the other one is now."""
+    """Compare the time until the follower is where the rear of the other one is now.
+
+    It is positive if the reference follows.
+    """
     if c.member("direction", "longitudinal") != "longitudinal":
         raise Inexpressible("there is no time across the road in OpenSCENARIO XML", c.source.span)
-    # Positive if the caller is ahead: the other one follows.
-    behind, ahead, rule, value = c.reference(), c.actor, c.rule, c.value
+    return _between(ctx, c, is_ahead=False, freespace=True)
+
+
+def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) -> Groups:
+    """Return the conditions for a time with a sign, which is that of who follows.
+
+    Args:
+        ctx: The context.
+        c: The comparison.
+        is_ahead: The reference leads where the time is positive.
+        freespace: Between bounding boxes.
+    """
+    note_facing(ctx, c, freespace, "road")
+    rule, value = c.rule, c.value
     if value < 0.0:
-        behind, ahead, rule, value = ahead, behind, MIRRORED[rule], -value
-    return ((_headway(ctx, behind, ahead, rule, value, freespace=True),),)
-
-
-def _headway(
-    ctx: Context, behind: str, ahead: str, rule: str, value: float, *, freespace: bool
-) -> Element:
+        is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
+    me, other = c.actor, c.reference()
+    behind, ahead = (me, other) if is_ahead else (other, me)
     newer = ctx.version >= "1.1"
     condition = element(
         "TimeHeadwayCondition",
@@ -56,7 +67,13 @@ def _headway(
         coordinateSystem="road" if newer else None,
         relativeDistanceType="longitudinal" if newer else None,
     )
-    return of_entity(behind, condition)
+    headway = of_entity(behind, condition)
+    groups = in_order(ctx, c, headway, "longitudinal", is_ahead, rule, f"{value:g} s")
+    if rule.startswith("less") or c.is_edge or not groups[0][1:]:
+        return groups
+    # Who stands comes to no place: the time of the XML is undefined, and compares with nothing.
+    standing = element("SpeedCondition", value=TOUCHING, rule="lessThan")
+    return (*groups, (of_entity(behind, standing), *groups[0][1:]))
 
 
 TOUCHING = 0.001

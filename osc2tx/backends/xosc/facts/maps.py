@@ -79,6 +79,11 @@ class Roads:
                 return lanes
         return None
 
+    def are_opposed(self, place: LanePosition, other: LanePosition) -> bool:
+        """Whether two places of one road are on lanes that lead opposite ways."""
+        ways = [self.map.travel_direction(each.road, each.lane) for each in (place, other)]
+        return place.road == other.road and ways[0] != ways[1]
+
     def ahead(self, place: LanePosition, distance: float) -> LanePosition | None:
         """Return the place so far (m) along the lane."""
         step = self.map.advance(place, distance)

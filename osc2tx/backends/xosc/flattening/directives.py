@@ -7,7 +7,7 @@ from dataclasses import replace
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.behavioral_models import no_model
 from osc2tx.backends.xosc.actions.user_actions import command_of
-from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow
+from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Group, Test
 from osc2tx.backends.xosc.flattening.event_parameters import set_parameters
 from osc2tx.backends.xosc.flattening.periods import MANY_TIMES, react_periodically
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
@@ -82,10 +82,12 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
         react_periodically(builder, node, condition, builder.latched(start, "on"), tuple(actions))
         ctx.report.exact("on", node.span)
         return NEVER
-    once = node.trigger.event is not None  # such an event has one edge
-    if not once and not isinstance(node.trigger.condition, ir.Edge):
+    if node.trigger.event is None and not isinstance(condition, ir.Edge):
         raise Inexpressible("only an event or an edge can be reacted to", node.span)
+    once = not events.may_recur(node.trigger)
     occurs = builder.after(node.trigger, start)
+    if not once:
+        occurs = _each_time(occurs, start)
     repeats = None if once else MANY_TIMES
     name = ctx.names.new(f"on_{plain(node.trigger.span.text)}")
     builder.add(name, tuple(actions), occurs, repeats=repeats)
@@ -100,3 +102,15 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
         builder.add(ctx.names.new(f"after_{name}"), reset, over, repeats=repeats)
     ctx.report.exact("on", node.span)
     return NEVER
+
+
+def _each_time(occurs: Flow, start: Flow) -> Flow:
+    """Return a flow with an edge in each group: a variable that is set comes and goes."""
+    since = {test for group in start.groups for test in group}
+    return Flow(tuple(_with_edge(group, since) for group in occurs.groups))
+
+
+def _with_edge(group: Group, since: set[Test]) -> Group:
+    if any(test.edge != "none" for test in group):
+        return group
+    return tuple(test if test in since else replace(test, edge="rising") for test in group)

@@ -62,8 +62,28 @@ class EventTable:
             if self._emitted.count(name) > 1:
                 yield name
         for node in ir.walk_behaviors(self._scope.scenario.body):
-            if isinstance(node, ir.On) and node.trigger.event is None:
+            if isinstance(node, ir.On) and self.may_recur(node.trigger):
                 yield from (r.event.name for r in node.reactions if isinstance(r, ir.Emit))
+
+    def may_recur(self, trigger: ir.Trigger, seen: frozenset[str] = frozenset()) -> bool:
+        """Whether a trigger may occur more than once; what comes from outside is set once."""
+        event = trigger.event
+        if event is None:
+            return True
+        if not isinstance(event, ir.EventRef) or event.name in seen:
+            return False
+        seen = seen | {event.name}
+        declared = self._declared.get(event.name)
+        if declared is not None and declared.trigger is not None:
+            return self.may_recur(declared.trigger, seen)
+        nodes = ir.walk_behaviors(self._scope.scenario.body)
+        reacting = (node for node in nodes if isinstance(node, ir.On))
+        return self._emitted.count(event.name) > 1 or any(
+            self.may_recur(node.trigger, seen)
+            for node in reacting
+            for each in node.reactions
+            if isinstance(each, ir.Emit) and each.event.name == event.name
+        )
 
     def signals(self) -> list[Event]:
         """Return the occurrences of events from outside whose time is given."""
