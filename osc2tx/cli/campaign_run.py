@@ -24,7 +24,6 @@ from osc2tx.cli.run import (
     Texts,
     choose_scenario,
     merge_texts,
-    only_one_to_run,
     option_texts,
     settings_from,
 )
@@ -218,7 +217,6 @@ def _files_of(
         if compilation.module is None:
             raise click.UsageError(f"{path} declares no scenario")
         files, module = module_files(compilation.module, sibling_modules(compilation))
-        scenario = scenario or only_one_to_run(compilation)
     loaded = Modules(files)
     try:
         return files, module, choose_scenario(loaded.load(module), scenario, path).name

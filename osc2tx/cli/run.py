@@ -122,7 +122,6 @@ def _run_source(
         return code
     module = compilation.module
     path = compilation.path
-    wanted = wanted or only_one_to_run(compilation)
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
     try:
@@ -131,18 +130,6 @@ def _run_source(
     except ScenarioError as error:
         complain(error.report(str(path)))
         return Exit(error.exit_code)
-
-
-def only_one_to_run(compilation: Compilation) -> str | None:
-    """Return the scenario of a file that no other one of it invokes, if there is just one."""
-    own = (
-        [each for each in compilation.ir.scenarios if not each.is_imported]
-        if (compilation.ir is not None)
-        else []
-    )
-    names = [each.name for each in own if not each.is_invoked and not each.is_action]
-    is_named = any(each.name in ("top", "main") for each in own)
-    return names[0] if len(names) == 1 and not is_named else None
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:

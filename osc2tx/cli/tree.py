@@ -10,7 +10,7 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, report_options
-from osc2tx.cli.run import choose_scenario, only_one_to_run
+from osc2tx.cli.run import choose_scenario
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
@@ -42,8 +42,7 @@ def tree(
     place = str(file)
     try:
         with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
-            wanted = scenario or only_one_to_run(compilation)
-            chosen = choose_scenario(scenarios, wanted, file)
+            chosen = choose_scenario(scenarios, scenario, file)
             place = chosen.source
             drawn = _FORMS[form](chosen().create_tree())
     except ScenarioError as error:

@@ -95,7 +95,7 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
 
 
 def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> type[Scenario]:
-    """Return the scenario that was asked for, else `top`, `main` or the only one.
+    """Return the scenario that was asked for, else `top`, `main`, `is_main` or the only one.
 
     Raises:
         SettingsError: If there is no such scenario, or several to choose from.
@@ -109,6 +109,9 @@ def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> 
     for name in ("top", "main"):
         if name in by_name:
             return by_name[name]
+    mains = [scenario for scenario in scenarios if scenario.is_main]
+    if len(mains) == 1:
+        return mains[0]
     if len(by_name) != 1:
         raise SettingsError(f"choose one with --scenario: {names}")
     return scenarios[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -234,6 +234,9 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
         "actors": actors,
         "one_of": scenario.one_of,
     }
+    if scenario.parameter_units:
+        units = sorted(scenario.parameter_units.items(), key=_path)
+        header["units"] = {name: asdict(unit) for name, unit in units}
     if context.settings.conduct != "as_told":
         header["conduct"] = context.settings.conduct
     if context.settings.physics != "warn":

@@ -1,6 +1,7 @@
 """The command `run`: sources, modules, settings, verdicts."""
 
 import json
+import runpy
 import sys
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from osc2tx.cli.run import choose_scenario, merge_settings
 from osc2tx.config import ConfigError, ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import SettingsError
+from tests.processes import forked
 from tests.unit.cli.shell import Shell
 
 
@@ -96,6 +98,9 @@ def test_which_scenario_runs() -> None:
     assert choose_scenario(scenarios("a", "main"), None, path).name == "main"
     assert choose_scenario(scenarios("a"), None, path).name == "a"
     assert choose_scenario(scenarios("a", "top"), "a", path).name == "a"
+    several = scenarios("a", "b", "c")
+    several["b"].is_main = True
+    assert choose_scenario(several, None, path).name == "b"
     with pytest.raises(click.UsageError, match="choose one with --scenario: a, b"):
         choose_scenario(scenarios("a", "b"), None, path)
     with pytest.raises(click.UsageError, match="no scenario `c`; there is: a, b"):
@@ -125,3 +130,36 @@ def test_whose_mistake_a_wrong_run_option_is(tmp_path: Path) -> None:
         merge_settings(config, tmp_path / "a.osc", {})
     with pytest.raises(SettingsError):
         merge_settings(config, tmp_path / "b.osc", {"signal": ("go",)})
+
+
+INVOKING = """import osc.standard
+
+scenario vehicle.cruise:
+  v: speed = 36kph
+  do drive(duration: 1s) with:
+    speed(v)
+
+scenario two:
+  ego: vehicle
+  do cruise_it: ego.cruise()
+"""
+
+
+def test_the_one_that_no_other_invokes_runs_everywhere(shell: Shell) -> None:
+    """By `run` of source and module, and by the module itself; values in any unit."""
+    source = shell.write("two.osc", INVOKING)
+    assert shell("build", source, "-o", shell.folder / "out").code == 0
+    module = shell.folder / "out" / "two.py"
+    for file in (source, module):
+        ended = shell("run", file, "--set", "cruise_it.v=20mph")
+        assert (ended.code, ended.out) == (0, "two: success after 1.00 s\n")
+    wrong = shell("run", source, "--set", "cruise_it.v=20m")
+    assert wrong.code == 2 and f"{source}:4:3: error[OSC806]" in wrong.err
+    assert "m is a unit of length" in wrong.err
+
+    def script() -> None:
+        sys.argv = [str(module), "--set", "cruise_it.v=20mph"]
+        runpy.run_path(str(module), run_name="__main__")
+
+    own = forked(script)
+    assert own.code == 0, own.out

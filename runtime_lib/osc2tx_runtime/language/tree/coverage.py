@@ -12,8 +12,9 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
 from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
+from osc2tx_runtime.language.tree.written_units import Unit
 
-__all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording", "Unit"]
+__all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording"]
 
 Moment = Event | Literal["start", "end"]
 """When an item is sampled: at an event, or at the start or end of the scenario."""
@@ -35,19 +36,6 @@ class ItemOptions(TypedDict, total=False):
 
 
 ROUNDING = 1e-9  # of a slice: a value this close below a boundary lies on it
-
-
-@dataclass(frozen=True, slots=True)
-class Unit:
-    """The unit in which an item is counted: `si = value * factor + offset`."""
-
-    name: str
-    factor: float
-    offset: float = 0.0
-
-    def of(self, si: float) -> float:
-        """Return a value in SI in this unit."""
-        return (si - self.offset) / self.factor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
