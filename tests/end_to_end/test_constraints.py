@@ -45,12 +45,12 @@ def test_one_bound_beside_a_default(drive: Callable[..., Trace]) -> None:
     members = "v: speed = 50kph\nkeep(v >= 36kph)"
     assert speed(drive(members)) == pytest.approx(50 * KPH)
     assert speed(drive(members, set={"v": 12.0})) == pytest.approx(12.0)
-    with pytest.raises(SettingsError, match="--set v=32.4 kph: the scenario allows at least 36 kph"):
+    with pytest.raises(SettingsError, match=r"--set v=32\.4 kph: .* at least 36 kph"):
         drive(members, set={"v": 9.0})
 
 
 def test_what_is_open_must_be_given(drive: Callable[..., Trace]) -> None:
-    with pytest.raises(SettingsError, match="leaves v open; the scenario allows at most 36 kph") as e:
+    with pytest.raises(SettingsError, match=r"leaves v open; .* at most 36 kph") as e:
         drive("v: speed\nkeep(v <= 36kph)")
     assert e.value.source == "case.osc:9"
     assert speed(drive("v: speed\nkeep(v <= 36kph)", set={"v": 7.5})) == pytest.approx(7.5)
@@ -79,9 +79,9 @@ keep(v + 5kph < w)
 
 def test_a_relation_that_cannot_hold_names_itself(drive: Callable[..., Trace]) -> None:
     members = "v: speed = 30kph\nw: speed = 50kph\nkeep(v < w)"
-    with pytest.raises(ScenarioError, match=r"`v < w` does not hold \(v=72 kph, w=50 kph\)") as error:
+    with pytest.raises(ScenarioError, match=r"`v < w` does not hold \(v=72 kph, w=50 kph\)") as e:
         drive(members, set={"v": 20.0})
-    assert error.value.source == "case.osc:11"
+    assert e.value.source == "case.osc:11"
 
 
 def test_an_equation_is_solved(drive: Callable[..., Trace]) -> None:
