@@ -18,13 +18,13 @@ def note_open_speed(leaf: Leaf) -> None:
         return
     if any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers):
         return
-    if speed.high**2 * roads.sharpest_bend > leaf.limits.lateral:
+    if speed.low**2 * roads.sharpest_bend > leaf.limits.lateral:
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
             "no speed is said, so in the world it slows down for bends, and in the XML it does not;"
             " `keep_speed()` holds it in both",
-            f"{speed.high:.4g} m/s are too fast for the sharpest bend of the map",
+            f"{speed.low:.4g} m/s are too fast for the sharpest bend of the map",
         )
 
 
