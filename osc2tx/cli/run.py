@@ -12,7 +12,7 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
-from osc2tx.cli.options import compile_options
+from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
@@ -85,7 +85,7 @@ Texts: TypeAlias = Mapping[str, Sequence[str]]
 
 @click.command(cls=RunCommand)
 @click.argument("file", metavar="FILE", type=click.Path())
-@click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
+@scenario_option("run")
 @compile_options
 @report_options
 def run(

@@ -8,7 +8,7 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_module
-from osc2tx.cli.options import compile_options
+from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.cli.run import choose_scenario
 from osc2tx.compilation.needed_modules import sibling_modules
@@ -22,7 +22,7 @@ _FORMS = {"text": tree_text, "svg": tree_svg}
 
 @click.command()
 @click.argument("file", metavar="FILE", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--scenario", metavar="NAME", help="Which scenario of the file to draw.")
+@scenario_option("draw")
 @click.option("--form", type=click.Choice(list(_FORMS)), default="text", help="What to print.")
 @compile_options
 @report_options

@@ -7,7 +7,10 @@ from pathlib import Path
 
 import click
 import pytest
+from click.shell_completion import ShellComplete
 
+from osc2tx.cli import cli
+from osc2tx.cli.reporting import Session
 from osc2tx.cli.run import choose_scenario, merge_settings
 from osc2tx.config import ConfigError, ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
@@ -163,3 +166,16 @@ def test_the_one_that_no_other_invokes_runs_everywhere(shell: Shell) -> None:
 
     own = forked(script)
     assert own.code == 0, own.out
+
+
+def test_the_scenarios_of_a_file_are_offered(shell: Shell) -> None:
+    source = shell.write("two.osc", INVOKING)
+    assert shell("build", source, "-o", shell.folder / "out").code == 0
+    complete = ShellComplete(cli, {"obj": Session()}, "osc2tx", "_OSC2TX_COMPLETE")
+    for file in (source, shell.folder / "out" / "two.py"):
+        for command in ("run", "tree"):
+            found = complete.get_completions([command, str(file), "--scenario"], "")
+            assert [each.value for each in found] == ["vehicle.cruise", "two"]
+    found = complete.get_completions(["run", str(source), "--scenario"], "t")
+    assert [each.value for each in found] == ["two"]
+    assert complete.get_completions(["run", "nowhere.osc", "--scenario"], "") == []
