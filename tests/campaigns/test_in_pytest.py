@@ -75,7 +75,7 @@ def test_the_command_of_a_row_runs_it_again(scenario: Path) -> None:
 def test_a_test_for_each_row(pytester: pytest.Pytester, sampler: str) -> None:
     pytester.makefile(".osc", triangle=TRIANGLE)
     pytester.makepyfile(MARKED.format(sampler=sampler, bound=100))
-    alone = pytester.runpytest("-s")
+    alone = pytester.runpytest_subprocess("-s")
     alone.assert_outcomes(passed=6)
     numbers = sorted(line[line.index("NUMBER") :] for line in alone.outlines if "NUMBER" in line)
     whole = run_campaign("triangle.osc", samples=6, sampler=sampler, seed=3)
