@@ -29,10 +29,11 @@ READER_HAS_GONE = 141  # as shells have it: 128 + SIGPIPE
 _COLOR = re.compile("(\x1b\\[[0-9;]*m)")
 
 
-def _stand_in(name: str) -> bool:
+def _stand_in(name: Literal["stdout", "stderr"]) -> bool:
     """Put a stream in the place of one that the process was started without.
 
     Libraries take it for granted that there is one, and a file of ours must not get its number.
+    Who closes standard error wants no messages; the exit code still says how it went.
     """
     if getattr(sys, name) is None:
         setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
@@ -40,7 +41,8 @@ def _stand_in(name: str) -> bool:
     return False
 
 
-_CLOSED = frozenset(name for name in ("stdout", "stderr") if _stand_in(name))
+_stand_in("stderr")
+_HAS_NO_OUTPUT = _stand_in("stdout")
 
 
 class OutputError(Exception):
@@ -120,11 +122,11 @@ def _write(name: Literal["stdout", "stderr"], text: str) -> None:
     """Write to a stream of the process; what it has no characters for is escaped.
 
     Raises:
-        OutputError: If it is closed, full or not read any more.
+        OutputError: If it is full or not read any more, or standard output is closed.
     """
     stream: TextIO = getattr(sys, name)
     told = f"standard {'output' if name == 'stdout' else 'error'}"
-    if name in _CLOSED:
+    if name == "stdout" and _HAS_NO_OUTPUT:
         raise OutputError(told, "it is closed")
     encoding = stream.encoding or "utf-8"
     try:

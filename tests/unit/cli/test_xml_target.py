@@ -47,6 +47,9 @@ OUTSIDE = """scenario outside:
 """
 
 
+MIGRATED = Path(__file__).parents[2] / "golden/semantics/scenario_runner/scenario.osc"
+
+
 @pytest.fixture
 def shell(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -263,3 +266,12 @@ def test_emit_prints_the_document(shell: Shell) -> None:
     refused = shell("build", "b.osc", "--emit", "xosc")
     assert (refused.code, refused.out) == (3, "")
     assert "OSC514" in refused.err
+
+
+def test_what_only_a_dialect_has_is_refused(shell: Shell) -> None:
+    """The scenario has modifiers that the library does not know; its XML is refused, not broken."""
+    shutil.copy(MIGRATED, shell.folder / "a.osc")
+    ended = shell("build", "a.osc", "-o", "out", "--dialect", "carla", "--target", "xosc")
+    assert ended.code == 3
+    assert "internal error" not in ended.err
+    assert "set_color" in ended.err

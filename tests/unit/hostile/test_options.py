@@ -16,10 +16,23 @@ from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.report.trace_reader import read_run
 from osc2tx_runtime.running.options import read_options
 from osc2tx_runtime.running.output_files import check_outputs, write_output
+from osc2tx_text import READER_HAS_GONE
 from tests.processes import Ended, forked
 from tests.unit.building.projects import drive, write
 
 DEEP = "[" * 100_000
+PRINTERS = [
+    ("--help",),
+    ("--version",),
+    ("check", "a.osc"),
+    ("check", "a.osc", "--output-format", "json"),
+    ("build", "a.osc", "--emit", "ast"),
+    ("run", "a.osc"),
+    ("tree", "a.osc"),
+    ("config",),
+    ("explain", "OSC302"),
+    ("reference", "vehicle.drive"),
+]
 
 
 @pytest.mark.parametrize(
@@ -201,6 +214,20 @@ def test_outputs_that_take_nothing(tmp_path: Path, arguments: tuple[str, ...]) -
     full = ended(tmp_path, *arguments, before=lambda: os.dup2(os.open("/dev/full", os.O_RDWR), 1))
     assert full.code == 4
     assert full.err.endswith("error: standard output cannot be written: No space left on device\n")
+
+
+@pytest.mark.parametrize("arguments", PRINTERS, ids=" ".join)
+def test_readers_that_have_gone(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    drive(tmp_path / "a.osc")
+    left = ended(tmp_path, *arguments, before=leave_output)
+    assert (left.code, left.err) == (READER_HAS_GONE, "")
+
+
+def leave_output() -> None:
+    """As after `| true`."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    os.dup2(writer, 1)
 
 
 @pytest.mark.parametrize("raised", ["SystemExit(0)", "RuntimeError('x')", "BaseException()"])

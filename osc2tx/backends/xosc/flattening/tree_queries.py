@@ -90,7 +90,8 @@ def _domains(node: ir.Invoke) -> frozenset[str]:
         return frozenset((LATERAL,))
     domains = {*TAKES.get(node.action, slots)}
     for call in node.modifiers:
-        domains |= {*TAKES.get(f"modifier {call.name}", modifiers[call.name].slots)}
+        known = modifiers.get(call.name)  # none if only a dialect has it
+        domains |= {*TAKES.get(f"modifier {call.name}", () if known is None else known.slots)}
     return frozenset(domains)
 
 
