@@ -58,7 +58,7 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
         if len(at_start) < len(variables):
             services.append(Sampling(variables, tree))
     if scenario._items:
-        services.append(Recording(list(scenario._items.values())))
+        services.append(Recording(list(scenario._items.values()), scenario.name))
     return with_services(scenario, tree, services) if services else tree
 
 
