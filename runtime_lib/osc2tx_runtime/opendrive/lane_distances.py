@@ -142,7 +142,9 @@ class LaneGroups:
             lane = self._step(lane, target, goal, following)
             if lane.group == goal.group:
                 return total, lane
-            total += lane_line(lane).length
+            group = self.groups[lane.group]
+            is_middle = group[len(group) // 2] is lane  # its length is known from the search
+            total += self.length(lane.group) if is_middle else lane_length(lane)
 
     def _step(self, lane: Lane, target: int, goal: Lane, following: list[int]) -> Lane:
         """Lane with which the way goes on: the one that needs the fewest lane changes.
