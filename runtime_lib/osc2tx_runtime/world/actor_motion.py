@@ -22,7 +22,7 @@ from .lateral import (
     Shift,
     lateral_of,
 )
-from .longitudinal import acceleration_of, longitudinal_of
+from .longitudinal import ProfileRun, acceleration_of, longitudinal_of
 from .measurement import MeasuredMotion
 from .position_control import CoverRun
 from .protocol import LATERAL, LONGITUDINAL, PENDING, REACHED, Progress
@@ -32,6 +32,9 @@ from .step_inputs import StepInputs
 from .tracking import Tracking
 
 __all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
+
+STEADY = frozenset({type(None), ConstantAcceleration, HoldOffset, ProfileRun, Shift})
+"""Kinds of commands at work that cannot fail."""
 
 
 @dataclass
@@ -89,6 +92,7 @@ class CommandedActor(MovingActor):
 
     def pursue_speed(self, command: Command | None) -> None:
         """Puts a longitudinal command to work; None holds the speed."""
+        self.steady = False
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
@@ -101,10 +105,11 @@ class CommandedActor(MovingActor):
 
     def go_on_with(self, speed: float, acceleration: float) -> None:
         """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes."""
-        self._speed = ConstantAcceleration(acceleration, speed)
+        self._speed, self.steady = ConstantAcceleration(acceleration, speed), False
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        self.steady = False
         if self.tracking is not None:
             self.tracking.forget(LATERAL)
         if self._way is not None:
@@ -154,6 +159,17 @@ class CommandedActor(MovingActor):
             self._side = Impossible(
                 f"{self.spec.id} is not on a driving lane, so it cannot change or follow one"
             )
+
+    def is_steady(self) -> bool:
+        """Sees whether what it is told cannot fail: it goes on in closed form, and alone."""
+        self.steady = (
+            self.follows
+            and type(self._speed) in STEADY
+            and type(self._side) in STEADY
+            and self._course is self._way is self.blocked is self.tracking is None
+            and not (self.wheels is not None and self.wheels.limited)
+        )
+        return self.steady
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command, by the reference."""

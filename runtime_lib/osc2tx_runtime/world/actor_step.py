@@ -73,6 +73,7 @@ class MovingActor:
         left: Where it was in its lane before the last step.
         home: Lane that it returns to; None: it is in one, or goes to none.
         residual: What seams of the map have left it beside its lane; None: nothing.
+        steady: What it is told cannot fail, and nothing was told since that was found.
     """
 
     spec: ActorSpec
@@ -87,6 +88,7 @@ class MovingActor:
     left: LanePosition | None = None
     home: LanePosition | None = None
     residual: Residual | None = None
+    steady: bool = False
     _stopping: Longitudinal | None = None  # behind the end of its lane
     _course: Course | None = None
     _way: Way | None = None
@@ -313,7 +315,7 @@ class MovingActor:
     def unbind(self) -> None:
         """Is on no lane any more, and goes straight on."""
         self.bound, self._course, self.home = None, None, None
-        self.residual = self._stopping = None
+        self.residual, self._stopping, self.steady = None, None, False
 
     def turn_away(self) -> None:
         """Is turned by force: a vehicle goes back to its lane from there."""
@@ -324,6 +326,6 @@ class MovingActor:
         """State after a jump to a place on a lane."""
         self.bound, self.left, self.blocked, self.tilt = bound, None, None, LEVEL
         self._course, self.home, self._astray = None, None, False
-        self.residual = self._stopping = None
+        self.residual, self._stopping, self.steady = None, None, False
         self._side = HoldOffset()
         return self.on_lane(bound, speed, 0.0, 0.0, road_map)

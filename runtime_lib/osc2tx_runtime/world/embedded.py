@@ -200,6 +200,11 @@ class EmbeddedWorld:
         """Progress of the command in a slot."""
         return self._member(actor).progress(slot)
 
+    def unsteady(self) -> Sequence[str]:
+        """Actors of which a command may have failed in the last step; the others just go on."""
+        cast = self._cast.items()
+        return [each for each, member in cast if not (member.steady or member.is_steady())]
+
     def reference(self, actor: str) -> ActorState:
         """State that commands start from: as it was wished, abreast of where the actor is."""
         return self._member(actor).reference
@@ -309,7 +314,7 @@ class EmbeddedWorld:
         self._surroundings.set(values)
         for member in self._cast.values():
             if member.wheels is not None:
-                member.wheels.road = self._surroundings.road
+                member.wheels.road, member.steady = self._surroundings.road, False
         return self._lights.follow(self._surroundings.automatic_light)
 
     # --- time ---------------------------------------------------------------------------------
