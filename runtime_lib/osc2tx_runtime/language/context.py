@@ -259,7 +259,8 @@ class ExecutionContext:
 
     def _wake_with(self, actor_ids: Iterable[str]) -> None:
         for actor_id in actor_ids:
-            for node in self._resting_with.pop(actor_id, ()):
+            for leaf in self._resting_with.pop(actor_id, ()):
+                node: Behaviour | None = leaf
                 while node is not None:
                     self.resting.discard(node)
                     node = node.parent

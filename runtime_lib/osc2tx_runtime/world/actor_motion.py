@@ -166,7 +166,7 @@ class CommandedActor(MovingActor):
             self.follows
             and type(self._speed) in STEADY
             and type(self._side) in STEADY
-            and self._course is self._way is self.blocked is self.tracking is None
+            and all(each is None for each in (self._course, self._way, self.blocked, self.tracking))
             and not (self.wheels is not None and self.wheels.limited)
         )
         return self.steady
