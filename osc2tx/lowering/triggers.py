@@ -71,7 +71,7 @@ def _lower_event(
             path.span,
             f"`@{symbol.name}` of the scenario itself cannot be waited for here",
             help="inside of it the start has passed, and the end is not yet: use `on @start` or "
-            "`on @end`, or label the members, `@label.end`",
+            "`on @end`, without `if`, or label the members, `@label.end`",
         )
         return None
     ctx.unsupported("OSC506", path.span, f"event `{path.span.text}` cannot be waited for yet")

@@ -213,6 +213,8 @@ def fit(name: str, value: float | str, like: Any, unit: Unit | None) -> Any:
         SettingsError: If it is none of that type, or in a unit of something else.
     """
     if isinstance(like, bool):
+        if isinstance(value, bool):
+            return value
         if str(value) in ("true", "false"):
             return str(value) == "true"
         raise SettingsError(f"--set {name}={value}: write true or false")
