@@ -245,10 +245,14 @@ def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
 
 
 def name_of_member(node: ast.Invocation | ast.Composition) -> str:
-    """Return what to call values that belong to a member of the tree."""
+    """Return what to call values that belong to a member of the tree: label, or who does what."""
     if node.label is not None:
         return node.label.text
-    return node.behavior.text if isinstance(node, ast.Invocation) else node.operator.value
+    if isinstance(node, ast.Composition):
+        return node.operator.value
+    if node.actor is None:
+        return node.behavior.text
+    return f"{''.join(node.actor.span.text.split())}.{node.behavior.text}"
 
 
 def label_of(node: ast.BehaviorMember) -> str | None:

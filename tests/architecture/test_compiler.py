@@ -60,7 +60,7 @@ OTHERS = {
     "backends/xosc": {"osc2tx_text"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "backends/xosc/xml": {"lxml", "osc2tx_text"},
-    "campaigns": {"osc2tx_runtime", "scipy"},  # rows are chosen here, run there
+    "campaigns": {"osc2tx_runtime", "osc2tx_text", "scipy"},  # rows are chosen here, run there
     "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
 }

@@ -164,7 +164,7 @@ def test_constraints_of_an_invocation(load: Load, tmp_path: Path) -> None:
         ego.drive(duration: [1s..2s])
 """
     scenario = load(draft(asam(text, tmp_path)))
-    trace = run(scenario, RunSettings(set={"change_speed.target": 13.0}))
+    trace = run(scenario, RunSettings(set={"ego.change_speed.target": 13.0}))
     assert trace.action("case.osc:11", "end") == 2.0
     assert trace.states("ego")[-1]["v"] == pytest.approx(13.0)
     speeds = {run(scenario, RunSettings(seed=s)).states("ego")[-1]["v"] for s in range(4)}

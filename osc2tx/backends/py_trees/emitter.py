@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
+from osc2tx.backends.py_trees.coverage_model import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
@@ -57,12 +58,14 @@ class GeneratedModule:
         stem: File name of the module without `.py`.
         python: Text of the module.
         source_map: Text of the sidecar map, JSON.
+        coverage_model: Text of what its scenarios sample, JSON; None if they sample nothing.
     """
 
     source: str
     stem: str
     python: str
     source_map: str
+    coverage_model: str | None = None
 
 
 def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
@@ -133,7 +136,8 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
     stem = module_name(module.source)
-    return GeneratedModule(module.source, stem, text, render_source_map(maps))
+    model = render_coverage_model(module.source, scenarios)
+    return GeneratedModule(module.source, stem, text, render_source_map(maps), model)
 
 
 def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:

@@ -61,7 +61,6 @@ class ScenarioValues:
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
-        self._generator = random.Random(settings.draws_from)
         self._attempt = 0
         self._first: ScenarioValues = self if caller is None else caller._first
         self.has_drawn_values = False
@@ -281,13 +280,8 @@ class ScenarioValues:
             raise
 
     def _draws_for(self, what: str) -> Draws:
-        """Return draws that depend on the seed and on what is drawn, not on an order.
-
-        But draws of the scenario that runs go in the order of declaration.
-        """
+        """Return draws that depend on the seed and on what is drawn, not on an order."""
         if self._walk is not None:
             return self._walk.draws_for(what)
-        if not self._path and not what.startswith("global/"):
-            return self._generator
         again = f"/{self._attempt}" if self._attempt else ""
         return random.Random(f"{self.settings.draws_from}/{what}{again}")

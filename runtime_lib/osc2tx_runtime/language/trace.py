@@ -28,26 +28,27 @@ def number(value: float | None) -> str:
     return "null" if "n" in text else text  # nan and inf are no JSON
 
 
-def to_json(value: Any) -> str:
+def to_json(value: Any, *, exact: bool = False) -> str:
     """Return compact JSON; actors as their ids, values of structs by member.
 
     Floats have nine significant digits: unlike states, parameters, arguments and the environment
-    have values of any size (2 mm/h of rain are 5.6e-7 m/s).
+    have values of any size (2 mm/h of rain are 5.6e-7 m/s). `exact` gives all digits.
     """
     if isinstance(value, float):
-        text = repr(float(f"{value:.9g}") + 0.0)
+        text = repr((value if exact else float(f"{value:.9g}")) + 0.0)
         return "null" if "n" in text else text
     if isinstance(value, Mapping):
-        return "{" + ",".join(f"{json.dumps(str(k))}:{to_json(v)}" for k, v in value.items()) + "}"
+        members = (f"{json.dumps(str(k))}:{to_json(v, exact=exact)}" for k, v in value.items())
+        return "{" + ",".join(members) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ",".join(map(to_json, value)) + "]"
+        return "[" + ",".join(to_json(each, exact=exact) for each in value) + "]"
     if value is None or isinstance(value, str | int):
         return json.dumps(value)
     if hasattr(value, "__float__"):  # numbers of other libraries
-        return to_json(float(value))
+        return to_json(float(value), exact=exact)
     if is_dataclass(value) and not hasattr(value, "id"):
         shown = (each.name for each in fields(value) if each.repr)
-        return to_json({name: getattr(value, name) for name in shown})
+        return to_json({name: getattr(value, name) for name in shown}, exact=exact)
     return json.dumps(str(getattr(value, "id", value)))
 
 
@@ -217,10 +218,14 @@ class TraceWriter:
     # --- the file ---
 
     def header(self, values: Mapping[str, Any]) -> None:
-        """Write the first line."""
+        """Write the first line; parameters with all digits, so that they can be set again."""
         if self.enabled:
             head = {"kind": "header", "version": TRACE_VERSION, **values}
-            self.lines.append(to_json(head))
+            members = (
+                f"{json.dumps(name)}:{to_json(value, exact=name == 'parameters')}"
+                for name, value in head.items()
+            )
+            self.lines.append("{" + ",".join(members) + "}")
 
     def end_instant(self, time: float, states: Iterable[tuple[str, ActorState]] = ()) -> None:
         """Write the lines of one instant: states, events, actions, then the other kinds."""

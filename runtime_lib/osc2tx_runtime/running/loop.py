@@ -19,6 +19,7 @@ from osc2tx_runtime.language.tree.base import (
     pulse_of,
 )
 from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
+from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.failure_reasons import failure_reason, timeout_reason
 from osc2tx_runtime.running.criteria import Criteria
 from osc2tx_runtime.running.observer import Observer
@@ -82,6 +83,10 @@ def judged(outcome: Outcome, criteria: Criteria) -> Outcome:
 def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
     """Leave the tree, free the slots, and write the end of the trace."""
     try:
+        if outcome.status in ("failure", "timeout"):
+            for node in root.iterate():
+                if isinstance(node, Recording):
+                    node.run_ends(outcome.status)
         if root.status is RUNNING:
             root.stop(INVALID)
     finally:

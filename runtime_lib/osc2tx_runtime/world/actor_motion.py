@@ -53,7 +53,6 @@ class CommandedActor(MovingActor):
     motion: MeasuredMotion | None = None
     heading: float | None = None
     aside: float | None = None
-    _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold
 
     def progress(self, slot: str) -> Progress:
         """Progress of the command in a slot, by reference and measurement."""
@@ -92,7 +91,9 @@ class CommandedActor(MovingActor):
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
-            self._speed = None
+            if self._speed is not None:
+                self._speed = None
+                self._open.forget()
             return
         slips = self.wheels is not None and self.wheels.slipping
         now = self.reference.a if slips else acceleration_of(self._speed, self.reference)
@@ -100,8 +101,13 @@ class CommandedActor(MovingActor):
         self._speed = longitudinal_of(command, state, self.limits, self.route)
 
     def go_on_with(self, speed: float, acceleration: float) -> None:
-        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes."""
-        self._speed = ConstantAcceleration(acceleration, speed)
+        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes.
+
+        A speed alone is what it has at this instant; nothing is said of what follows.
+        """
+        self._open.forget()
+        drives = speed > 0.0 and acceleration == 0.0
+        self._speed = None if drives else ConstantAcceleration(acceleration, speed)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""

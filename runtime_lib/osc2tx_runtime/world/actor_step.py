@@ -24,6 +24,7 @@ from .lateral import (
     shift_profile,
 )
 from .longitudinal import Longitudinal, longitudinal_of
+from .open_speed import OpenSpeed
 from .position_control import PlacedRun
 from .protocol import ActorSpec
 from .route_following import Way
@@ -91,8 +92,10 @@ class MovingActor:
     _course: Course | None = None
     _way: Way | None = None
     _speed: Longitudinal | None = None
+    _open: OpenSpeed = field(default_factory=OpenSpeed)  # while there is no command for it
     _side: Lateral = field(default_factory=HoldOffset)
     _turning: Turning | None = None
+    _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold
     _astray: bool = False  # turned where it stands, so that it is in no lane any more
 
     @property
@@ -115,7 +118,7 @@ class MovingActor:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
         run = self._stopping or self._speed
-        speed = state.v if run is None else run.speed_after(state, inputs)
+        speed = self._unsaid(inputs) if run is None else run.speed_after(state, inputs)
         path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.limited:
             way = curvature_ahead(road_map, self.bound, self.route)
@@ -135,6 +138,13 @@ class MovingActor:
         if path == 0.0 and self._turning is None:
             return self._standing(speed, dt)
         return self._straight_on(speed, path, road_map, dt)
+
+    def _unsaid(self, inputs: StepInputs) -> float:
+        """Speed at the next step where no command says any."""
+        state = self.reference
+        if self.bound is None or self._unphysical or not state.shape.wheelbase or state.v <= 0.0:
+            return state.v
+        return self._open.speed_after(state, inputs, self.route, self.limits)
 
     def _along_lane(
         self, speed: float, path: float, road_map: RoadMap, inputs: StepInputs

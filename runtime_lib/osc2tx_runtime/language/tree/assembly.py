@@ -52,7 +52,7 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     if scenario._variables:
         services.append(Sampling(list(scenario._variables.values())))
     if scenario._items:
-        services.append(Recording(list(scenario._items.values())))
+        services.append(Recording(list(scenario._items.values()), scenario.name))
     return with_services(scenario, tree, services) if services else tree
 
 

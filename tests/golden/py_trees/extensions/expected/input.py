@@ -83,17 +83,17 @@ class Extensions(Scenario):
         )
         self.fast_pace = self.parameter("fast.pace", within(14 * mps, 15 * mps))
         self.fast = self.argument("fast", Habits(pace=self.fast_pace))
-        self.commute_top = self.parameter("commute.top", within(8 * mps, 15 * mps))
+        self.ego_commute_top = self.parameter("ego.commute.top", within(8 * mps, 15 * mps))
 
         self.keep(self.fast.pace > 14 * mps)
         self.keep(self.fast.pace < 15 * mps)
-        self.keep(self.commute_top > self.economical.pace)
-        self.keep(self.commute_top < self.fast.pace)
+        self.keep(self.ego_commute_top > self.economical.pace)
+        self.keep(self.ego_commute_top < self.fast.pace)
 
     def behavior(self) -> Behaviour:
         return Serial(
             "extensions",
-            self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.commute_top),
+            self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.ego_commute_top),
             self.invoke(Commute, actor=self.ego, habit=self.fast, known_as="commute_2"),
             Wait(
                 lambda: self.economical.is_thrifty()
