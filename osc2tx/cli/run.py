@@ -166,16 +166,17 @@ def _run_one_of(
     reporter: Reporter,
 ) -> Exit:
     scenario = choose_scenario(scenarios, wanted, path)
+    given = str(path) if path.suffix == ".osc" else None
     try:
         result = _run_with_progress(scenario, settings)
     except ScenarioError as error:
-        complain(error.report(scenario.source, str(path) if path.suffix == ".osc" else None))
+        complain(error.report(scenario.source, given))
         return Exit(error.exit_code)
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
         return Exit.INTERRUPTED
     succeeded = result.status == "success"
-    for line in verdict(scenario.name, result):
+    for line in verdict(scenario.name, result, scenario.source, given):
         (reporter.say if succeeded else reporter.say_anyway)(line)
     return Exit.OK if succeeded else Exit.FAILED
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.ir.behaviors import Trigger
+from osc2tx.ir.behaviors import Moment, Trigger
 from osc2tx.ir.expressions import Choices, Domain, Expression, RangeValue
 from osc2tx.ir.values import ValueType
 from osc2tx.support.light_dataclass import dataclass
@@ -121,10 +121,15 @@ class Constraint:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Sample:
-    """When a variable takes a new value, and which."""
+    """When a variable takes a new value, and which.
+
+    Attributes:
+        expression: Gives the value.
+        trigger: When; a moment is one of the scenario itself.
+    """
 
     expression: Expression
-    trigger: Trigger
+    trigger: Trigger | Moment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

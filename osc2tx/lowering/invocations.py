@@ -29,6 +29,7 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
+from osc2tx.semantics.modifiers import instead_of_scenario
 from osc2tx.syntax import ast
 
 
@@ -113,7 +114,7 @@ class InvocationLowering:
                     "OSC508",
                     modifier.span,
                     f"`{modifier.span.text}` would modify what `{callee.qualified_name}` does",
-                    help="apply it in the `with` of the actions in it",
+                    help=instead_of_scenario(callee, modifier.name, modifier.span.text),
                 )
         span = callee.node.name.span
         return ir.InvokeScenario(
@@ -146,7 +147,8 @@ class InvocationLowering:
                     "OSC508",
                     member.span,
                     f"modifier `{member.modifier}` of {what} is not supported",
-                    help="apply it in the `with` of the actions in it",
+                    help=instead_of_scenario(behavior, member.modifier.text, member.span.text)
+                    or "apply it in the `with` of the actions in it",
                 )
 
     def _modifier_lowering(

@@ -44,7 +44,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "start": {"cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
-    "testing": {"building", "cli", "compilation", "config", "diagnostics"},
+    "testing": {"building", "cli", "compilation", "config", "diagnostics"}
+    | {"testing_campaigns", "testing_rows"},
+    "testing_campaigns": {"building", "campaigns", "cli", "compilation", "config", "diagnostics"},
+    "testing_rows": {"testing_campaigns"},
     "": {"api", "diagnostics", "version"},
 }
 
@@ -63,6 +66,8 @@ OTHERS = {
     "campaigns": {"osc2tx_runtime", "osc2tx_text", "scipy"},  # rows are chosen here, run there
     "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
+    "testing_campaigns": {"osc2tx_runtime", "pytest"},
+    "testing_rows": {"pytest"},
 }
 
 FILES = files_of(COMPILER)

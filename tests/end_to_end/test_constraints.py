@@ -130,6 +130,51 @@ keep(is_slow => v <= 20kph)
     assert found == {False, True}
 
 
+CASES = """
+night: bool = false
+v: speed
+keep(night => v == 36kph)
+keep(not night => v == 54kph)
+"""
+
+
+def test_cases_that_leave_nothing_open(drive: Callable[..., Trace]) -> None:
+    assert speed(drive(CASES)) == pytest.approx(54 * KPH)
+    assert speed(drive(CASES, set={"night": True})) == pytest.approx(36 * KPH)
+
+
+def test_cases_beside_another_constraint(drive: Callable[..., Trace]) -> None:
+    """What contradicts a case takes its selector from the draw."""
+    members = """
+side: side_left_right
+v: speed
+keep(side == left => v == 36kph)
+keep(side != left => v == 54kph)
+keep(v < 40kph)
+"""
+    for seed in range(8):
+        assert speed(drive(members, seed=seed)) == pytest.approx(36 * KPH)
+
+
+def test_cases_that_leave_something_open(drive: Callable[..., Trace]) -> None:
+    members = "night: bool = false\nv: speed\nkeep(night => v == 36kph)"
+    with pytest.raises(SettingsError, match="leaves v open"):
+        drive(members)
+    two_for_one = members + "\nkeep(night => v == 36kph)\nkeep(not night => v == 54kph)"
+    with pytest.raises(SettingsError, match="leaves v open"):
+        drive(two_for_one)
+
+
+def test_values_listed_by_or(drive: Callable[..., Trace]) -> None:
+    members = "v: speed\nkeep(v == 36kph or v == 54kph or 72kph == v)"
+    found = {round(speed(drive(members, seed=seed)) / KPH) for seed in range(20)}
+    assert found == {36, 54, 72}
+    bounded = {
+        round(speed(drive(members + "\nkeep(v < 60kph)", seed=seed)) / KPH) for seed in range(20)
+    }
+    assert bounded == {36, 54}
+
+
 def test_members_of_actors(drive: Callable[..., Trace]) -> None:
     members = """
 v: speed = 30kph

@@ -231,7 +231,12 @@ class ScenarioWriter:
         if variable.sample is None:
             return self._fixed(variable.type, initial[0])  # the verifier saw that there is one
         what = code(writer.late(writer.write(variable.sample.expression)))
-        when, *condition = self._calls.trigger(variable.sample.trigger)
+        trigger = variable.sample.trigger
+        if isinstance(trigger, ir.Moment):
+            at: tuple[ArgumentView, ...] = (code(literal(trigger.value)),)
+        else:
+            at = self._calls.trigger(trigger)
+        when, *condition = at
         known_as = self._known_as(variable.name)
         arguments = (what, when, *initial, *condition, *known_as)
         return ArgumentView(call=CallView(_self("sample"), arguments))

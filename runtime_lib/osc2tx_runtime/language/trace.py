@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
+from json.encoder import encode_basestring_ascii as quoted
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -237,7 +238,7 @@ class TraceWriter:
         for actor_id, state in states:
             before = written.get(actor_id)
             if before is None or before[0] != state:  # what stands still is written once
-                text = f'"kind":"state","actor":{json.dumps(actor_id)},{state_json(state)}}}'
+                text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
                 before = written[actor_id] = (state, text)
             lines.append(t + before[1])
         for name, arguments in sorted(self._events):
@@ -270,10 +271,11 @@ def state_json(state: ActorState) -> str:
 
     Most lines of a trace come from here, so the numbers are not written by `number` one by one.
     """
-    x, y, z, h, v, a = state.x, state.y, state.z, state.h, state.v, state.a
-    road = "null" if state.road is None else json.dumps(state.road)
-    lane = "null" if state.lane is None else state.lane
-    s, offset = state.s, state.offset
+    x, y, z, h, v, a, place = state[:7]
+    if place is None:
+        road, lane, s, offset = "null", "null", None, None
+    else:
+        road, lane, s, offset = quoted(place.road), str(place.lane), place.s, place.offset
     if s is None or offset is None or not isfinite(x + y + z + h + v + a + s + offset):
         return (
             f'"x":{number(x)},"y":{number(y)},"z":{number(z)},"h":{number(h)},"v":{number(v)},'

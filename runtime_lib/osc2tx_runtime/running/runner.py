@@ -45,6 +45,7 @@ class RunResult:
         trace_lines: Lines of the trace, without line ends.
         collisions: Time in seconds and the two actors of each new contact.
         warnings: What is wrong with a run that goes on all the same.
+        place: Place in the scenario of what failed; empty where it has none.
     """
 
     status: str
@@ -54,6 +55,7 @@ class RunResult:
     trace_lines: tuple[str, ...] = ()
     collisions: tuple[tuple[float, str, str], ...] = field(default=())
     warnings: tuple[str, ...] = ()
+    place: str = ""
 
 
 def run_scenario(
@@ -136,6 +138,7 @@ def _run(
         tuple(context.trace.lines),
         tuple(context.collisions),
         (*map_warnings(world.map), *world.warnings(), *overloads(context)),
+        outcome.place,
     )
 
 

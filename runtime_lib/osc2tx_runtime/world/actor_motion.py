@@ -22,7 +22,7 @@ from .lateral import (
     Shift,
     lateral_of,
 )
-from .longitudinal import acceleration_of, longitudinal_of
+from .longitudinal import ProfileRun, acceleration_of, longitudinal_of
 from .measurement import MeasuredMotion
 from .position_control import CoverRun
 from .protocol import LATERAL, LONGITUDINAL, PENDING, REACHED, Progress
@@ -32,6 +32,9 @@ from .step_inputs import StepInputs
 from .tracking import Tracking
 
 __all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
+
+STEADY = frozenset({type(None), ConstantAcceleration, HoldOffset, ProfileRun, Shift})
+"""Kinds of commands at work that cannot fail."""
 
 
 @dataclass
@@ -88,6 +91,7 @@ class CommandedActor(MovingActor):
 
     def pursue_speed(self, command: Command | None) -> None:
         """Puts a longitudinal command to work; None holds the speed."""
+        self.steady = False
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
@@ -105,12 +109,14 @@ class CommandedActor(MovingActor):
 
         A speed alone is what it has at this instant; nothing is said of what follows.
         """
+        self.steady = False
         self._open.forget()
         drives = speed > 0.0 and acceleration == 0.0
         self._speed = None if drives else ConstantAcceleration(acceleration, speed)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        self.steady = False
         if self.tracking is not None:
             self.tracking.forget(LATERAL)
         if self._way is not None:
@@ -160,6 +166,17 @@ class CommandedActor(MovingActor):
             self._side = Impossible(
                 f"{self.spec.id} is not on a driving lane, so it cannot change or follow one"
             )
+
+    def is_steady(self) -> bool:
+        """Sees whether what it is told cannot fail: it goes on in closed form, and alone."""
+        self.steady = (
+            self.follows
+            and type(self._speed) in STEADY
+            and type(self._side) in STEADY
+            and all(each is None for each in (self._course, self._way, self.blocked, self.tracking))
+            and not (self.wheels is not None and self.wheels.limited)
+        )
+        return self.steady
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command, by the reference."""

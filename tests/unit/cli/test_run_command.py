@@ -39,7 +39,7 @@ def test_a_scenario_that_does_not_end_in_time_failed(shell: Shell) -> None:
     shell.drive("a.osc")
     ended = shell("run", "a.osc", "--max-time", "1")
     assert ended.code == 5
-    assert ended.out.startswith("top: timeout after 1.00 s")
+    assert ended.out.startswith("a.osc:6:5: error[OSC809]: top: timeout after 1.00 s")
 
 
 def test_run_stops_at_errors_in_the_source(shell: Shell) -> None:

@@ -205,6 +205,8 @@ def fit(name: str, value: float | str, like: Any) -> Any:
     """Return a value of the settings in the type of the parameter it is for."""
     text = str(value)
     if isinstance(like, bool):
+        if isinstance(value, bool):
+            return value
         if text in ("true", "false"):
             return text == "true"
         raise SettingsError(f"--set {name}={text}: write true or false")
