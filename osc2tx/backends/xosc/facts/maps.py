@@ -128,6 +128,18 @@ class Roads:
         near = self.map.pose(road)
         return Pose(x, y, near.z + altitude, near.h)
 
+    def signal_position(self, signal: str) -> tuple[float, float]:
+        """Return where a traffic light stands (m).
+
+        Raises:
+            Inexpressible: There is no such light.
+        """
+        light = next((each for each in self.map.signals() if each.id == signal), None)
+        if light is None:
+            raise Inexpressible(f"map {self.map.name} has no traffic light {signal}")
+        pose = self.map.road_pose(light.road, light.s, light.t)
+        return pose.x, pose.y
+
     def lamps(self, signal: str) -> tuple[Lamp, ...]:
         """Return the lamps of a traffic light.
 
