@@ -34,11 +34,11 @@ class CutIn(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
-        self.v_ego = self.parameter("v_ego", 70 * kph)
+        self.v_ego = self.parameter("v_ego", 70 * kph, unit="kph")
 
         # Faster than the ego vehicle, but not by much
-        self.v_other = self.parameter("v_other", within(80 * kph, 95 * kph))
-        self.gap = self.parameter("gap", 8 * m)
+        self.v_other = self.parameter("v_other", within(80 * kph, 95 * kph), unit="kph")
+        self.gap = self.parameter("gap", 8 * m, unit="m")
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -52,12 +52,12 @@ class CutInAndEvade(Scenario):
         )
 
         # Speeds and distances
-        self.v_hero = self.parameter("v_hero", 60 * kph)
-        self.v_npc_fast = self.parameter("v_npc_fast", self.v_hero + 20 * kph)
-        self.v_npc_slow = self.parameter("v_npc_slow", self.v_hero - 15 * kph)
-        self.v_npc_catchup = self.parameter("v_npc_catchup", 80 * kph)
-        self.lag = self.parameter("lag", 5 * m)
-        self.safety_gap = self.parameter("safety_gap", 3 * self.lag + 5 * m)
+        self.v_hero = self.parameter("v_hero", 60 * kph, unit="kph")
+        self.v_npc_fast = self.parameter("v_npc_fast", self.v_hero + 20 * kph, unit="kph")
+        self.v_npc_slow = self.parameter("v_npc_slow", self.v_hero - 15 * kph, unit="kph")
+        self.v_npc_catchup = self.parameter("v_npc_catchup", 80 * kph, unit="kph")
+        self.lag = self.parameter("lag", 5 * m, unit="m")
+        self.safety_gap = self.parameter("safety_gap", 3 * self.lag + 5 * m, unit="m")
         self.crash_avoided = Event()
         self.obstacle_detected = Event()
 

@@ -10,6 +10,10 @@
         assert run.status == "success"
         assert not run.collisions
 
+    @pytest.mark.campaign("scenarios/cut_in.osc", samples=50)
+    def test_each_cut_in_leaves_room(row):
+        assert row.kpi("min_gap") > 1.0
+
 pytest finds the module as a plugin: its assertions explain themselves, and
 `pytest --update-generated` writes the files that `assert_build_fresh` finds to differ.
 """
@@ -23,12 +27,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from osc2tx.testing_campaigns import Campaign, CampaignRow, run_campaign
+
 if TYPE_CHECKING:
     import pytest
 
     from osc2tx_runtime import Scenario
 
-__all__ = ["Line", "Run", "assert_build_fresh", "run_scenario"]
+__all__ = [
+    "Campaign",
+    "CampaignRow",
+    "Line",
+    "Run",
+    "assert_build_fresh",
+    "run_campaign",
+    "run_scenario",
+]
 
 Line: TypeAlias = dict[str, Any]
 """One line of a trace (docs/trace.md)."""
@@ -44,9 +58,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Take the option; called by pytest."""
+    """Take the option, and add the mark of campaigns; called by pytest."""
     global _updates
     _updates = bool(config.getoption(_OPTION))
+    from osc2tx import testing_rows
+
+    config.pluginmanager.register(testing_rows, "osc2tx-rows")
 
 
 def assert_build_fresh(

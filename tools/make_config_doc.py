@@ -4,7 +4,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from osc2tx.config import COMPILE_SETTINGS, PROJECT_SETTINGS, RUN_SETTINGS, Setting
+from osc2tx.config import (
+    CAMPAIGN_SETTINGS,
+    COMPILE_SETTINGS,
+    PROJECT_SETTINGS,
+    RUN_SETTINGS,
+    Setting,
+)
 from osc2tx_runtime.running.options import OPTIONS, Option
 
 PAGE = Path(__file__).parent.parent / "docs/config.md"
@@ -64,6 +70,9 @@ def render() -> str:
             "command line counts. Paths are relative to the settings file. Where `world` names",
             "another world than `embedded`, the options of that world are keys too.\n",
             _table(run),
+            "## In `[scenarios.NAME.campaign]`\n",
+            "Options of `osc2tx campaign run`; what the command line says takes their place.\n",
+            _table([_campaign_row(setting) for setting in CAMPAIGN_SETTINGS]),
         ]
     )
 
@@ -82,6 +91,11 @@ def _run_row(setting: Setting, option: Option) -> tuple[str, ...]:
     default = "" if option.default is None else f"`{option.default}`"
     meaning = f"{option.help[0].upper()}{option.help[1:]}."
     return f"`{setting.key}`", f"list of {kind}" if setting.is_list else kind, default, meaning
+
+
+def _campaign_row(setting: Setting) -> tuple[str, ...]:
+    kind = "`true`, `false`" if setting.is_flag else "one value"
+    return f"`{setting.key}`", "list of texts" if setting.is_list else kind, "", setting.help
 
 
 def _table(rows: Sequence[Sequence[str]]) -> str:

@@ -32,7 +32,7 @@ class GainSpeed(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.actor = self.cast("actor", Vehicle())
-        self.target = self.parameter("target", 15 * mps)
+        self.target = self.parameter("target", 15 * mps, unit="mps")
 
     def behavior(self) -> Behaviour:
         return Serial(
@@ -46,6 +46,7 @@ class GainSpeed(Scenario):
 class ActorBinding(Scenario):
     name = "actor_binding"
     source = "capabilities/C02_actor_binding.osc"
+    is_main = True
 
     def declare(self) -> None:
         """Cast, events and values."""

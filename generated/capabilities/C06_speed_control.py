@@ -32,8 +32,8 @@ class SpeedControl(Scenario):
         self.even = self.cast("even", Vehicle())
         self.gentle = self.cast("gentle", Vehicle())
         self.hasty = self.cast("hasty", Vehicle())
-        self.v_start = self.parameter("v_start", 10 * mps)
-        self.v_target = self.parameter("v_target", 20 * mps)
+        self.v_start = self.parameter("v_start", 10 * mps, unit="mps")
+        self.v_target = self.parameter("v_target", 20 * mps, unit="mps")
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

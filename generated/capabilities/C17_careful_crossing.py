@@ -39,7 +39,7 @@ class CarefulCrossing(Scenario):
 
         # On the right sidewalk, in the middle of the road
         self.curb = self.argument("curb", Point(x=250 * m, y=-5 * m, z=0 * m))
-        self.v_ego = self.parameter("v_ego", 40 * kph)
+        self.v_ego = self.parameter("v_ego", 40 * kph, unit="kph")
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

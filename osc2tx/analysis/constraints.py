@@ -144,11 +144,14 @@ class TypeConstraints:
 
         That is what settings of a run may choose from: they come after every default.
         """
-        plain = {
-            c for c in self.in_force.constraints if c.is_default and c.subject and not c.is_range
-        }
-        firm = [c for c in self.in_force.constraints if c not in plain]
-        return solve([c.operations for c in firm], range(len(firm))).domains
+        return solve([c.operations for c in self.firm], range(len(self.firm))).domains
+
+    @property
+    def firm(self) -> tuple[Constraint, ...]:
+        """The constraints that settings cannot replace: all but plain defaults."""
+        return tuple(
+            c for c in self.in_force.constraints if not c.is_default or not c.subject or c.is_range
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

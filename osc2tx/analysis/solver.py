@@ -54,14 +54,19 @@ class _State:
     visits: int = 0
 
 
-def solve(expressions: Sequence[OperationList], active: Sequence[int]) -> Solution:
+def solve(
+    expressions: Sequence[OperationList],
+    active: Sequence[int],
+    given: Mapping[Key, Domain] | None = None,
+) -> Solution:
     """Propagate some constraints of a list.
 
     Args:
         expressions: All constraints; the root of each is boolean, and must be true.
         active: Positions of those that count.
+        given: What else is known of parameters.
     """
-    state = _State(expressions)
+    state = _State(expressions, dict(given or {}))
     users: dict[Key, list[int]] = {}
     for index in active:
         for operation in expressions[index].items:

@@ -179,6 +179,8 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
         symbol = model.symbol_of(emit.event)
         if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
             continue
+        if _is_made_to_be_invoked(symbol.owner):
+            continue  # whoever invokes it may wait for its events
         if symbol in usage.awaited or set(_redeclared(usage, symbol)) & usage.awaited:
             continue
         sink.report(
@@ -187,6 +189,12 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
             f"nothing waits for event `{symbol.name}`",
             labels=[] if symbol.is_implicit else [Label(symbol.span, "declared here")],
         )
+
+
+def _is_made_to_be_invoked(owner: sym.TypeSymbol | None) -> bool:
+    """Whether a behavior has an actor, which only an invocation names; `dut` names nobody."""
+    actor = owner.actor if isinstance(owner, sym.BehaviorSymbol) else None
+    return actor is not None and actor.origin != "prelude"
 
 
 def _report_field(

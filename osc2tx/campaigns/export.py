@@ -14,7 +14,7 @@ from osc2tx.campaigns.store import Store
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.running.output_files import write_output
 
-__all__ = ["export_rows", "flat_rows"]
+__all__ = ["export_rows", "flat_rows", "write_text"]
 
 
 def export_rows(store: Store, file: Path) -> int:
@@ -30,11 +30,20 @@ def export_rows(store: Store, file: Path) -> int:
         text = "".join(f"{json.dumps(row, allow_nan=False)}\n" for row in rows)
     else:
         raise CampaignError(f"{file}: name a file .csv or .jsonl")
+    write_text("table", file, text)
+    return len(rows)
+
+
+def write_text(what: str, file: Path, text: str) -> None:
+    """Write a file.
+
+    Raises:
+        CampaignError: It cannot be written.
+    """
     try:
-        write_output("table", file, text)
+        write_output(what, file, text)
     except InputError as error:
         raise CampaignError(str(error)) from error
-    return len(rows)
 
 
 def flat_rows(store: Store) -> Iterator[dict[str, Any]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from typing import Any, Literal
 
 from osc2tx.support.light_dataclass import dataclass
@@ -114,7 +114,7 @@ class Catalogue:
 @cache
 def catalogue() -> Catalogue:
     """Return the catalogue."""
-    table = json.loads((files(__package__) / "library.json").read_text(encoding="utf-8"))
+    table = json.loads(Path(__file__).with_name("library.json").read_text(encoding="utf-8"))
     return Catalogue(
         {name: _action(entry) for name, entry in table["actions"].items()},
         {name: _modifier(entry) for name, entry in table["modifiers"].items()},

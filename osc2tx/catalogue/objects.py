@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 
 from osc2tx.support.light_dataclass import dataclass
 
@@ -40,7 +40,7 @@ class ObjectTables:
 @cache
 def object_tables() -> ObjectTables:
     """Return the tables."""
-    table = json.loads((files(__package__) / "objects.json").read_text(encoding="utf-8"))
+    table = json.loads(Path(__file__).with_name("objects.json").read_text(encoding="utf-8"))
 
     def sets(name: str) -> dict[str, frozenset[str]]:
         return {key: frozenset(values) for key, values in table[name].items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from osc2tx.cli.campaign_results import export, replay
+from osc2tx.cli.campaign_results import export, replay, report
 from osc2tx.cli.campaign_run import run
 
 
@@ -18,5 +18,5 @@ def campaign() -> None:
     """
 
 
-for command in (run, replay, export):
+for command in (run, report, replay, export):
     campaign.add_command(command)

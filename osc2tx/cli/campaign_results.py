@@ -1,16 +1,22 @@
-"""`osc2tx campaign replay` and `export`: one row again, and tables of all."""
+"""`osc2tx campaign report`, `replay` and `export`: what came of it, one row again, tables."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import click
 
 from osc2tx.campaigns import CampaignError
-from osc2tx.campaigns.export import export_rows
+from osc2tx.campaigns.coverage import overall
+from osc2tx.campaigns.export import export_rows, write_text
+from osc2tx.campaigns.junit import render_junit
 from osc2tx.campaigns.replay import replay_row
+from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
-from osc2tx.cli.reporting import Exit
+from osc2tx.campaigns.summary import Results, results_of, summary_of
+from osc2tx.cli.reporting import Exit, count_of
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.running.main import verdict
 from osc2tx_text import complain, say
@@ -50,6 +56,74 @@ def replay(
     for line in verdict(f"{name}, row {row}", result):
         say(line)
     return Exit.OK if result.status == "success" else Exit.FAILED
+
+
+@click.command()
+@click.argument("store", metavar="STORE", type=STORE)
+@click.option(
+    "-o", "--output", "page", metavar="FILE", type=FILE, help="The page.  [default: STORE.html]"
+)
+@click.option("--against", metavar="STORE", type=STORE, help="An earlier campaign to compare with.")
+@click.option("--summary", metavar="FILE", type=FILE, help="Write the summary as JSON.")
+@click.option("--junit", metavar="FILE", type=FILE, help="Write the rows as JUnit XML.")
+@click.option(
+    "--fail-under",
+    metavar="PERCENT",
+    type=click.FloatRange(0.0, 100.0),
+    help="Exit with 1 if the mean grade of coverage is less.",
+)
+def report(
+    store: Path,
+    page: Path | None,
+    against: Path | None,
+    summary: Path | None,
+    junit: Path | None,
+    fail_under: float | None,
+) -> Exit:
+    """Write what came of a campaign as one HTML page that loads nothing.
+
+    Coverage holes come first, and are told from what the constraints leave no values for; failures
+    are grouped, each group with its shortest row and the command that repeats it.
+    """
+    place = page or store.with_suffix(".html")
+    try:
+        results = _read(store)
+        before = None if against is None else _read(against)
+        said = summary_of(results)
+        write_text("report", place, render_report(results, before))
+        if summary is not None:
+            write_text("summary", summary, json.dumps(said, indent=1) + "\n")
+        if junit is not None:
+            write_text("junit", junit, render_junit(results))
+    except CampaignError as error:
+        raise click.UsageError(str(error)) from None
+    except ScenarioError as error:
+        complain(f"{error.source or store}: error: {error.message}")
+        return Exit(error.exit_code)
+    for line in _verdict(results, place):
+        say(line)
+    grade = said["coverage_grade"]
+    if fail_under is not None and (grade is None or grade < fail_under):
+        found = "nothing is covered" if grade is None else f"{grade:.1f} %"
+        complain(f"{store}: coverage {found}, wanted were {fail_under:g} %")
+        return Exit.STALE
+    return Exit.OK
+
+
+def _read(place: Path) -> Results:
+    with Store(place) as opened:
+        return results_of(opened)
+
+
+def _verdict(results: Results, place: Path) -> Iterator[str]:
+    holes = sum(len(item.holes()) for item in results.items.values())
+    grade = overall(results.items.values())
+    covered = "" if grade is None else f", coverage {grade:.1f} %, {count_of(holes, 'hole')}"
+    failed = sum(len(group.rows) for group in results.failures)
+    yield (
+        f"{place}: {count_of(len(results.runs), 'row')}, {failed} failed in"
+        f" {count_of(len(results.failures), 'group')}{covered}"
+    )
 
 
 @click.command()

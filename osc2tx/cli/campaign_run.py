@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import click
@@ -24,13 +24,12 @@ from osc2tx.cli.run import (
     Texts,
     choose_scenario,
     merge_texts,
-    only_one_to_run,
     option_texts,
     settings_from,
 )
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
-from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan
 from osc2tx_runtime.errors import SettingsError
@@ -44,6 +43,26 @@ class CampaignCommand(RunCommand):
     """A command with the options of runs, but those that name files of one."""
 
     without = frozenset({"trace", "report"})
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take from the settings of the file what the command line does not say."""
+        for path in (Path(arg) for arg in args if arg.endswith((".osc", ".py"))):
+            with suppress(ConfigError):  # reported when the settings are read
+                stated = ConfigFiles().for_source(path).campaign_settings(path)
+                ctx.default_map = {
+                    FIELDS.get(name, name.replace("-", "_")): _stated(name, texts)
+                    for name, texts in stated.items()
+                }
+                break
+        return super().parse_args(ctx, args)
+
+
+FIELDS = {"kpi": "kpis"}  # where an option is called otherwise in `run`
+
+
+def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
+    (setting,) = (each for each in CAMPAIGN_SETTINGS if each.key == name)
+    return texts if setting.is_list else texts[0]
 
 
 @click.command(cls=CampaignCommand)
@@ -218,7 +237,6 @@ def _files_of(
         if compilation.module is None:
             raise click.UsageError(f"{path} declares no scenario")
         files, module = module_files(compilation.module, sibling_modules(compilation))
-        scenario = scenario or only_one_to_run(compilation)
     loaded = Modules(files)
     try:
         return files, module, choose_scenario(loaded.load(module), scenario, path).name

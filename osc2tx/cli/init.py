@@ -8,12 +8,15 @@ from pathlib import Path
 import click
 
 from osc2tx.cli.reporting import Exit
+from osc2tx.options import STANDARDS
 from osc2tx.resources import resource_dir
 from osc2tx_text import complain, put, say
 
+SETTINGS = "settings.toml"
+
 # Place in the new project -> what is written there, from templates/project.
 FILES: Mapping[str, str] = {
-    "osc2tx.toml": "settings.toml",
+    "osc2tx.toml": SETTINGS,
     "scenarios/slow_down.osc": "scenario.osc",
     "tests/test_scenarios.py": "test_scenarios.py",
     ".gitignore": "gitignore",
@@ -29,7 +32,14 @@ Commit generated/ with the scenarios: reviewers read both."""
 
 @click.command()
 @click.argument("folder", default=".", type=click.Path(path_type=Path, file_okay=False))
-def init(folder: Path) -> Exit:
+@click.option(
+    "--std",
+    type=click.Choice(STANDARDS),
+    default=STANDARDS[0],
+    show_default=True,
+    help="Version of the standard.",
+)
+def init(folder: Path, std: str) -> Exit:
     """Start a project: a scenario, settings, a test, a pre-commit hook and a CI workflow.
 
     Files that exist already are left as they are.
@@ -37,10 +47,11 @@ def init(folder: Path) -> Exit:
     templates = resource_dir("templates") / "project"
     for name, template in FILES.items():
         place = folder / name
+        own = f'std = "{std}"\n' if template == SETTINGS else ""
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
             with place.open("x", encoding="utf-8", newline="\n") as file:
-                file.write((templates / template).read_text(encoding="utf-8"))
+                file.write((templates / template).read_text(encoding="utf-8") + own)
         except FileExistsError:
             complain(f"{place}: exists, left as it is")
         except OSError as error:

@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from osc2tx.compilation.inputs import InputError
+from osc2tx.support.output_names import COVERAGE_MODEL, SOURCE_MAP
 from osc2tx.support.real_paths import real_path
 from osc2tx_runtime import Scenario, ScenarioError
 
@@ -62,7 +63,9 @@ def module_files(
     for each in (*siblings, module):
         place = Path(each.source).with_name(f"{each.stem}.py")
         files[place.as_posix()] = each.python
-        files[place.with_suffix(".map.json").as_posix()] = each.source_map
+        files[place.with_suffix(SOURCE_MAP).as_posix()] = each.source_map
+        if each.coverage_model is not None:
+            files[place.with_suffix(COVERAGE_MODEL).as_posix()] = each.coverage_model
     return files, place.as_posix()
 
 
@@ -76,10 +79,10 @@ def written_files(place: Path) -> tuple[dict[str, str], str]:
     try:
         found = [place, *(Path(file) for file in _siblings(place).values() if file)]
         root = Path(os.path.commonpath([each.parent for each in found]))
-        maps = [each.with_suffix(".map.json") for each in found]
+        beside = [each.with_suffix(end) for each in found for end in (SOURCE_MAP, COVERAGE_MODEL)]
         files = {
             each.relative_to(root).as_posix(): each.read_text(encoding="utf-8")
-            for each in (*found, *maps)
+            for each in (*found, *beside)
             if each in found or each.is_file()
         }
     except (OSError, SyntaxError, ValueError) as error:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
+from pathlib import Path
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from osc2tx.config import GivenOptions
 from osc2tx.options import (
@@ -18,6 +21,33 @@ from osc2tx.options import (
     XML_PROFILES,
     XML_VERSIONS,
 )
+
+_NAMES = {
+    ".osc": re.compile(r"^scenario\s+([\w.]+)", re.MULTILINE),
+    ".py": re.compile(r'^    name = "([\w.]+)"$', re.MULTILINE),
+}
+
+
+def scenario_option(verb: str) -> Callable[..., Any]:
+    """Return the option that says which scenario of a FILE to run or draw."""
+    help_ = f"Which scenario of the file to {verb}."
+    return click.option("--scenario", metavar="NAME", shell_complete=_complete_scenario, help=help_)
+
+
+def _complete_scenario(
+    context: click.Context, parameter: click.Parameter, incomplete: str
+) -> list[CompletionItem]:
+    """Offer the scenarios of the file, as one sees them without compiling it."""
+    words = [context.params.get("file"), *context.args]  # there as long as the line is incomplete
+    paths = [Path(str(word)) for word in words if word is not None]
+    path = next((path for path in paths if path.suffix in _NAMES), None)
+    if path is None:
+        return []
+    try:
+        names = dict.fromkeys(_NAMES[path.suffix].findall(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError):
+        return []
+    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
 
 
 def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -12,7 +12,7 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
-from osc2tx.cli.options import compile_options
+from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
@@ -85,7 +85,7 @@ Texts: TypeAlias = Mapping[str, Sequence[str]]
 
 @click.command(cls=RunCommand)
 @click.argument("file", metavar="FILE", type=click.Path())
-@click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
+@scenario_option("run")
 @compile_options
 @report_options
 def run(
@@ -122,7 +122,6 @@ def _run_source(
         return code
     module = compilation.module
     path = compilation.path
-    wanted = wanted or only_one_to_run(compilation)
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
     try:
@@ -131,18 +130,6 @@ def _run_source(
     except ScenarioError as error:
         complain(error.report(str(path)))
         return Exit(error.exit_code)
-
-
-def only_one_to_run(compilation: Compilation) -> str | None:
-    """Return the scenario of a file that no other one of it invokes, if there is just one."""
-    own = (
-        [each for each in compilation.ir.scenarios if not each.is_imported]
-        if (compilation.ir is not None)
-        else []
-    )
-    names = [each.name for each in own if not each.is_invoked and not each.is_action]
-    is_named = any(each.name in ("top", "main") for each in own)
-    return names[0] if len(names) == 1 and not is_named else None
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
@@ -166,16 +153,17 @@ def _run_one_of(
     reporter: Reporter,
 ) -> Exit:
     scenario = choose_scenario(scenarios, wanted, path)
+    given = str(path) if path.suffix == ".osc" else None
     try:
         result = _run_with_progress(scenario, settings)
     except ScenarioError as error:
-        complain(error.report(scenario.source, str(path) if path.suffix == ".osc" else None))
+        complain(error.report(scenario.source, given))
         return Exit(error.exit_code)
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
         return Exit.INTERRUPTED
     succeeded = result.status == "success"
-    for line in verdict(scenario.name, result):
+    for line in verdict(scenario.name, result, scenario.source, given):
         (reporter.say if succeeded else reporter.say_anyway)(line)
     return Exit.OK if succeeded else Exit.FAILED
 

@@ -8,9 +8,9 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.module_loading import scenarios_of_module
-from osc2tx.cli.options import compile_options
+from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
-from osc2tx.cli.run import choose_scenario, only_one_to_run
+from osc2tx.cli.run import choose_scenario
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
@@ -22,7 +22,7 @@ _FORMS = {"text": tree_text, "svg": tree_svg}
 
 @click.command()
 @click.argument("file", metavar="FILE", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--scenario", metavar="NAME", help="Which scenario of the file to draw.")
+@scenario_option("draw")
 @click.option("--form", type=click.Choice(list(_FORMS)), default="text", help="What to print.")
 @compile_options
 @report_options
@@ -42,8 +42,7 @@ def tree(
     place = str(file)
     try:
         with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
-            wanted = scenario or only_one_to_run(compilation)
-            chosen = choose_scenario(scenarios, wanted, file)
+            chosen = choose_scenario(scenarios, scenario, file)
             place = chosen.source
             drawn = _FORMS[form](chosen().create_tree())
     except ScenarioError as error:

@@ -6,7 +6,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx.support.light_dataclass import dataclass
-from osc2tx.support.output_names import LOSS_REPORT, MODULE, PARAMETERS, SOURCE_MAP, XML
+from osc2tx.support.output_names import (
+    COVERAGE_MODEL,
+    LOSS_REPORT,
+    MODULE,
+    PARAMETERS,
+    SOURCE_MAP,
+    XML,
+)
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule
@@ -22,8 +29,13 @@ class Output:
 
 
 def files_of_module(module: GeneratedModule) -> tuple[Output, ...]:
-    """Return the Python module and its source map."""
-    return Output(MODULE, module.python), Output(SOURCE_MAP, module.source_map)
+    """Return the Python module, its source map, and what it samples, if it does."""
+    written = (
+        (MODULE, module.python),
+        (SOURCE_MAP, module.source_map),
+        (COVERAGE_MODEL, module.coverage_model),
+    )
+    return tuple(Output(suffix, text) for suffix, text in written if text is not None)
 
 
 def files_of_xml(scenarios: Sequence[XmlScenario]) -> tuple[Output, ...]:

@@ -17,9 +17,16 @@ before pyproject.toml. What the command line says beats what a file says.
 
 from osc2tx.config.files import ConfigFiles
 from osc2tx.config.model import Config, ConfigError, GivenOptions, InForce, Origin, ScenarioConfig
-from osc2tx.config.settings import COMPILE_SETTINGS, PROJECT_SETTINGS, RUN_SETTINGS, Setting
+from osc2tx.config.settings import (
+    CAMPAIGN_SETTINGS,
+    COMPILE_SETTINGS,
+    PROJECT_SETTINGS,
+    RUN_SETTINGS,
+    Setting,
+)
 
 __all__ = [
+    "CAMPAIGN_SETTINGS",
     "COMPILE_SETTINGS",
     "PROJECT_SETTINGS",
     "RUN_SETTINGS",

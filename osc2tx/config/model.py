@@ -81,10 +81,12 @@ class ScenarioConfig:
     Attributes:
         options: Compile options of this file.
         run: Run option to what is written for it, in the syntax of the command line.
+        campaign: Option of `osc2tx campaign run`, likewise.
     """
 
     options: GivenOptions = GivenOptions()
     run: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    campaign: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +145,10 @@ class Config:
         """Return the run options of a file."""
         return self.scenarios.get(source.stem, ScenarioConfig()).run
 
+    def campaign_settings(self, source: Path) -> Mapping[str, tuple[str, ...]]:
+        """Return the options of the campaign of a file."""
+        return self.scenarios.get(source.stem, ScenarioConfig()).campaign
+
     def settings_in_force(self, source: Path | None, given: GivenOptions) -> Iterator[InForce]:
         """Yield what counts for a file, or for a folder, with where it is from."""
         table = self.scenarios.get(source.stem, ScenarioConfig()) if source else ScenarioConfig()
@@ -161,8 +167,9 @@ class Config:
             yield InForce("sources", [str(path) for path in self.sources], self._origin(""))
         if self.out is not None:
             yield InForce("out", str(self.out), self._origin(""))
-        for key, texts in table.run.items():
-            yield InForce(f"run.{key}", list(texts), self._origin(f"{section}.run"))
+        for part, texts_of in (("run", table.run), ("campaign", table.campaign)):
+            for key, texts in texts_of.items():
+                yield InForce(f"{part}.{key}", list(texts), self._origin(f"{section}.{part}"))
 
     def _origin(self, table: str) -> Origin:
         return Origin(".".join(part for part in (self.prefix, table) if part), self.path)

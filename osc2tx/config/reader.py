@@ -8,6 +8,7 @@ from typing import Any
 
 from osc2tx.config.model import Config, ConfigError, GivenOptions, ScenarioConfig
 from osc2tx.config.settings import (
+    CAMPAIGN_SETTINGS,
     COMPILE_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
@@ -72,7 +73,7 @@ class _Reader:
     def _scenario(self, name: str, table: object) -> ScenarioConfig:
         where = ("scenarios", name)
         keys = [setting.key for setting in COMPILE_SETTINGS]
-        checked = self._table(table, where, (*keys, "run"))
+        checked = self._table(table, where, (*keys, "run", "campaign"))
         inner = (*where, "run")
         settings = {item.key: item for item in RUN_SETTINGS}
         run = self._table(checked.get("run", {}), inner, None)
@@ -80,7 +81,15 @@ class _Reader:
             self._table(run, inner, list(settings))
         own = {key: self._own(key, value) for key, value in run.items() if key not in settings}
         texts = self._texts(run, [*settings.values(), *own.values()], inner)
-        return ScenarioConfig(self._options(checked, where), {key: texts[key] for key in run})
+        return ScenarioConfig(
+            self._options(checked, where),
+            {key: texts[key] for key in run},
+            self._campaign(checked.get("campaign", {}), (*where, "campaign")),
+        )
+
+    def _campaign(self, table: object, where: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
+        checked = self._table(table, where, [setting.key for setting in CAMPAIGN_SETTINGS])
+        return self._texts(checked, CAMPAIGN_SETTINGS, where)
 
     @staticmethod
     def _own(key: str, value: object) -> Setting:

@@ -86,4 +86,15 @@ RUN_SETTINGS = (
     Setting("dt", is_single=True),
     Setting("max-time", is_single=True),
 )
+# Options of `osc2tx campaign run` for one file, likewise.
+CAMPAIGN_SETTINGS = (
+    Setting("samples", "How many rows there are to be.", is_single=True),
+    Setting("sampler", "Which values rows have.", is_single=True),
+    Setting("levels", "Values of a range for grid and pairwise.", is_single=True),
+    Setting("kpi", "What is measured.", is_list=True),
+    Setting("fail-if", "A row fails also if this holds.", is_list=True),
+    Setting("timeout", "Seconds by the clock that a row may take.", is_single=True),
+    Setting("workers", "How many processes run rows.", is_single=True),
+    Setting("digests", "Make each trace, and store its digest.", is_flag=True),
+)
 TABLES = ("scenarios",)  # of tables, one for each scenario file

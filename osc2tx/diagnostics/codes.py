@@ -206,4 +206,5 @@ CODES = _table(
     Code("OSC806", "run-option", ERROR, "An option of a run is wrong."),
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
     Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
+    Code("OSC809", "run-failed", ERROR, "A run ended with a failure, or not in time."),
 )

@@ -16,6 +16,8 @@ def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> s
         known: The names there are; equally near ones are decided by the alphabet.
         likeness: How alike they must be, from 0 to 1.
     """
+    if len(written) < 2:
+        return None  # every short name is near
     from difflib import get_close_matches  # only needed where something is wrong
 
     return next(iter(get_close_matches(written, sorted(set(known)), 1, likeness)), None)

@@ -36,7 +36,7 @@ from osc2tx.ir.behaviors import (
 )
 from osc2tx.ir.compare import means_same, same, words
 from osc2tx.ir.constants import constant
-from osc2tx.ir.coverage import Coverage
+from osc2tx.ir.coverage import Bucket, Coverage
 from osc2tx.ir.declarations import (
     GLOBAL_MARK,
     Actor,
@@ -117,6 +117,7 @@ __all__ = [
     "Behavior",
     "BehaviorBase",
     "Binary",
+    "Bucket",
     "Call",
     "Choices",
     "Composition",

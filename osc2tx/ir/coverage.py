@@ -9,6 +9,23 @@ from osc2tx.ir.values import Unit
 from osc2tx.support.light_dataclass import dataclass
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bucket:
+    """Values of an item that count as one.
+
+    Attributes:
+        low: Least value, in the unit.
+        high: Greatest value, which the next bucket has, if there is one; equal to `low`: a point.
+        value: Instead of both: the only value, an enum's member by its name.
+        label: Name of a default bucket.
+    """
+
+    low: float | None = None
+    high: float | None = None
+    value: bool | int | str | None = None
+    label: str = ""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Coverage:
     """`cover` or `record`, overrides merged.
@@ -29,6 +46,10 @@ class Coverage:
         target: Hits that each slice should have.
         text: What it is about.
         comments: The comment lines above it.
+        graded: Its buckets, also those by default; empty for a cross, or if nobody says where its
+            values end.
+        impossible: Buckets that constraints leave no values for: a position in `graded`, for a
+            cross one for each item.
     """
 
     kind: str
@@ -46,3 +67,5 @@ class Coverage:
     target: int | None = None
     text: str = ""
     comments: tuple[str, ...] = ()
+    graded: tuple[Bucket, ...] = ()
+    impossible: tuple[tuple[int, ...], ...] = ()

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.ir.behaviors import Trigger
+from osc2tx.ir.behaviors import Moment, Trigger
 from osc2tx.ir.expressions import Choices, Domain, Expression, RangeValue
-from osc2tx.ir.values import ValueType
+from osc2tx.ir.values import Unit, ValueType
 from osc2tx.support.light_dataclass import dataclass
 
 # Before the name of a global parameter that a field of the scenario hides: no field has a blank in
@@ -96,6 +96,7 @@ class Parameter(DeclarationBase):
         domain: The values it may take.
         is_fixed: A hard constraint leaves no other value.
         is_global: One value for all scenarios of a run.
+        unit: Of a physical type: the unit in which the source speaks of it.
     """
 
     type: ValueType
@@ -103,6 +104,7 @@ class Parameter(DeclarationBase):
     domain: Domain | None
     is_fixed: bool
     is_global: bool = False
+    unit: Unit | None = None
 
     @property
     def is_required(self) -> bool:
@@ -121,10 +123,15 @@ class Constraint:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Sample:
-    """When a variable takes a new value, and which."""
+    """When a variable takes a new value, and which.
+
+    Attributes:
+        expression: Gives the value.
+        trigger: When; a moment is one of the scenario itself.
+    """
 
     expression: Expression
-    trigger: Trigger
+    trigger: Trigger | Moment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -171,7 +171,9 @@ def _declaration(declaration: Declaration) -> Iterator[str]:
             initial = "" if value is None else f" = {show(value)}"
             sampled = ""
             if sample is not None:
-                sampled = f" sampled {show(sample.expression)} at {_trigger(sample.trigger)}"
+                when = sample.trigger
+                at = f"@{when.value}" if isinstance(when, Moment) else _trigger(when)
+                sampled = f" sampled {show(sample.expression)} at {at}"
             yield f"variable {name}: {type_}{initial}{sampled} @{line}"
         case Event(name=name, trigger=trigger):
             given = f" is {_trigger(trigger)}" if trigger is not None else ""

@@ -20,6 +20,7 @@ from osc2tx.ir.behaviors import (
     LabelEvent,
     Level,
     ModifierCall,
+    Moment,
     On,
     OneOf,
     Parallel,
@@ -129,7 +130,8 @@ class _ScenarioVerifier:
                         self.check_expression(value, declared)
                     if sample is not None:
                         self.check_expression(sample.expression)
-                        self.check_trigger(sample.trigger)
+                        if not isinstance(sample.trigger, Moment):
+                            self.check_trigger(sample.trigger)
                 case Event(trigger=trigger):
                     if trigger is not None:
                         self.check_trigger(trigger)

@@ -18,15 +18,13 @@ from osc2tx.lowering.invocations import InvocationLowering, label_of, name_of_me
 from osc2tx.lowering.node_names import composition_name
 from osc2tx.lowering.open_durations import with_open_duration
 from osc2tx.lowering.standing_modifiers import StandingModifiers
-from osc2tx.lowering.triggers import declares_event, lower_trigger, lower_until
-from osc2tx.semantics import symbols as sym
+from osc2tx.lowering.triggers import boundary_of, declares_event, lower_trigger, lower_until
 from osc2tx.syntax import ast
 
 # Life-cycle events that a scenario may emit, and whether it succeeds then.
 FINISHING = {"end": True, "fail": False}
 
 # Those that `on` can react to at the place where they occur.
-BOUNDARIES = frozenset({"start", "end"})
 
 
 class _CompositionFields(TypedDict):
@@ -93,7 +91,7 @@ class BehaviorLowering:
         """Return what directives do at the start or end of the scenario: they frame its body."""
         found: list[ir.Behavior] = []
         for node in nodes:
-            if boundary_of(self._ctx, node) == moment:
+            if boundary_of(self._ctx, node.event) == moment:
                 reactions: list[ir.Behavior] = list(self.reactions(node))
                 if reactions:
                     comments = (*statement_comments(node), *reactions[0].comments)
@@ -225,16 +223,6 @@ class BehaviorLowering:
             event=ir.EventRef(span=node.event.span, name=node.event.text),
             arguments=arguments,
         )
-
-
-def boundary_of(ctx: LoweringContext, node: ast.OnDirective) -> str | None:
-    """Return `start` or `end` if a directive reacts to that of the scenario itself."""
-    event = node.event
-    symbol = None if event.event is None else ctx.model.symbol_of(event.event)
-    is_plain = isinstance(event.event, ast.NameExpression) and event.condition is None
-    if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
-        return None
-    return symbol.name if symbol.name in BOUNDARIES else None
 
 
 def _overlap(value: ast.Expression | None) -> str | None:

@@ -16,6 +16,7 @@ from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.domains import TRUE, Choice, Domain, join
 from osc2tx.analysis.operation_list import Key, domain_of_type
 from osc2tx.analysis.solver import values_on
+from osc2tx.lowering.cases import alternatives, cases_of, value_by_cases
 from osc2tx.lowering.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.equations import solve_for
@@ -80,6 +81,8 @@ class ConstraintLowering:
             value, is_fixed = authored, True
         elif definition is None and (solved := self._solved(key)) is not None:
             (definition, value), is_fixed = solved, True
+        elif definition is None and (by_cases := self._by_cases(key, type_)) is not None:
+            value, is_fixed = by_cases, True
         domain = None if is_fixed else self._domain(writer, within, hard)
         self._note(key, type_, definition, domain, hard if is_fixed else None)
         said = [c for c in mentioned if self._is_said(c, key, definition, domain)]
@@ -182,6 +185,8 @@ class ConstraintLowering:
                 return ir.Choices(span=lowered.span, type=lowered.type, elements=elements)
             if isinstance(lowered, ir.RangeValue) and not writer.is_constant(lowered):
                 return lowered
+        elif (listed := self._listed(writer)) is not None:
+            return listed
         bound = None if within is not None else writer.relative(self._earlier(writer.key))
         if bound is not None and not isinstance(hard, Choice):
             lowered, by = bound
@@ -233,6 +238,22 @@ class ConstraintLowering:
             solved = solve_for(self.ctx.at(constraint.place), node.expression, constraint, key)
             if solved is not None:
                 return constraint, solved
+        return None
+
+    def _by_cases(self, key: Key, type_: types.Type) -> ir.Expression | None:
+        """Return what a parameter is in each of the cases that constraints tell apart."""
+        cases = cases_of(self.ctx, self._earlier(key), key, type_)
+        self._used.update(case.constraint for case in cases)
+        return value_by_cases(cases) if cases else None
+
+    def _listed(self, writer: DomainWriter) -> ir.Choices | None:
+        """Return the values that a constraint lists, `x == a or x == b`."""
+        for constraint in writer.constraints:
+            plain = constraint.operations.keys == {writer.key}
+            listed = plain and alternatives(self.ctx, constraint, writer.key, writer.type)
+            if listed:
+                self._used.add(constraint)
+                return listed
         return None
 
     def _value_of(self, definition: Constraint) -> Domain:

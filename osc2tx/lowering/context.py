@@ -11,6 +11,7 @@ from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.analysis.operation_list import Key
 from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.lowering.authored_units import authored_unit
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -166,7 +167,13 @@ class LoweringContext:
         assert place is not None
         unique = self.unique(name)
         parameter = ir.Parameter(
-            name=unique, span=place, type=type_, value=None, domain=domain, is_fixed=False
+            name=unique,
+            span=place,
+            type=type_,
+            value=None,
+            domain=domain,
+            is_fixed=False,
+            unit=authored_unit(self.model, type_, (domain,)),
         )
         self.drawn.append(parameter)
         return ir.FieldRef(span=place, type=type_, name=unique)

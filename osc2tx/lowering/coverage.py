@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from osc2tx import ir
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.coverage_buckets import Sampled, with_buckets
 from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.triggers import declares_event
 from osc2tx.lowering.value_types import lower_type, lower_unit, number_in
@@ -14,6 +15,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import to_si
 from osc2tx.semantics.coverage_items import Item, all_items_of, text_of
 from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.types import ERROR
 from osc2tx.syntax import ast
 
 MOMENTS = {"start": ir.Moment.START, "end": ir.Moment.END, "fail": ir.Moment.FAIL}
@@ -22,15 +24,15 @@ MOMENTS = {"start": ir.Moment.START, "end": ir.Moment.END, "fail": ir.Moment.FAI
 def lower_coverage(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Coverage, ...]:
     """Return the items of a scenario, inherited ones included, that are not switched off."""
     overrides = dict(_overrides(scenario))
-    lowered = []
+    lowered: list[Sampled] = []
     for item in all_items_of(scenario):
         arguments = {**item.arguments, **overrides.get(item.name, {})}
         if _is_true(arguments.get("disable")):
             continue
-        coverage = _lower(ctx, scenario, item, arguments)
-        if coverage is not None:
-            lowered.append(coverage)
-    return tuple(lowered)
+        sampled = _lower(ctx, scenario, item, arguments)
+        if sampled is not None:
+            lowered.append(sampled)
+    return tuple(with_buckets(ctx, scenario, lowered))
 
 
 def _overrides(
@@ -53,7 +55,7 @@ def _lower(
     scenario: Composed,
     item: Item,
     arguments: dict[str, ast.Expression],
-) -> ir.Coverage | None:
+) -> Sampled | None:
     node, source = item.node, item.expression
     crossed = arguments.get("items")
     elements = crossed.elements if isinstance(crossed, ast.ListLiteral) else ()
@@ -71,7 +73,7 @@ def _lower(
     unit = unit if isinstance(unit, sym.UnitSymbol) else None
     number = _Numbers(ctx, unit)
     target = number.of(arguments.get("target"))
-    return ir.Coverage(
+    coverage = ir.Coverage(
         kind=node.kind,
         name=item.name,
         span=node.span,
@@ -88,6 +90,8 @@ def _lower(
         text=_text(arguments.get("text")),
         comments=statement_comments(node),
     )
+    type_ = ERROR if source is None else ctx.model.type_of(source)
+    return Sampled(item, coverage, type_, unit, arguments.get("ignore"))
 
 
 def _it_of(ctx: LoweringContext, scenario: Composed, item: Item) -> LoweringContext:

@@ -94,7 +94,8 @@ def _values(declaration: ir.Declaration) -> tuple[ir.Expression, ...]:
         case ir.Parameter(value=value, domain=domain):
             return tuple(part for part in (value, domain) if part is not None)
         case ir.Variable(value=value, sample=sample):
-            times = () if sample is None else _times(sample.trigger)
+            when = None if sample is None else sample.trigger
+            times = _times(when) if isinstance(when, ir.Trigger) else ()
             return times if value is None else (value, *times)
         case ir.Event(trigger=trigger, parameters=parameters):
             defaults = tuple(p.default for p in parameters if p.default is not None)

@@ -13,7 +13,7 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.fields import FieldLowering
 from osc2tx.lowering.methods import lower_method
 from osc2tx.lowering.references import alias_of
-from osc2tx.lowering.triggers import event_parameter, lower_trigger
+from osc2tx.lowering.triggers import boundary_of, event_parameter, lower_trigger
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.conversions import symbol_of
@@ -156,7 +156,8 @@ class DeclarationLowering:
         )
 
     def _sample(self, node: ast.SampleExpression) -> ir.Sample | None:
-        trigger = lower_trigger(self._ctx, node.event)
+        moment = boundary_of(self._ctx, node.event)
+        trigger = ir.Moment(moment) if moment else lower_trigger(self._ctx, node.event)
         expression = lower_expression(self._ctx, node.expression)
         if trigger is None or expression is None:
             return None

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from osc2tx import ir
-from osc2tx.lowering.behaviors import BehaviorLowering, boundary_of
+from osc2tx.lowering.behaviors import BehaviorLowering
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present
 from osc2tx.lowering.standing_modifiers import StandingModifiers
+from osc2tx.lowering.triggers import boundary_of
 from osc2tx.syntax import ast
 
 
@@ -33,7 +34,7 @@ def lower_body(
     lowering = BehaviorLowering(ctx, constraints, standing)
     body = _lower_directives(lowering, scenario, directives)
     on = [s for s in statements if isinstance(s, ast.OnDirective)]
-    reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s) is None])
+    reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s.event) is None])
     if body is None:
         return None
     before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))

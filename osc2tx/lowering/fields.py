@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.authored_units import authored_unit
 from osc2tx.lowering.combined_types import add_types, lineage
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
@@ -168,12 +169,14 @@ class FieldLowering:
             )
         if setting.value is None and domain is None:
             domain = all_values(field.type, span)
+        type_ = lower_type(field.type)
         return ir.Parameter(
             name=field.name,
             span=span,
             comments=(*comments, *setting.comments),
-            type=lower_type(field.type),
+            type=type_,
             value=setting.value,
             domain=domain,
             is_fixed=setting.is_fixed,
+            unit=authored_unit(self._ctx.model, type_, (setting.value, domain)),
         )

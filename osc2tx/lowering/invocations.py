@@ -29,6 +29,7 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
+from osc2tx.semantics.modifiers import instead_of_scenario
 from osc2tx.syntax import ast
 
 
@@ -113,7 +114,7 @@ class InvocationLowering:
                     "OSC508",
                     modifier.span,
                     f"`{modifier.span.text}` would modify what `{callee.qualified_name}` does",
-                    help="apply it in the `with` of the actions in it",
+                    help=instead_of_scenario(callee, modifier.name, modifier.span.text),
                 )
         span = callee.node.name.span
         return ir.InvokeScenario(
@@ -146,7 +147,8 @@ class InvocationLowering:
                     "OSC508",
                     member.span,
                     f"modifier `{member.modifier}` of {what} is not supported",
-                    help="apply it in the `with` of the actions in it",
+                    help=instead_of_scenario(behavior, member.modifier.text, member.span.text)
+                    or "apply it in the `with` of the actions in it",
                 )
 
     def _modifier_lowering(
@@ -245,10 +247,14 @@ def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
 
 
 def name_of_member(node: ast.Invocation | ast.Composition) -> str:
-    """Return what to call values that belong to a member of the tree."""
+    """Return what to call values that belong to a member of the tree: label, or who does what."""
     if node.label is not None:
         return node.label.text
-    return node.behavior.text if isinstance(node, ast.Invocation) else node.operator.value
+    if isinstance(node, ast.Composition):
+        return node.operator.value
+    if node.actor is None:
+        return node.behavior.text
+    return f"{''.join(node.actor.span.text.split())}.{node.behavior.text}"
 
 
 def label_of(node: ast.BehaviorMember) -> str | None:

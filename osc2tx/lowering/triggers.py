@@ -13,6 +13,7 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
+BOUNDARIES = frozenset({"start", "end"})
 MOMENTS = {moment.value: moment for moment in ir.Moment}
 
 
@@ -27,6 +28,15 @@ def lower_trigger(
     if (node.event is None) != (event is None) or (node.condition is None) != (condition is None):
         return None
     return ir.Trigger(span=node.span, event=event, condition=condition, comments=comments)
+
+
+def boundary_of(ctx: LoweringContext, event: ast.EventSpecification) -> str | None:
+    """Return `start` or `end` if a specification is that of the scenario itself."""
+    symbol = None if event.event is None else ctx.model.symbol_of(event.event)
+    is_plain = isinstance(event.event, ast.NameExpression) and event.condition is None
+    if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
+        return None
+    return symbol.name if symbol.name in BOUNDARIES else None
 
 
 def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
@@ -61,7 +71,7 @@ def _lower_event(
             path.span,
             f"`@{symbol.name}` of the scenario itself cannot be waited for here",
             help="inside of it the start has passed, and the end is not yet: use `on @start` or "
-            "`on @end`, or label the members, `@label.end`",
+            "`on @end`, without `if`, or label the members, `@label.end`",
         )
         return None
     ctx.unsupported("OSC506", path.span, f"event `{path.span.text}` cannot be waited for yet")
@@ -69,14 +79,18 @@ def _lower_event(
 
 
 def _labels(ctx: LoweringContext, base: ast.Expression) -> tuple[sym.LabelSymbol, ...]:
-    """Return the labels of a path, `p1.cut`; nothing if something else is in it."""
+    """Return the labels of a path, `p1.cut`; nothing if something else is in it.
+
+    A label inside a composition belongs to the scenario as well: the composition's is left out.
+    """
     found: list[sym.LabelSymbol] = []
     current: ast.Expression | None = base
     while current is not None:
         symbol = ctx.model.symbol_of(current)
         if not isinstance(symbol, sym.LabelSymbol):
             return ()
-        found.append(symbol)
+        if not found or not isinstance(symbol.node, ast.Composition):
+            found.append(symbol)
         current = current.base if isinstance(current, ast.MemberAccess) else None
     return tuple(reversed(found))
 

@@ -21,6 +21,7 @@ from osc2tx.lowering.parameter_domains import all_values
 from osc2tx.lowering.user_fields import is_plain
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.modifiers import instead_of_scenario
 from osc2tx.semantics.scope import is_subtype
 from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
@@ -211,6 +212,9 @@ class ModifierLowering:
                 self.chain[0].span,
                 f"modifier `{node.modifier}` does not apply to `{self.action.qualified_name}`",
                 notes=[f"it modifies `{target.qualified_name}`"],
+                help=instead_of_scenario(
+                    self.action, self.chain[0].modifier.text, self.chain[0].span.text
+                ),
             )
         return fits or not self.chain
 

@@ -182,8 +182,8 @@ def _check_event_declaration(r: Resolution, node: ast.EventDeclaration, env: Env
 def _check_method(
     r: Resolution, owner: TypeSymbol, node: ast.MethodDeclaration, env: Environment
 ) -> None:
-    symbol = owner.members.get(node.name.text)
-    if not isinstance(symbol, MethodSymbol) or symbol.node is not node:
+    symbol = _declared_by(r, owner, node)
+    if symbol is None:
         return
     for parameter in symbol.parameters:
         if parameter.default is not None:
@@ -202,6 +202,18 @@ def _check_method(
                 r.type_of(argument.value, inner)
         case ast.UndefinedBody():
             pass
+
+
+def _declared_by(
+    r: Resolution, owner: TypeSymbol, node: ast.MethodDeclaration
+) -> MethodSymbol | None:
+    """Return the method that a declaration makes, also one that an extension replaces."""
+    symbol = owner.members.get(node.name.text)
+    while isinstance(symbol, MethodSymbol):
+        if symbol.node is node:
+            return symbol
+        symbol = r.scope.overridden.get(symbol)
+    return None
 
 
 def _report_reserved(r: Resolution, span: Span, path: str) -> None:

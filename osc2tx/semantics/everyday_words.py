@@ -121,10 +121,11 @@ NAMES: Mapping[str, str] = {
     "Inf": "inf",
 }
 NOTHING = frozenset({"None", "null", "NULL", "nil", "undefined"})
-# Units of speed as quotients: the unit of the number, and the name that the text divides by.
-SPEEDS: Mapping[tuple[str, str], str] = {
+# Units as quotients: the unit of the number, and the name that the text divides by.
+QUOTIENTS: Mapping[tuple[str, str], str] = {
     ("km", "h"): "kph",
     ("m", "s"): "mps",
+    ("m", "s2"): "mpss",
     ("mi", "h"): "mph",
     ("mile", "h"): "mph",
     ("mm", "h"): "mmph",

@@ -15,6 +15,8 @@ from osc2tx.semantics.symbols import (
     ActorSymbol,
     FieldSymbol,
     ModifierSymbol,
+    ScenarioSymbol,
+    Symbol,
     TypeSymbol,
 )
 from osc2tx.semantics.types import ERROR, OBJECT, ActorType, BehaviorType, ErrorType
@@ -130,7 +132,7 @@ def _find_modifier(
         ]
     )
     if not fitting:
-        _report_misfit(r, name, candidates[0], invoked, actor, env.owner)
+        _report_misfit(r, node, candidates[0], invoked, actor, env.owner)
         return None
     visible = r.scope.select(fitting, name, env.context)
     if not visible:
@@ -198,6 +200,27 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
     r.report("OSC212", name.span, f"no modifier `{name}`", **advice)
 
 
+def instead_of_scenario(invoked: Symbol | None, name: str, written: str) -> str | None:
+    """Say how a modifier of actions (§8.9.1) is applied to all that a scenario does.
+
+    Args:
+        invoked: What is invoked; nothing is said of an action.
+        name: Of the modifier.
+        written: Its application.
+    """
+    if not isinstance(invoked, ScenarioSymbol):
+        return None
+    inside = "apply it in the `with` of the actions in it"
+    if invoked.actor is None:
+        return inside
+    member = written[max(written.find(f"{name}("), 0) :]
+    derived = f"{invoked.qualified_name}_with_{name}"
+    return (
+        f"{inside}, or write `{member}` into a `scenario {derived} inherits"
+        f" {invoked.qualified_name}:` and invoke that"
+    )
+
+
 def _receiver(modifier: ModifierSymbol, name: ast.Name, owner: TypeSymbol | None) -> str:
     """Say of which actor a modifier may be applied."""
     wanted = modifier.actor
@@ -217,12 +240,13 @@ def _receiver(modifier: ModifierSymbol, name: ast.Name, owner: TypeSymbol | None
 
 def _report_misfit(
     r: Resolution,
-    name: ast.Name,
+    node: ast.ModifierApplication,
     modifier: ModifierSymbol,
     invoked: CallableBehavior | None,
     actor: ActorSymbol | None,
     owner: TypeSymbol | None,
 ) -> None:
+    name = node.modifier
     if modifier.target is not None:
         wanted = f"it modifies `{modifier.target.qualified_name}`"
         if invoked is None or not is_subtype(invoked, modifier.target):
@@ -232,6 +256,7 @@ def _report_misfit(
                 name.span,
                 f"modifier `{name}` does not apply to {here}",
                 notes=[wanted],
+                help=instead_of_scenario(invoked, name.text, node.span.text),
                 labels=declared_here(modifier),
             )
             return

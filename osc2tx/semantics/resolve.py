@@ -221,7 +221,7 @@ def _resolve_parameters(
 def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> None:
     """Check a member against the inherited one of the same name (§7.3.7, §7.3.8)."""
     overrides = isinstance(member, MethodSymbol) and member.node is not None and member.node.is_only
-    earlier = _extended_method(r, member) or inherited_member(owner, member)
+    earlier = _extended_method(r, owner, member) or inherited_member(owner, member)
     if earlier is None and overrides:
         earlier = _overridden_elsewhere(r, owner, member)
     if earlier is None:
@@ -268,11 +268,13 @@ def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -
         r.report("OSC417", member.span, what, help=meant)
 
 
-def _extended_method(r: Resolution, member: Member) -> MethodSymbol | None:
+def _extended_method(r: Resolution, owner: TypeSymbol, member: Member) -> MethodSymbol | None:
     """Return the method of the same type that a method of an extension stands for."""
     earlier = r.scope.overridden.get(member) if isinstance(member, MethodSymbol) else None
     if earlier is not None:
         _resolve_member(r, earlier)
+        if earlier.node in r.scope.contexts:  # else it was checked with the layer below
+            _check_redefinition(r, owner, earlier)
     return earlier
 
 

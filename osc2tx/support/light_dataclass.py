@@ -32,6 +32,8 @@ else:
 
         def decorate(cls):
             bare = {"init": False, "repr": False, "eq": False}
+            if cls.__doc__ is None:
+                cls.__doc__ = cls.__qualname__  # else it would be the signature, which is slow
             made = dataclasses.dataclass(cls, slots=slots, kw_only=kw_only, **bare)
             methods = {"__init__": _init_first}
             if repr:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 MODULE = ".py"
 SOURCE_MAP = ".map.json"
+COVERAGE_MODEL = ".coverage.json"
 XML = ".xosc"
 PARAMETERS = ".params.xosc"
 LOSS_REPORT = ".xosc.report.json"

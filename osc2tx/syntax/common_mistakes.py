@@ -136,6 +136,14 @@ def _assignment(place: Place) -> Advice | None:
     return None
 
 
+def _with_below(place: Place) -> Advice | None:
+    """`with:` on a line of its own, below an invocation."""
+    if place.kind() != t.KEYWORDS["with"] or place.at != place.line:
+        return None
+    help_ = "end the line of the invocation with ` with:`, and indent its lines below"
+    return Advice("`with:` on a line of its own belongs to a composition in the same column", help_)
+
+
 def _misspelt_statement(place: Place) -> Advice | None:
     """`scenaro x:`, `wiat @x`, `a.b() wiht:`."""
     if place.at - 1 == place.line and place.kind(-1) == t.ID:
@@ -234,6 +242,7 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     foreign.statement,
     _unbalanced_bracket,
     _assignment,
+    _with_below,
     _misspelt_composition,
     _misspelt_statement,
     _missing_colon_of_argument,

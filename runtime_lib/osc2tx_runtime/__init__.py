@@ -134,9 +134,9 @@ from osc2tx_runtime.language.tree import (
     fall,
     rise,
 )
-from osc2tx_runtime.language.tree.coverage import Unit
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
+from osc2tx_runtime.language.tree.written_units import Unit
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.world.driving import Control, Driver, LaneView, Observation, OtherActor

@@ -6,6 +6,7 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "RUN_FAILED",
     "BeyondMapError",
     "CapabilityError",
     "InputError",
@@ -17,10 +18,14 @@ __all__ = [
     "SlotConflict",
     "SourcePlace",
     "UnsupportedError",
+    "coded",
     "is_own",
     "name_of",
     "told",
 ]
+
+RUN_FAILED = "OSC809"
+"""Code of the line that says how a run failed: that is a verdict, no error."""
 
 
 class SourcePlace(str):
@@ -72,14 +77,26 @@ class ScenarioError(Exception):
             file: The scenario file, as the module knows it.
             given: The same file, as the user has written it.
         """
-        place = self.source or file
-        known = given is not None and place.startswith(file)
-        shown = f"{given}{place[len(file) :]}" if known else place
-        column = f":{place.column}" if isinstance(place, SourcePlace) else ""
-        return f"{shown}{column}: error[{self.code}]: {self.message}"
+        return coded(self.code, self.message, self.source or file, file, given)
 
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
+
+
+def coded(code: str, message: str, place: str, file: str, given: str | None = None) -> str:
+    """Return a message of a run as it is printed.
+
+    Args:
+        code: Its code.
+        message: What is wrong.
+        place: Where; empty where nothing is known.
+        file: The scenario file, as the module knows it.
+        given: The same file, as the user has written it.
+    """
+    known = given is not None and place.startswith(file)
+    shown = f"{given}{place[len(file) :]}" if known else str(place)
+    column = f":{place.column}" if isinstance(place, SourcePlace) else ""
+    return f"{shown}{column}{': ' if shown else ''}error[{code}]: {message}"
 
 
 class PlacementError(ScenarioError):

@@ -44,7 +44,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "start": {"cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
-    "testing": {"building", "cli", "compilation", "config", "diagnostics"},
+    "testing": {"building", "cli", "compilation", "config", "diagnostics"}
+    | {"testing_campaigns", "testing_rows"},
+    "testing_campaigns": {"building", "campaigns", "cli", "compilation", "config", "diagnostics"},
+    "testing_rows": {"testing_campaigns"},
     "": {"api", "diagnostics", "version"},
 }
 
@@ -60,9 +63,11 @@ OTHERS = {
     "backends/xosc": {"osc2tx_text"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "backends/xosc/xml": {"lxml", "osc2tx_text"},
-    "campaigns": {"osc2tx_runtime", "scipy"},  # rows are chosen here, run there
+    "campaigns": {"osc2tx_runtime", "osc2tx_text", "scipy"},  # rows are chosen here, run there
     "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
+    "testing_campaigns": {"osc2tx_runtime", "pytest"},
+    "testing_rows": {"pytest"},
 }
 
 FILES = files_of(COMPILER)

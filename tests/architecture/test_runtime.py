@@ -35,7 +35,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     # the map, the world on it, the language
     "opendrive": {"enums", "plain_numbers"},
     "world": {"clock", "enums", "errors", "opendrive"},
-    "language": {"clock", "errors", "world"},
+    "language": {"clock", "errors", "units", "world"},
     # the domain model
     "domain.points_and_poses": {"errors"},
     "domain.shapes": {"enums", "errors", "language", "world"},

@@ -57,6 +57,8 @@ def plan_of(text: str, *measures: str) -> Plan:
         ir = asam(text, Path(folder))
     module = draft(ir)
     files = {"case.py": module.python, "case.map.json": module.source_map}
+    if module.coverage_model is not None:
+        files["case.coverage.json"] = module.coverage_model
     return Plan(files, "case.py", ir.scenarios[-1].name, RunSettings(), measures)
 
 

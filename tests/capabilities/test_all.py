@@ -122,6 +122,33 @@ def test_any_step_tells_the_same_story(perform: Perform, name: str, dt: float) -
         assert another[2] == pytest.approx(end[2], abs=late), end
 
 
+# Each costs 25 times a usual run: a sample, with what follows a curved and banked road.
+FINE = [
+    *("C01_action_lifecycle", "C05_towing", "C06_speed_control", "C08_stationary"),
+    *("C09_assign_position", "C11_change_position", "C11_road_path", "C26_pitch_and_roll"),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FINE)
+def test_a_very_small_step_tells_the_same_story(perform: Perform, name: str) -> None:
+    usual, fine = perform(name), perform(name, RunSettings(max_time=60.0, dt=0.002))
+    assert fine.status == usual.status
+    ends, others = (
+        sorted((e["name"], e["status"], e["t"]) for e in run.of_kind("action"))
+        for run in (usual, fine)
+    )
+    assert [end[:2] for end in ends] == [end[:2] for end in others]
+    for end, another in zip(ends, others, strict=True):
+        assert another[2] == pytest.approx(end[2], abs=2 * 0.05 + 1e-9), end
+    by_time = {(line["t"], line["actor"]): line for line in fine.of_kind("state")}
+    compared = [line for line in usual.of_kind("state") if (line["t"], line["actor"]) in by_time]
+    assert compared
+    for line in compared:
+        other = by_time[line["t"], line["actor"]]
+        assert math.dist((line["x"], line["y"]), (other["x"], other["y"])) <= 0.2
+
+
 def tool(*arguments: str) -> None:
     done = subprocess.run(
         [sys.executable, "-m", *arguments, *map(str, MODULES)],

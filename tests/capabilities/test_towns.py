@@ -31,7 +31,7 @@ ROWS = [
     (name, key)
     for key, names in {
         "town": (
-            "C01_action_lifecycle C04_duration C13_careful_following C13_time_gap "
+            "C04_duration C13_careful_following C13_time_gap "
             "C19_change_speed C20_acceleration_modifier "
         ),
         "downtown": (
@@ -40,7 +40,7 @@ ROWS = [
             "C37_rise "
         ),
         "hills": ("C03_composition C06_speed_control C13_careful_following C21_distance "),
-        "motorway": ("C16_fog C31_parallel C38_fall "),
+        "motorway": ("C01_action_lifecycle C16_fog C31_parallel C38_fall "),
     }.items()
     for name in names.split()
 ]

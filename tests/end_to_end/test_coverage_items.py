@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
-from osc2tx_runtime import Scenario
+from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import Trace, asam, run
 
 Load = Callable[[GeneratedModule], type[Scenario]]
@@ -72,13 +72,6 @@ def test_start_and_end(sampled: Callable[..., Trace]) -> None:
     assert rows(trace, "record") == [(0.0, 0.0, None), (2.0, pytest.approx(10.0), None)]
 
 
-def test_a_scenario_that_fails_has_no_end(sampled: Callable[..., Trace]) -> None:
-    body = "    do serial(duration: 1s):\n        wait ego.speed > 100kph\n"
-    trace = sampled("record(last, expression: ego.speed, unit: mps)", body)
-    assert trace.status == "failure"
-    assert trace.of_kind("record") == []
-
-
 def test_filters_and_crosses(sampled: Callable[..., Trace]) -> None:
     trace = sampled(
         "cover(v, expression: ego.speed, unit: kph, event: tick, every: 20, ignore: v < 10kph,\n"
@@ -131,3 +124,45 @@ scenario sampled:
         (1.0, "one.v", pytest.approx(10.0)),
         (2.0, "two.v", pytest.approx(30.0)),
     ]
+
+
+@pytest.mark.parametrize(
+    ("max_time", "body", "outcome", "time"),
+    [
+        (1.0, BODY, "timeout", 1.0),
+        (60.0, "    do serial:\n        wait elapsed(1.5s)\n        emit fail\n", "failure", 1.5),
+    ],
+)
+def test_runs_that_do_not_succeed_have_an_end_as_well(
+    load: Load, tmp_path: Path, max_time: float, body: str, outcome: str, time: float
+) -> None:
+    """But only what is sampled there, and of that what has a value."""
+    items = """    cover(v, expression: ego.speed, unit: kph)
+    cover(none, expression: ego.speed / (ego.speed - ego.speed))
+    cover(first, expression: ego.speed, unit: kph, event: start)
+"""
+    trace = run(load(draft(asam(HEAD + items + body, tmp_path))), RunSettings(max_time=max_time))
+    assert trace.status == outcome
+    ends = [line for line in trace.of_kind("cover") if line["t"] > 0]
+    assert [(line["t"], line["name"], line["outcome"]) for line in ends] == [(time, "v", outcome)]
+
+
+def test_what_is_cut_short_in_a_run_that_goes_on_has_no_end(load: Load, tmp_path: Path) -> None:
+    text = """import osc.standard
+
+scenario vehicle.step:
+    v: speed = 20kph
+    cover(v, unit: kph)
+    do drive(duration: 10s)
+
+scenario sampled:
+    ego: vehicle
+    do serial:
+        one_of:
+            one: ego.step()
+            wait elapsed(1s)
+        ego.drive(duration: 30s)
+"""
+    trace = run(load(draft(asam(text, tmp_path))), RunSettings(max_time=5.0))
+    assert trace.status == "timeout"
+    assert not list(trace.of_kind("cover"))

@@ -96,7 +96,7 @@ def test_what_is_applied_is_called(tmp_path: Path) -> None:
         # A value that changes while the action runs is no argument of a function.
         "self.ego.drive(speed(lambda: self.other.speed), lateral(0.5 * m), duration=1 * s)",
         # Each application draws its own value.
-        "self.ego.drive(speed(self.drive_random_speed), duration=1 * s)",
+        "self.ego.drive(speed(self.ego_drive_random_speed), duration=1 * s)",
         "self.ego.drive(*settled(v=4 * mps), duration=1 * s)",
     ]
     assert text.index("# quietly") < text.index("*very_calm(")

@@ -138,7 +138,7 @@ def test_what_does_not_fit_is_refused(
 def test_what_nobody_says_of_a_modifier_is_left_to_settings(load: Load, tmp_path: Path) -> None:
     body = "ego.drive(duration: 1s) with:\n        bare()\n"
     scenario = load(draft(asam(HEAD + body, tmp_path)))
-    with pytest.raises(ScenarioError, match=r"leaves drive\.bare\.limit open"):
+    with pytest.raises(ScenarioError, match=r"leaves ego\.drive\.bare\.limit open"):
         run(scenario)
 
 

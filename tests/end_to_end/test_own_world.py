@@ -77,7 +77,7 @@ def test_a_module_runs_in_it(
     assert code == 0
     assert capsys.readouterr().out.splitlines()[-2:] == [
         "the simulator is free again",
-        "cut_in: success after 14.80 s",
+        "cut_in: success after 21.55 s",
     ]
     assert driven[0]["world"] == "sluggish 1.0"
     assert set(driven[0]["control"].values()) == {"driven"}

@@ -229,3 +229,22 @@ def test_a_path_of_carla_is_a_road_with_room(load: Load, tmp_path: Path) -> None
     with pytest.raises(ScenarioError, match="at least 9 lanes") as refused:
         run(nine)
     assert refused.value.source == "case.osc:4"
+
+
+def test_a_path_through_labels_of_compositions(drive: Drive) -> None:
+    trace = drive("""
+event inner
+event outer
+do parallel:
+    a: serial:
+        b: serial:
+            c: wait elapsed(1s)
+        wait elapsed(1s)
+    serial:
+        wait @a.b.c.end
+        emit inner
+        wait @a.end
+        emit outer
+""")
+    events = [(line["t"], line["name"]) for line in trace.of_kind("event")]
+    assert events == [(1.0, "c.end"), (1.0, "inner"), (2.0, "a.end"), (2.0, "outer")]

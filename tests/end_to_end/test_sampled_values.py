@@ -43,3 +43,39 @@ def test_only_new_values_are_traced(
     ticks = [line["t"] for line in trace.of_kind("event") if line["name"] == "tick"]
     assert ticks == [1.0, 2.0, 3.0]  # before and after the assignment: one instant
     assert [line["value"] for line in lines] == pytest.approx([5.0, 8.0])
+
+
+def test_start_and_end_of_a_scenario_sample(
+    load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
+) -> None:
+    """All that happens in it reads the first; the second is there after it."""
+    faster = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario vehicle.faster:
+    var before: speed = sample(actor.speed, @start)
+    var after: speed = sample(actor.speed, @end)
+    cover(after, unit: mps)
+    do drive(duration: 2s) with:
+        speed(before + 5mps, at: end)
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    event told
+    do serial:
+        ego.drive(duration: 1s) with:
+            lane(2, at: start)
+            position(100m, at: start)
+            speed(10mps)
+        more: ego.faster()
+        wait more.after == more.before + 5mps
+        emit told
+"""
+    trace = run(load(draft(asam(faster, tmp_path))))
+    sampled = [(line["t"], line["name"], line["value"]) for line in trace.of_kind("variable")]
+    assert sampled == [(1.0, "more.before", 10.0), (3.0, "more.after", 15.0)]
+    assert [(line["t"], line["value"]) for line in trace.of_kind("cover")] == [(3.0, 15.0)]
+    assert [(line["t"], line["name"]) for line in trace.of_kind("event")] == [(3.0, "told")]

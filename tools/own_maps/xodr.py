@@ -206,7 +206,8 @@ def render(spec: MapSpec) -> bytes:
         vendor="osc2tx",
     )
     geo = add(header, "geoReference")
-    geo.text = etree.CDATA("+proj=tmerc +lat_0=0 +lon_0=0 +k=1 +x_0=0 +y_0=0 +units=m +no_defs")
+    place = "+proj=tmerc +lat_0=0 +lon_0=0 +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs"
+    geo.text = etree.CDATA(place)
     for road in spec.roads:
         write_road(root, road)
     for identity, name, signals in spec.controllers:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import GivenArguments, by_name, word
 from osc2tx.catalogue import Catalogue, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.support.light_dataclass import dataclass
 from osc2tx_rules import Clash, Timing, clashes, is_across
 
 

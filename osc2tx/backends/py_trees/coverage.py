@@ -52,7 +52,7 @@ class CoverageWriter:
     def _slices(self, item: ir.Coverage) -> list[ArgumentView]:
         arguments = []
         if item.unit is not None:
-            arguments.append(code(self._unit(item.unit), "unit"))
+            arguments.append(code(unit_call(self._calls, item.unit), "unit"))
         if item.within is not None:
             arguments.append(code(_tuple(tuple(map(literal, item.within))), "within"))
         if item.every is not None:
@@ -61,14 +61,15 @@ class CoverageWriter:
             arguments.append(code(_tuple(tuple(map(literal, item.buckets))), "buckets"))
         return arguments
 
-    def _unit(self, unit: ir.Unit) -> PyExpr:
-        """Write a unit; one with an offset is a function in the runtime, so by its numbers."""
-        name = self._calls.use_name("Unit")
-        if unit.offset:
-            numbers = f"{literal(unit.factor)}, {literal(unit.offset)}"
-            return PyExpr(f"{name}({literal(unit.name)}, {numbers})", Level.ATOM)
-        factor = name_expression(self._calls.expressions.unit(unit))
-        return PyExpr(f"{name}({literal(unit.name)}, {factor})", Level.ATOM)
+
+def unit_call(calls: CallWriter, unit: ir.Unit) -> PyExpr:
+    """Write a unit as an object; a factor cannot say one with an offset, so by its numbers."""
+    name = calls.use_name("Unit")
+    if unit.offset:
+        numbers = f"{literal(unit.factor)}, {literal(unit.offset)}"
+        return PyExpr(f"{name}({literal(unit.name)}, {numbers})", Level.ATOM)
+    factor = name_expression(calls.expressions.unit(unit))
+    return PyExpr(f"{name}({literal(unit.name)}, {factor})", Level.ATOM)
 
 
 def _tuple(parts: tuple[PyExpr, ...]) -> PyExpr:

@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
+from osc2tx.backends.py_trees.coverage_model import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
@@ -57,12 +58,17 @@ class GeneratedModule:
         stem: File name of the module without `.py`.
         python: Text of the module.
         source_map: Text of the sidecar map, JSON.
+        coverage_model: Text of what its scenarios sample, JSON; None if they sample nothing.
     """
 
     source: str
     stem: str
     python: str
     source_map: str
+    coverage_model: str | None = None
+
+
+NAMES_OF_MAIN = ("top", "main")
 
 
 def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
@@ -95,11 +101,13 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     modifiers = [each for each in defined if isinstance(each, ir.UserModifier)]
     functions = ModifierCalls(module.modifiers, names)
     modifier_views = write_modifiers(modifiers, functions, names, table, type_methods, uses)
+    main = main_scenario(module) if len(scenarios) > 1 else None
     writers = [
         ScenarioWriter(
             scenario,
             module.one_of,
             module.dialect == "carla",
+            scenario is main,
             names,
             table,
             type_methods,
@@ -133,7 +141,8 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
     stem = module_name(module.source)
-    return GeneratedModule(module.source, stem, text, render_source_map(maps))
+    model = render_coverage_model(module.source, scenarios)
+    return GeneratedModule(module.source, stem, text, render_source_map(maps), model)
 
 
 def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:
@@ -177,15 +186,27 @@ def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
     return [scenario for scenario in module.scenarios if not scenario.is_imported]
 
 
+def main_scenario(module: ir.Module) -> ir.Scenario | None:
+    """Return the scenario of the file that no other one of it invokes, if there is just one.
+
+    One that is called `top` or `main` needs no such sign.
+    """
+    own = own_scenarios(module)
+    found = [each for each in own if not each.is_invoked and not each.is_action]
+    is_named = any(each.name in NAMES_OF_MAIN for each in own)
+    return found[0] if len(found) == 1 and not is_named else None
+
+
 def shown_scenario(module: ir.Module) -> ir.Scenario | None:
-    """Return the scenario whose tree viewers get: `top`, `main`, else the last that can run."""
+    """Return the scenario whose tree viewers get: the one to run, else the last that can."""
     own = own_scenarios(module)
     by_name = {scenario.name: scenario for scenario in own}
-    wanted = next((name for name in ("top", "main") if name in by_name), None)
+    wanted = next((name for name in NAMES_OF_MAIN if name in by_name), None)
     if wanted:
         return by_name[wanted]
     able = [scenario for scenario in own if not any(map(_is_given, scenario.declarations))]
-    return next(reversed(able or own), None)
+    main = main_scenario(module)
+    return main if main in able else next(reversed(able or own), None)
 
 
 def _is_given(declaration: ir.Declaration) -> bool:

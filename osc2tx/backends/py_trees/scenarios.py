@@ -16,7 +16,7 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
-from osc2tx.backends.py_trees.coverage import CoverageWriter
+from osc2tx.backends.py_trees.coverage import CoverageWriter, unit_call
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
@@ -42,6 +42,7 @@ class ScenarioWriter:
         scenario: The scenario.
         one_of: Policy of `one_of` in this module.
         first_come: Durations and `until` end with whichever comes first.
+        is_main: It runs if nobody says which of the module is to.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
         type_methods: The methods of types that stand in their classes.
@@ -54,6 +55,7 @@ class ScenarioWriter:
         scenario: ir.Scenario,
         one_of: str,
         first_come: bool,
+        is_main: bool,
         classes: NameTable,
         types: TypeTable,
         type_methods: TypeMethods,
@@ -64,6 +66,7 @@ class ScenarioWriter:
         self._scenario = scenario
         self._one_of = one_of
         self._first_come = first_come
+        self._is_main = is_main
         self._classes = classes
         self._names = NameTable(SCENARIO_ATTRIBUTES)
         self._methods = [each for each in scenario.methods if each.name not in type_methods]
@@ -125,6 +128,8 @@ class ScenarioWriter:
             values["one_of"] = self._one_of
         if self._first_come:
             values["first_come"] = True
+        if self._is_main:
+            values["is_main"] = True
         return tuple(
             StatementView(name_expression(PyName(name)), code(literal(value)))
             for name, value in values.items()
@@ -231,7 +236,12 @@ class ScenarioWriter:
         if variable.sample is None:
             return self._fixed(variable.type, initial[0])  # the verifier saw that there is one
         what = code(writer.late(writer.write(variable.sample.expression)))
-        when, *condition = self._calls.trigger(variable.sample.trigger)
+        trigger = variable.sample.trigger
+        if isinstance(trigger, ir.Moment):
+            at: tuple[ArgumentView, ...] = (code(literal(trigger.value)),)
+        else:
+            at = self._calls.trigger(trigger)
+        when, *condition = at
         known_as = self._known_as(variable.name)
         arguments = (what, when, *initial, *condition, *known_as)
         return ArgumentView(call=CallView(_self("sample"), arguments))
@@ -273,7 +283,13 @@ class ScenarioWriter:
             method = "required_global" if parameter.is_global else "required"
             arguments.append(code(self._types.annotation(parameter.type)))
         arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
+        if parameter.unit is not None:
+            arguments.append(code(self._unit(parameter.unit), "unit"))
         return ArgumentView(call=CallView(_self(method), tuple(arguments)))
+
+    def _unit(self, unit: ir.Unit) -> PyExpr:
+        """Write a unit: the runtime knows those of the library by name."""
+        return literal(unit.name) if unit.is_standard else unit_call(self._calls, unit)
 
     def _fixed(self, type_: ir.ValueType, value: ArgumentView) -> ArgumentView:
         """Write a constant; that of an enum so that it may be compared with other members."""

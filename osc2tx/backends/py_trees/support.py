@@ -90,7 +90,8 @@ class _SupportCheck:
                 self.expressions(() if value is None else (value,))
                 if sample is not None:
                     self.expressions((sample.expression,))
-                    self.trigger(sample.trigger)
+                    if isinstance(sample.trigger, ir.Trigger):
+                        self.trigger(sample.trigger)
             case ir.Event(trigger=trigger, parameters=parameters):
                 self.expressions(p.default for p in parameters if p.default is not None)
                 if trigger is not None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName
+from osc2tx.support.light_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.aliases import member_alias, standard_member, write_instead
 from osc2tx.semantics.binding import find_parameter
-from osc2tx.semantics.builtins import LIST_METHODS, RANGE_METHODS
+from osc2tx.semantics.builtins import COMPOSITION, LIST_METHODS, RANGE_METHODS
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.everyday_words import MEMBERS, plain_word
@@ -14,7 +14,7 @@ from osc2tx.semantics.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.resolve_types import resolve_type
 from osc2tx.semantics.scope import supertypes
-from osc2tx.semantics.symbols import Member, Symbol, TypeSymbol
+from osc2tx.semantics.symbols import LabelSymbol, Member, Symbol, TypeSymbol
 from osc2tx.semantics.types import BOOL, ERROR, EVENT, OBJECT, ListType, RangeType, Type
 from osc2tx.syntax import ast
 
@@ -43,7 +43,7 @@ def resolve_member(
         call = f"it is a method: write `{node.span.text}()`" if is_method else None
         r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`", help=call)
         return None
-    member = find_member(r, owner, node.name, env.context)
+    member = _labelled_inside(r, node, owner) or find_member(r, owner, node.name, env.context)
     if member is None and (standard := member_alias(r, owner, node.name)):
         member = find_member(r, owner, standard, env.context)
     if member is None:
@@ -52,6 +52,18 @@ def resolve_member(
     r.references[node] = member
     note_prelude_member(r, member, owner, node.name)
     return member
+
+
+def _labelled_inside(r: Resolution, node: ast.MemberAccess, owner: TypeSymbol) -> Member | None:
+    """Return a member that has a label inside a labelled composition, `phase.cut`."""
+    around = r.references.get(node.base)
+    if owner is not COMPOSITION or not isinstance(around, LabelSymbol):
+        return None
+    inside = around.owner.members.get(node.name.text)
+    if not isinstance(inside, LabelSymbol) or inside is around:
+        return None
+    extent = around.node.span
+    return inside if extent.start <= inside.span.start < extent.end else None
 
 
 def note_prelude_member(r: Resolution, member: Symbol, owner: TypeSymbol, name: ast.Name) -> None:

@@ -9,7 +9,7 @@ from osc2tx.semantics.conversions import (
     dimension_of,
     is_numeric,
 )
-from osc2tx.semantics.everyday_words import SPEEDS
+from osc2tx.semantics.everyday_words import QUOTIENTS
 from osc2tx.semantics.member_lookup import lookup_value
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
@@ -101,7 +101,7 @@ def _divides_by_unit(r: Resolution, node: ast.Binary, env: Environment) -> bool:
         return False
     if not isinstance(below, ast.NameExpression) or not _lacks_value(r, below, env):
         return False
-    unit = SPEEDS.get((number.unit.text, below.name.text))
+    unit = QUOTIENTS.get((number.unit.text, below.name.text))
     if unit is None:
         return False
     help_ = f"write `{number.value}{unit}`"
@@ -174,11 +174,21 @@ def _infer_ordering(r: Resolution, node: ast.Binary, left: Type, right: Type) ->
     for type_, operand in ((left, node.left), (right, node.right)):
         if not is_numeric(type_):
             r.report(
-                "OSC304", operand.span, f"`{node.operator.value}` orders numbers, not `{type_}`"
+                "OSC304",
+                operand.span,
+                f"`{node.operator.value}` orders numbers, not `{type_}`",
+                help=_number_in(operand, type_),
             )
             return BOOL
     _check_comparable(r, node, left, right)
     return BOOL
+
+
+def _number_in(operand: ast.Expression, type_: Type) -> str | None:
+    """Return how to name a number of what `it` is, where that is no number itself."""
+    if not isinstance(operand, ast.ItExpression):
+        return None
+    return f"`it` is all of `{type_}` here: name what is meant, `it.member`"
 
 
 def _check_comparable(r: Resolution, node: ast.Binary, left: Type, right: Type) -> None:

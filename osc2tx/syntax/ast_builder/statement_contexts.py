@@ -71,6 +71,9 @@ _HELP: Final[dict[type, str]] = {
     Grammar.VariableDeclarationContext: "declare fields in the body of a type",
     Grammar.EventDeclarationContext: "declare events in the body of a type",
     Grammar.MethodDeclarationContext: "declare methods in the body of a type",
+    Grammar.CoverageDeclarationContext: (
+        "`cover` and `record` stand in the body of a type, beside `do`; `event: …` says when"
+    ),
 }
 
 

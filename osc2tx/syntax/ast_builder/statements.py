@@ -154,6 +154,8 @@ class StatementBuilder(ExpressionBuilder):
         if self._has_lost_header(block):
             return
         first = block.start + 1
+        if self._types[first] == t.KEYWORDS["with"]:
+            return  # it begins no statement: that is reported already
         span = self._span(first, first)
         message = "the line is indented, but no block is open here"
         help_ = "begin it in column 1"

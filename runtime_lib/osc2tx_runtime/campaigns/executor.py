@@ -16,6 +16,7 @@ from osc2tx_runtime.errors import ScenarioError, told
 from osc2tx_runtime.kpis import Measuring, measures_by_name
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import to_json
+from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 
@@ -65,6 +66,16 @@ class Executor:
         scenario.create_tree()  # scenarios that are invoked have values of their own
         assert settings.draws is None or isinstance(settings.draws, Point)
         return dict(scenario.parameters), settings.draws
+
+    def sampling_scopes(self) -> list[tuple[str, str]]:
+        """Return which scenarios sample coverage items: path of the invocation, and its name.
+
+        Raises:
+            ScenarioError: The scenario has no values.
+        """
+        tree = self._scenario(self.settings_of(Row(0, 0))).create_tree()
+        nodes = (node for node in tree.iterate() if isinstance(node, Recording))
+        return [(node.scope, node.scenario) for node in nodes]
 
     def map_path(self, row: Row) -> Path:
         """Return the file of the map that a row is on.

@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Protocol
 
+from py_trees.behaviour import Behaviour
+
 from osc2tx_runtime.clock import lateness, whole_steps
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
@@ -82,6 +84,7 @@ class ExecutionContext:
         collisions: Time in seconds and the two actors of each new contact.
         first_come: What has a duration or an `until` ends with whichever comes first.
         label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
+        resting: Nodes that have nothing to do until they are woken; nobody needs to pulse them.
     """
 
     def __init__(
@@ -117,6 +120,8 @@ class ExecutionContext:
         self.slots = Slots()
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
+        self.resting: set[Behaviour] = set()
+        self._resting_with: dict[str, dict[Behaviour, None]] = {}  # actors to their leaves
         self._cast: tuple[str, ...] | None = None
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}
@@ -187,6 +192,8 @@ class ExecutionContext:
     def begin_step(self, step: int) -> None:
         """Go to a step; its first pass comes next."""
         self.step = step
+        if self.resting:
+            self._wake_with(self.world.unsteady())
         self._left.clear()
         self.effects.begin_step()
         self.snapshot += 1
@@ -233,6 +240,7 @@ class ExecutionContext:
         self.effects.apply()
         self.snapshot += 1
         self.settled = False
+        self.resting.clear()
         return True
 
     def settles(self) -> bool:
@@ -241,6 +249,21 @@ class ExecutionContext:
             return False
         self.settled = True
         return True
+
+    # --- who has nothing to do ---
+
+    def rest(self, leaf: Behaviour, actor_id: str) -> None:
+        """Let a leaf be until effects are carried out, or the world asks to look at its actor."""
+        self.resting.add(leaf)
+        self._resting_with.setdefault(actor_id, {})[leaf] = None
+
+    def _wake_with(self, actor_ids: Iterable[str]) -> None:
+        for actor_id in actor_ids:
+            for leaf in self._resting_with.pop(actor_id, ()):
+                node: Behaviour | None = leaf
+                while node is not None:
+                    self.resting.discard(node)
+                    node = node.parent
 
     # --- who controls what ---
 

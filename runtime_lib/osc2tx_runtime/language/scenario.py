@@ -23,7 +23,7 @@ from osc2tx_runtime.language.tree.invocation import (
     unique_name,
 )
 from osc2tx_runtime.language.tree.override import Mode
-from osc2tx_runtime.language.tree.variables import MISSING, Sampled
+from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
 
 __all__ = ["BaseScenario"]
 
@@ -111,7 +111,7 @@ class BaseScenario(ScenarioParts):
     def sample(
         self,
         expression: Callable[[], AnyT],
-        trigger: Trigger,
+        trigger: Trigger | Boundary,
         default: Any = MISSING,
         *,
         condition: Guard | None = None,
@@ -124,7 +124,8 @@ class BaseScenario(ScenarioParts):
 
         Args:
             expression: Gives the new value.
-            trigger: When: an event, a condition or a boolean function.
+            trigger: When: an event, a condition or a boolean function; `"start"` and `"end"` are
+                those of this scenario.
             default: Value before the first sample; without it the variable cannot be read before.
             condition: With an event: only an occurrence at which this is true counts.
             name: Name in the scenario, where its attribute cannot have it (`from`).

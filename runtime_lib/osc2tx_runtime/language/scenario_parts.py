@@ -34,6 +34,7 @@ class ScenarioParts(ScenarioValues):
         source: Scenario file.
         one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
         first_come: Durations and `until` end with whichever comes first, as in dialect `carla`.
+        is_main: It runs if nobody says which one of its module is to.
         settings: Of the run.
         actors: Declared actors by id, in order; the scenario that runs also has those of all that
             it invokes.
@@ -48,6 +49,7 @@ class ScenarioParts(ScenarioValues):
     source: ClassVar[str] = ""
     one_of: ClassVar[str] = "race"
     first_come: ClassVar[bool] = False
+    is_main: ClassVar[bool] = False
 
     def __init__(
         self,

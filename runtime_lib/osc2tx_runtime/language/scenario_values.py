@@ -14,6 +14,7 @@ from osc2tx_runtime.language.tree.broken_values import NotKeptError, not_compute
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 from osc2tx_runtime.language.tree.walks import Draws, Walk
+from osc2tx_runtime.language.tree.written_units import AnyUnit, Unit, unit_named
 
 __all__ = ["ATTEMPTS", "ScenarioValues"]
 
@@ -37,6 +38,7 @@ class ScenarioValues:
         settings: Of the run.
         parameters: Values of the parameters, in order; the scenario that runs also has those of
             all that it invokes.
+        parameter_units: Of parameters that have one, likewise.
         has_drawn_values: Whether some value of the scenario that runs, or of one it invokes, was
             drawn.
     """
@@ -53,6 +55,7 @@ class ScenarioValues:
     ) -> None:
         self.settings = settings
         self.parameters: dict[str, Any] = {}
+        self.parameter_units: dict[str, Unit] = {}
         self._arguments = arguments
         self._source_map = source_map
         self._composite: set[str] = set()  # lists, ranges and objects that the caller may give
@@ -61,7 +64,6 @@ class ScenarioValues:
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
-        self._generator = random.Random(settings.draws_from)
         self._attempt = 0
         self._first: ScenarioValues = self if caller is None else caller._first
         self.has_drawn_values = False
@@ -75,15 +77,29 @@ class ScenarioValues:
 
     @overload
     def parameter(
-        self, name: str, default: Range[NumberT], domain: Domain | None = None
+        self,
+        name: str,
+        default: Range[NumberT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
     ) -> NumberT: ...
     @overload
     def parameter(
-        self, name: str, default: Choice[ValueT], domain: Domain | None = None
+        self,
+        name: str,
+        default: Choice[ValueT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
     ) -> ValueT: ...
     @overload
-    def parameter(self, name: str, default: ValueT, domain: Domain | None = None) -> ValueT: ...
-    def parameter(self, name: str, default: Any, domain: Domain | None = None) -> Any:
+    def parameter(
+        self, name: str, default: ValueT, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> ValueT: ...
+    def parameter(
+        self, name: str, default: Any, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> Any:
         """Return the value of a parameter.
 
         An argument of the class counts before `--set`, that before a draw from a range, that
@@ -94,21 +110,26 @@ class ScenarioValues:
             name: Name of the parameter.
             default: Value, or the values that it is drawn from, SI units.
             domain: What settings must keep to; the default itself where that is drawn from.
+            unit: In which the scenario speaks of it: `--set` takes all units of its physical
+                type, messages and reports show it in this one.
         """
-        return self._own(name, default, domain)
+        return self._own(name, default, domain, unit)
 
-    def required(self, name: str, kind: type[ValueT], domain: Domain | None = None) -> ValueT:
+    def required(
+        self, name: str, kind: type[ValueT], domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> ValueT:
         """Return the value of a parameter that the scenario leaves open.
 
         Args:
             name: Name of the parameter.
             kind: Type of its value.
             domain: What the value must keep to.
+            unit: See `parameter`.
 
         Raises:
             SettingsError: If neither an argument nor `--set` gives a value.
         """
-        value: ValueT = self._own(name, kind, domain)
+        value: ValueT = self._own(name, kind, domain, unit)
         return value
 
     def argument(self, name: str, default: AnyT) -> AnyT:
@@ -137,25 +158,37 @@ class ScenarioValues:
 
     @overload
     def global_parameter(
-        self, name: str, default: Range[NumberT], domain: Domain | None = None
+        self,
+        name: str,
+        default: Range[NumberT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
     ) -> NumberT: ...
     @overload
     def global_parameter(
-        self, name: str, default: Choice[ValueT], domain: Domain | None = None
+        self,
+        name: str,
+        default: Choice[ValueT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
     ) -> ValueT: ...
     @overload
     def global_parameter(
-        self, name: str, default: ValueT, domain: Domain | None = None
+        self, name: str, default: ValueT, domain: Domain | None = None, *, unit: AnyUnit = ""
     ) -> ValueT: ...
-    def global_parameter(self, name: str, default: Any, domain: Domain | None = None) -> Any:
+    def global_parameter(
+        self, name: str, default: Any, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> Any:
         """Return the value of a global parameter: one for all scenarios of the run."""
-        return self._global(name, default, domain)
+        return self._global(name, default, domain, unit)
 
     def required_global(
-        self, name: str, kind: type[ValueT], domain: Domain | None = None
+        self, name: str, kind: type[ValueT], domain: Domain | None = None, *, unit: AnyUnit = ""
     ) -> ValueT:
         """Return the value of a global parameter that nobody fixes: `--set` must."""
-        value: ValueT = self._global(name, kind, domain)
+        value: ValueT = self._global(name, kind, domain, unit)
         return value
 
     def keep(self, holds: bool) -> None:
@@ -239,21 +272,25 @@ class ScenarioValues:
         """Return what to say of the constraint or value that does not hold."""
         tried = f" in {ATTEMPTS} draws" if self._walk is not None else ""
         if isinstance(self._broken, NotKeptError):
-            return not_kept(self._broken, self.parameters, tried)
+            return not_kept(self._broken, self.parameters, self.parameter_units, tried)
         assert self._broken is not None
         error = not_computed(self._broken, self._source_map, self._kept, tried)
         error.__cause__ = self._broken
         return error
 
-    def _own(self, name: str, default: Any, domain: Domain | None) -> Any:
+    def _own(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
         path = f"{self._path}.{name}" if self._path else name
         generator = self._draws_for(f"{self._key}/{name}")
         given = self._arguments.get(name)
+        if unit:
+            self.parameter_units[name] = self._first.parameter_units[path] = unit_named(unit)
         value = self._choose(name, path, default, domain, generator, given)
         self.parameters[name] = self._shared[path] = value
         return value
 
-    def _global(self, name: str, default: Any, domain: Domain | None) -> Any:
+    def _global(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
+        if unit:
+            self._first.parameter_units[name] = unit_named(unit)
         if name not in self._shared:
             generator = self._draws_for(f"global/{name}")
             self._shared[name] = self._choose(name, name, default, domain, generator, None)
@@ -274,20 +311,16 @@ class ScenarioValues:
         is_open = given is None and path not in chosen
         if isinstance(default if is_open else given, Range | Choice):
             self._draws = self._first.has_drawn_values = True
+        unit = self._first.parameter_units.get(path)
         try:
-            return choose(path, default, domain, generator, given=given, settings=chosen)
+            return choose(path, default, domain, generator, given=given, settings=chosen, unit=unit)
         except ScenarioError as error:
             error.source = error.source or self._source_map.of_field(name)
             raise
 
     def _draws_for(self, what: str) -> Draws:
-        """Return draws that depend on the seed and on what is drawn, not on an order.
-
-        But draws of the scenario that runs go in the order of declaration.
-        """
+        """Return draws that depend on the seed and on what is drawn, not on an order."""
         if self._walk is not None:
             return self._walk.draws_for(what)
-        if not self._path and not what.startswith("global/"):
-            return self._generator
         again = f"/{self._attempt}" if self._attempt else ""
         return random.Random(f"{self.settings.draws_from}/{what}{again}")

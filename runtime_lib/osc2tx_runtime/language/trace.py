@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
+from json.encoder import encode_basestring_ascii as quoted
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -28,26 +29,27 @@ def number(value: float | None) -> str:
     return "null" if "n" in text else text  # nan and inf are no JSON
 
 
-def to_json(value: Any) -> str:
+def to_json(value: Any, *, exact: bool = False) -> str:
     """Return compact JSON; actors as their ids, values of structs by member.
 
     Floats have nine significant digits: unlike states, parameters, arguments and the environment
-    have values of any size (2 mm/h of rain are 5.6e-7 m/s).
+    have values of any size (2 mm/h of rain are 5.6e-7 m/s). `exact` gives all digits.
     """
     if isinstance(value, float):
-        text = repr(float(f"{value:.9g}") + 0.0)
+        text = repr((value if exact else float(f"{value:.9g}")) + 0.0)
         return "null" if "n" in text else text
     if isinstance(value, Mapping):
-        return "{" + ",".join(f"{json.dumps(str(k))}:{to_json(v)}" for k, v in value.items()) + "}"
+        members = (f"{json.dumps(str(k))}:{to_json(v, exact=exact)}" for k, v in value.items())
+        return "{" + ",".join(members) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ",".join(map(to_json, value)) + "]"
+        return "[" + ",".join(to_json(each, exact=exact) for each in value) + "]"
     if value is None or isinstance(value, str | int):
         return json.dumps(value)
     if hasattr(value, "__float__"):  # numbers of other libraries
-        return to_json(float(value))
+        return to_json(float(value), exact=exact)
     if is_dataclass(value) and not hasattr(value, "id"):
         shown = (each.name for each in fields(value) if each.repr)
-        return to_json({name: getattr(value, name) for name in shown})
+        return to_json({name: getattr(value, name) for name in shown}, exact=exact)
     return json.dumps(str(getattr(value, "id", value)))
 
 
@@ -217,10 +219,14 @@ class TraceWriter:
     # --- the file ---
 
     def header(self, values: Mapping[str, Any]) -> None:
-        """Write the first line."""
+        """Write the first line; parameters with all digits, so that they can be set again."""
         if self.enabled:
             head = {"kind": "header", "version": TRACE_VERSION, **values}
-            self.lines.append(to_json(head))
+            members = (
+                f"{json.dumps(name)}:{to_json(value, exact=name == 'parameters')}"
+                for name, value in head.items()
+            )
+            self.lines.append("{" + ",".join(members) + "}")
 
     def end_instant(self, time: float, states: Iterable[tuple[str, ActorState]] = ()) -> None:
         """Write the lines of one instant: states, events, actions, then the other kinds."""
@@ -232,7 +238,7 @@ class TraceWriter:
         for actor_id, state in states:
             before = written.get(actor_id)
             if before is None or before[0] != state:  # what stands still is written once
-                text = f'"kind":"state","actor":{json.dumps(actor_id)},{state_json(state)}}}'
+                text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
                 before = written[actor_id] = (state, text)
             lines.append(t + before[1])
         for name, arguments in sorted(self._events):
@@ -265,10 +271,11 @@ def state_json(state: ActorState) -> str:
 
     Most lines of a trace come from here, so the numbers are not written by `number` one by one.
     """
-    x, y, z, h, v, a = state.x, state.y, state.z, state.h, state.v, state.a
-    road = "null" if state.road is None else json.dumps(state.road)
-    lane = "null" if state.lane is None else state.lane
-    s, offset = state.s, state.offset
+    x, y, z, h, v, a, place = state[:7]
+    if place is None:
+        road, lane, s, offset = "null", "null", None, None
+    else:
+        road, lane, s, offset = quoted(place.road), str(place.lane), place.s, place.offset
     if s is None or offset is None or not isfinite(x + y + z + h + v + a + s + offset):
         return (
             f'"x":{number(x)},"y":{number(y)},"z":{number(z)},"h":{number(h)},"v":{number(v)},'

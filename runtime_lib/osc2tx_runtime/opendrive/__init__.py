@@ -7,7 +7,8 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
   a `MapError`; `unread`: what is left out; `seams`: where lanes do not go on as they end.
 * `polynomials`, `geometry`, `model`: what a road is made of.
 * `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
-* `lane_advance`: moving along lanes; `lane_distances`: distances over the lane graph.
+* `lane_advance`: moving along lanes, `lane_cursor`: the same step by step; `lane_distances`:
+  distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `road_index`, `projection`: back to a lane.
 * `geodesy`: from the globe to the map; `outlines`: drawing and default start places;
   `signal_places`: where signals hold; `signals`, `errors`: value types.
@@ -21,6 +22,7 @@ from __future__ import annotations
 from .crosswalks import Crosswalk
 from .errors import MapError
 from .geodesy import GeoReference, GeoReferenceError, TransverseMercator
+from .lane_cursor import LaneCursor
 from .lane_distances import Route
 from .model import (
     DRIVING,
@@ -51,6 +53,7 @@ __all__ = [
     "Junction",
     "JunctionConnection",
     "Lane",
+    "LaneCursor",
     "LaneKey",
     "LaneOutline",
     "LanePosition",

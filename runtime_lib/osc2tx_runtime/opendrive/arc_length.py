@@ -77,6 +77,10 @@ class LaneLine:
 
     def s_at(self, length: float, offset: float = 0.0) -> float:
         """Inverse of `length_at`, limited to the section."""
+        return self.s_in(self.row_of(length, offset), length, offset)
+
+    def row_of(self, length: float, offset: float) -> int:
+        """Number of the piece in which an arc length (m) lies, at an offset in +t (m)."""
         low, high = 0, len(self.nodes)
         while high - low > 1:
             middle = (low + high) // 2
@@ -84,6 +88,10 @@ class LaneLine:
                 low = middle
             else:
                 high = middle
+        return low
+
+    def s_in(self, low: int, length: float, offset: float) -> float:
+        """The s at which an arc length (m) lies that is in a piece, at an offset in +t (m)."""
         begin = self.nodes[low]
         end = self.nodes[low + 1] if low + 1 < len(self.nodes) else self.end
         a, b, c, d = self.rows[low]

@@ -142,7 +142,9 @@ class LaneGroups:
             lane = self._step(lane, target, goal, following)
             if lane.group == goal.group:
                 return total, lane
-            total += lane_line(lane).length
+            group = self.groups[lane.group]
+            is_middle = group[len(group) // 2] is lane  # its length is known from the search
+            total += self.length(lane.group) if is_middle else lane_length(lane)
 
     def _step(self, lane: Lane, target: int, goal: Lane, following: list[int]) -> Lane:
         """Lane with which the way goes on: the one that needs the fewest lane changes.
@@ -194,6 +196,14 @@ class LaneGroups:
 
     def signed(self, a: Lane, s_a: float, b: Lane, s_b: float) -> float | None:
         """Distance from a to b, negative if b is behind; the nearer of both ways round."""
+        if a.group == b.group and a.direction == b.direction:  # nearly always, and no ring
+            on = (s_b - s_a) * a.direction
+            if on > 0.0 and self.gap(b, a) is None:
+                line = lane_line(a)
+                return abs(line.length_at(s_b) - line.length_at(s_a))
+            if on < 0.0 and self.gap(a, b) is None:
+                line = lane_line(b)
+                return -abs(line.length_at(s_a) - line.length_at(s_b))
         ahead, behind = self.forward(a, s_a, b, s_b), self.forward(b, s_b, a, s_a)
         if behind is None:
             return ahead

@@ -12,6 +12,7 @@ from osc2tx_runtime.enums import SideLeftRight
 
 from .crosswalks import Crosswalk
 from .lane_advance import Forks, advance
+from .lane_cursor import LaneCursor
 from .lane_distances import LaneGroups, Route, passable
 from .lane_line import lane_line
 from .lane_table import LaneTable
@@ -220,6 +221,10 @@ class RoadMap:
         lane, s = self._lane(p.road, p.lane, p.s)
         start = p if s == p.s else LanePosition(p.road, p.lane, s, p.offset)
         return advance(lane, start, distance, route, self._forks)
+
+    def cursor(self) -> LaneCursor:
+        """What goes along lanes in many small steps, one after the other."""
+        return LaneCursor(self._lane)
 
     def route_to(self, goal: LanePosition) -> Route:
         """Distance-to-go field to a place."""

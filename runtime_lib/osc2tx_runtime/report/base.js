@@ -33,6 +33,16 @@ function format(value, digits) {
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
 }
 
+/** Parameters in the units in which the scenario speaks of them: `v_hero = 60 kph`. */
+function parametersText({ parameters, units }) {
+  const shown = ([name, value]) => {
+    const unit = (units || {})[name];
+    if (!unit || typeof value !== "number" || !unit.factor) return `${name} = ${value}`;
+    return `${name} = ${Number(((value - unit.offset) / unit.factor).toPrecision(9))} ${unit.name}`;
+  };
+  return Object.entries(parameters || {}).map(shown).join(", ");
+}
+
 const seconds = (time) => format(time, 2) + " s";
 
 /** Index of the last entry of a sorted list that is not after `value` (0 if all are). */

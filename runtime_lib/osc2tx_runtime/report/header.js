@@ -44,7 +44,7 @@ function facts(run) {
     ["Conduct", asText(header.conduct)],
     ["Physics", asText(header.physics)],
     ["Criteria", criteria(run)],
-    ["Parameters", listed(header.parameters)],
+    ["Parameters", parametersText(header)],
   ].filter(([, value]) => value !== "");
 }
 

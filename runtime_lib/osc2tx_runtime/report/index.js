@@ -8,14 +8,13 @@ const COLUMNS = [
   || ["name", "status", "duration"].includes(name));
 const sorting = { by: "", down: false };
 
-const shownValue = (name, value) => {
-  if (name === "duration") return format(value, 2);
-  if (name === "parameters") return Object.entries(value).map(([key, each]) => `${key} = ${each}`).join(", ");
-  return String(value);
+const shownValue = (run, name) => {
+  if (name === "duration") return format(run.duration, 2);
+  return name === "parameters" ? parametersText(run) : String(run[name]);
 };
 
 function indexCell(run, name) {
-  const text = shownValue(name, run[name]);
+  const text = shownValue(run, name);
   const cell = element("td", { className: NUMBERS.has(name) ? "number" : "" });
   if (name === "name") cell.append(element("a", { href: run.page.split("/").map(encodeURIComponent).join("/"), textContent: text }));
   else if (name === "status") {
@@ -28,14 +27,14 @@ function indexCell(run, name) {
 
 const rows = DATA.runs.map((run) => ({
   run, row: element("tr", {}, ...COLUMNS.map(([name]) => indexCell(run, name))),
-  text: COLUMNS.map(([name]) => shownValue(name, run[name])).join(" ").toLowerCase(),
+  text: COLUMNS.map(([name]) => shownValue(run, name)).join(" ").toLowerCase(),
 }));
 const body = element("tbody", {}, ...rows.map(({ row }) => row));
 
 function sortBy(name) {
   sorting.down = sorting.by === name && !sorting.down;
   sorting.by = name;
-  const key = ({ run }) => (NUMBERS.has(name) || typeof run[name] === "string" ? run[name] : shownValue(name, run[name]));
+  const key = ({ run }) => (NUMBERS.has(name) || typeof run[name] === "string" ? run[name] : shownValue(run, name));
   const order = (a, b) => (key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0);
   const sorted = [...rows].sort((a, b) => (sorting.down ? order(b, a) : order(a, b)));
   body.append(...sorted.map(({ row }) => row));

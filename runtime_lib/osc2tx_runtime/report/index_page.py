@@ -37,7 +37,7 @@ def _row(row: RunRow) -> Json:
     run = read_run(row.trace.lines)
     result = run.result or {}
     warnings = result.get("warnings")
-    parameters = run.header.get("parameters")
+    parameters, units = run.header.get("parameters"), run.header.get("units")
     return {
         "page": row.page,
         "name": row.trace.name,
@@ -45,6 +45,7 @@ def _row(row: RunRow) -> Json:
         "world": text(run.header.get("world")) or "embedded",
         "seed": text(run.header.get("seed")),
         "parameters": plain(parameters) if isinstance(parameters, dict) else {},
+        "units": plain(units) if isinstance(units, dict) else {},
         "status": text(result.get("status")),
         "reason": text(result.get("reason")),
         "duration": number(run.end),

@@ -26,6 +26,7 @@ _HEADER_KEYS = (
     "dt",
     "seed",
     "parameters",
+    "units",
     "one_of",
     "conduct",
     "physics",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, cast
 
 from osc2tx_runtime.opendrive import RoadMap
@@ -32,6 +32,7 @@ ANSWERS: Mapping[str, Any] = {
     "state": ActorState,
     "take_notes": Sequence[tuple[str, Mapping[str, Any]]],
     "trailer_of": str | None,
+    "unsteady": Collection[str],
     "warnings": Sequence[str],
 }
 

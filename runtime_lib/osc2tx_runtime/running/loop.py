@@ -19,7 +19,13 @@ from osc2tx_runtime.language.tree.base import (
     pulse_of,
 )
 from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
-from osc2tx_runtime.language.tree.failure_reasons import failure_reason, timeout_reason
+from osc2tx_runtime.language.tree.coverage import Recording
+from osc2tx_runtime.language.tree.failure_reasons import (
+    failure_place,
+    failure_reason,
+    timeout_place,
+    timeout_reason,
+)
 from osc2tx_runtime.running.criteria import Criteria
 from osc2tx_runtime.running.observer import Observer
 
@@ -34,11 +40,12 @@ OnProgress = Callable[[float, float], None]
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How a tree ended: `success`, `failure` or `timeout`, why, and after how many steps."""
+    """How a tree ended: `success`, `failure` or `timeout`, why, after how many steps, and where."""
 
     status: str
     reason: str
     steps: int
+    place: str = ""
 
 
 def run_tree(
@@ -82,6 +89,10 @@ def judged(outcome: Outcome, criteria: Criteria) -> Outcome:
 def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
     """Leave the tree, free the slots, and write the end of the trace."""
     try:
+        if outcome.status in ("failure", "timeout"):
+            for node in root.iterate():
+                if isinstance(node, Recording):
+                    node.run_ends(outcome.status)
         if root.status is RUNNING:
             root.stop(INVALID)
     finally:
@@ -134,9 +145,9 @@ def loop(
         if status is SUCCESS:
             return Outcome("success", "", step)
         if status is FAILURE:
-            return Outcome("failure", failure_reason(root, context), step)
+            return Outcome("failure", failure_reason(root, context), step, failure_place(root))
         if step >= last_step:
-            return Outcome("timeout", timeout_reason(root, context), step)
+            return Outcome("timeout", timeout_reason(root, context), step, timeout_place(root))
         context.trace.end_instant(context.time, states(context))
         if on_progress is not None and step % progress_steps == 0:
             on_progress(context.time, settings.max_time)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from traceback import format_exc
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
+from osc2tx_runtime.errors import RUN_FAILED, OwnCode, ScenarioError, SettingsError, coded
 from osc2tx_runtime.interrupts import INTERRUPTED, as_usual
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
@@ -89,13 +89,13 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
         complain(f"{scenario.name}: interrupted")
         return INTERRUPTED
     clear_progress(progress)
-    for line in verdict(scenario.name, result):
+    for line in verdict(scenario.name, result, scenario.source):
         say(line)
     return EXIT_SUCCESS if result.status == "success" else EXIT_FAILED
 
 
 def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> type[Scenario]:
-    """Return the scenario that was asked for, else `top`, `main` or the only one.
+    """Return the scenario that was asked for, else `top`, `main`, `is_main` or the only one.
 
     Raises:
         SettingsError: If there is no such scenario, or several to choose from.
@@ -109,6 +109,9 @@ def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> 
     for name in ("top", "main"):
         if name in by_name:
             return by_name[name]
+    mains = [scenario for scenario in scenarios if scenario.is_main]
+    if len(mains) == 1:
+        return mains[0]
     if len(by_name) != 1:
         raise SettingsError(f"choose one with --scenario: {names}")
     return scenarios[0]
@@ -180,13 +183,27 @@ def add_option(group: argparse._ActionsContainer, option: Option) -> None:
     group.add_argument(f"--{option.name}", metavar=option.metavar, help=text, action=action)
 
 
-def verdict(name: str, result: RunResult) -> Iterator[str]:
-    """Yield the lines that say how a run ended."""
+def verdict(
+    name: str, result: RunResult, file: str = "", given: str | None = None
+) -> Iterator[str]:
+    """Yield the lines that say how a run ended.
+
+    Args:
+        name: Of the scenario.
+        result: How it ended.
+        file: The scenario file, as the module knows it.
+        given: The same file, as the user has written it.
+    """
     head = f"{name}: {result.status} after {result.time:.2f} s"
     if result.collisions and result.status == "success":
         count = len(result.collisions)
         head += f", with {count} collision{'s' if count > 1 else ''}"
-    yield f"{head}: {result.reason}" if result.reason else head
+    if result.status == "success":
+        yield head
+    else:
+        place = result.place
+        reason = result.reason.replace(f" ({place})", "", 1) if place else result.reason
+        yield coded(RUN_FAILED, f"{head}: {reason}", place or file, file, given)
     for warning in result.warnings:
         yield f"  warning: {warning}"
     for time, one, other in result.collisions:

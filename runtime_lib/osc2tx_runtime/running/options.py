@@ -50,12 +50,12 @@ def parse_destination(text: str) -> tuple[str, str]:
 
 
 def parse_set(text: str) -> tuple[str, float | str]:
-    """Read `v=12.5`; what is no number stays text."""
+    """Read `v=12.5`; what is no number stays text: `v=60kph` is for whoever knows the unit."""
     name, value = parse_pair(text, "--set", "NAME=VALUE", "v=12.5")
     try:
         return name, to_float(value)
     except ValueError:
-        if NUMBER_AND_UNIT.fullmatch(value):
+        if (found := NUMBER_AND_UNIT.fullmatch(value)) and not found[2]:
             raise SettingsError(f"--set {text}: the value is larger than any number") from None
         return name, value
 
@@ -156,7 +156,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "destination", "ACTOR=GOAL", "where a vehicle goes: actor or R,L,S", parse_destination, dict
     ),
-    Option("set", "NAME=VALUE", "value of a parameter, in SI units", parse_set, dict),
+    Option("set", "NAME=VALUE", "value of a parameter: v=60kph, or in SI units", parse_set, dict),
     Option("seed", "N", "seed of all that is sampled", parse_seed, default=0),
     Option(
         "dt", "SECONDS", "length of a step", lambda t: parse_seconds(t, "--dt 0.05"), default=0.05

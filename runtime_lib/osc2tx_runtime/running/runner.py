@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,6 +45,7 @@ class RunResult:
         trace_lines: Lines of the trace, without line ends.
         collisions: Time in seconds and the two actors of each new contact.
         warnings: What is wrong with a run that goes on all the same.
+        place: Place in the scenario of what failed; empty where it has none.
     """
 
     status: str
@@ -54,6 +55,7 @@ class RunResult:
     trace_lines: tuple[str, ...] = ()
     collisions: tuple[tuple[float, str, str], ...] = field(default=())
     warnings: tuple[str, ...] = ()
+    place: str = ""
 
 
 def run_scenario(
@@ -136,6 +138,7 @@ def _run(
         tuple(context.trace.lines),
         tuple(context.collisions),
         (*map_warnings(world.map), *world.warnings(), *overloads(context)),
+        outcome.place,
     )
 
 
@@ -234,6 +237,9 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
         "actors": actors,
         "one_of": scenario.one_of,
     }
+    if scenario.parameter_units:
+        units = sorted(scenario.parameter_units.items(), key=_path)
+        header["units"] = {name: asdict(unit) for name, unit in units}
     if context.settings.conduct != "as_told":
         header["conduct"] = context.settings.conduct
     if context.settings.physics != "warn":

@@ -102,9 +102,13 @@ class Limits:
 TYRES = Limits(RATE_CAP, RATE_CAP)
 """What not even those keep to who need not keep to the limits of their vehicle."""
 
-# Static rollover thresholds: passenger cars slide first (above 1 g), vans and light trucks 0.8 to
-# 1.2 g, loaded heavy vehicles below 0.5 g: C. B. Winkler, R. D. Ervin, Rollover of Heavy Commercial
-# Vehicles (UMTRI-99-19, 1999). 0.4 g is also what several countries ask of tank trucks.
+# Where vehicles tip over in a steady bend: one round number for each kind, a choice of ours,
+# as the thresholds spread with load and build. Heavy ones: several authorities ask for at least
+# 0.40 g of tank trucks, and of 17 that were tilted 14 would be below it when loaded as far as they
+# may be (J. R. Billing, J. D. Patten, An Assessment of Tank Truck Roll Stability, National Research
+# Council of Canada); what it depends on is in C. B. Winkler, R. D. Ervin, Rollover of Heavy
+# Commercial Vehicles (UMTRI-99-19, 1999). Half the track of a car is more than the height of its
+# centre of gravity, so it slides first; vans stand higher, and get a little less than dry grip.
 _LIGHT = 0.8 * 9.80665
 _HEAVY = 0.4 * 9.80665
 

@@ -22,7 +22,7 @@ from .lateral import (
     Shift,
     lateral_of,
 )
-from .longitudinal import acceleration_of, longitudinal_of
+from .longitudinal import ProfileRun, acceleration_of, longitudinal_of
 from .measurement import MeasuredMotion
 from .position_control import CoverRun
 from .protocol import LATERAL, LONGITUDINAL, PENDING, REACHED, Progress
@@ -32,6 +32,9 @@ from .step_inputs import StepInputs
 from .tracking import Tracking
 
 __all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
+
+STEADY = frozenset({type(None), ConstantAcceleration, HoldOffset, ProfileRun, Shift})
+"""Kinds of commands at work that cannot fail."""
 
 
 @dataclass
@@ -53,7 +56,6 @@ class CommandedActor(MovingActor):
     motion: MeasuredMotion | None = None
     heading: float | None = None
     aside: float | None = None
-    _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold
 
     def progress(self, slot: str) -> Progress:
         """Progress of the command in a slot, by reference and measurement."""
@@ -89,10 +91,13 @@ class CommandedActor(MovingActor):
 
     def pursue_speed(self, command: Command | None) -> None:
         """Puts a longitudinal command to work; None holds the speed."""
+        self.steady = False
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
-            self._speed = None
+            if self._speed is not None:
+                self._speed = None
+                self._open.forget()
             return
         slips = self.wheels is not None and self.wheels.slipping
         now = self.reference.a if slips else acceleration_of(self._speed, self.reference)
@@ -100,11 +105,18 @@ class CommandedActor(MovingActor):
         self._speed = longitudinal_of(command, state, self.limits, self.route)
 
     def go_on_with(self, speed: float, acceleration: float) -> None:
-        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes."""
-        self._speed = ConstantAcceleration(acceleration, speed)
+        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes.
+
+        A speed alone is what it has at this instant; nothing is said of what follows.
+        """
+        self.steady = False
+        self._open.forget()
+        drives = speed > 0.0 and acceleration == 0.0
+        self._speed = None if drives else ConstantAcceleration(acceleration, speed)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        self.steady = False
         if self.tracking is not None:
             self.tracking.forget(LATERAL)
         if self._way is not None:
@@ -154,6 +166,17 @@ class CommandedActor(MovingActor):
             self._side = Impossible(
                 f"{self.spec.id} is not on a driving lane, so it cannot change or follow one"
             )
+
+    def is_steady(self) -> bool:
+        """Sees whether what it is told cannot fail: it goes on in closed form, and alone."""
+        self.steady = (
+            self.follows
+            and type(self._speed) in STEADY
+            and type(self._side) in STEADY
+            and all(each is None for each in (self._course, self._way, self.blocked, self.tracking))
+            and not (self.wheels is not None and self.wheels.limited)
+        )
+        return self.steady
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command, by the reference."""

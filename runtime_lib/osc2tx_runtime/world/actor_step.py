@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap, Route
+from osc2tx_runtime.opendrive import DRIVING, LaneCursor, LanePosition, Pose, RoadMap, Route
 
 from .actor_dimensions import TYRES, Limits
 from .attitude import LEVEL, Tilt, tilt_on
@@ -23,7 +23,8 @@ from .lateral import (
     Shift,
     shift_profile,
 )
-from .longitudinal import Longitudinal, longitudinal_of
+from .longitudinal import Longitudinal, ProfileRun, longitudinal_of
+from .open_speed import OpenSpeed
 from .position_control import PlacedRun
 from .protocol import ActorSpec
 from .route_following import Way
@@ -65,6 +66,7 @@ class MovingActor:
         reference: State that its commands start from. The same, unless somebody measures the actor:
             then it keeps the speed and the place in the lane that were commanded, abreast of it.
         bound: Lane it follows, with its offset from there; None off the lanes.
+        cursor: Goes along that lane with it.
         route: Decides at forks; None: the smallest change of heading.
         blocked: Why it cannot go on; None while it can.
         jumped: In the last step it was put somewhere instead of moving there.
@@ -73,12 +75,15 @@ class MovingActor:
         left: Where it was in its lane before the last step.
         home: Lane that it returns to; None: it is in one, or goes to none.
         residual: What seams of the map have left it beside its lane; None: nothing.
+        steady: What it is told cannot fail, and nothing was told since that was found.
+        still: It stood in the last step, and stands on for as long as it is steady.
     """
 
     spec: ActorSpec
     state: ActorState
     reference: ActorState
     bound: LanePosition | None
+    cursor: LaneCursor
     route: Route | None = None
     blocked: str | None = None
     jumped: bool = False
@@ -87,12 +92,16 @@ class MovingActor:
     left: LanePosition | None = None
     home: LanePosition | None = None
     residual: Residual | None = None
+    steady: bool = False
+    still: bool = False
     _stopping: Longitudinal | None = None  # behind the end of its lane
     _course: Course | None = None
     _way: Way | None = None
     _speed: Longitudinal | None = None
+    _open: OpenSpeed = field(default_factory=OpenSpeed)  # while there is no command for it
     _side: Lateral = field(default_factory=HoldOffset)
     _turning: Turning | None = None
+    _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold
     _astray: bool = False  # turned where it stands, so that it is in no lane any more
 
     @property
@@ -111,13 +120,16 @@ class MovingActor:
     def moved(self, inputs: StepInputs, road_map: RoadMap) -> ActorState:
         """State at the next step; the snapshot itself stays as it is."""
         state, dt = self.reference, inputs.dt
+        if self.still and self.steady:
+            return state
+        self.still = False
         if self._course is not None and self._speed is None and state.v == 0.0:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
         run = self._stopping or self._speed
-        speed = state.v if run is None else run.speed_after(state, inputs)
+        speed = self._unsaid(inputs) if run is None else run.speed_after(state, inputs)
         path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
-        if self.wheels is not None and self.wheels.limited:
+        if self.wheels is not None and self.wheels.road != "dry":
             way = curvature_ahead(road_map, self.bound, self.route)
             speed = self.wheels.held(speed, state, way, dt)
             path = None if self.wheels.slipping else path
@@ -136,6 +148,13 @@ class MovingActor:
             return self._standing(speed, dt)
         return self._straight_on(speed, path, road_map, dt)
 
+    def _unsaid(self, inputs: StepInputs) -> float:
+        """Speed at the next step where no command says any."""
+        state = self.reference
+        if self.bound is None or self._unphysical or not state.shape.wheelbase or state.v <= 0.0:
+            return state.v
+        return self._open.speed_after(state, inputs, self.route, self.limits)
+
     def _along_lane(
         self, speed: float, path: float, road_map: RoadMap, inputs: StepInputs
     ) -> ActorState:
@@ -152,13 +171,17 @@ class MovingActor:
                 along *= self.residual.share
             if self._way is not None:
                 self._way.look(bound, along)
-            ahead = road_map.advance(bound, along, self.route)
-            place = ahead.position
-            if abs(ahead.travelled - along) > 1e-6:
-                return self._over_the_end(place, along - ahead.travelled, speed, road_map, dt)
+            on = self.cursor.moved(bound, along, offset)
+            if on is None:
+                ahead = road_map.advance(bound, along, self.route)
+                on = ahead.position
+                if abs(ahead.travelled - along) > 1e-6:
+                    return self._over_the_end(on, along - ahead.travelled, speed, road_map, dt)
+            place = on
             self.blocked = None
             if self.residual is not None or road_map.has_seams(bound, place):
-                self._cross(place, along, speed, road_map)
+                abreast_of = place._replace(offset=bound.offset)
+                self._cross(abreast_of, along, speed, road_map)
         else:
             place = bound
         if offset != place.offset:
@@ -170,8 +193,20 @@ class MovingActor:
         """The same place; the same state if nothing else changes."""
         state, a = self.reference, (speed - self.reference.v) / dt
         if speed == state.v and a == state.a and state.lateral_speed == 0.0:
+            self.still = self.home is None and self.residual is None and self._stays()
             return state
         return state._replace(v=speed, a=a, lateral_speed=0.0)
+
+    def _stays(self) -> bool:
+        """Whether one who stands does so until it is told something."""
+        held = self._speed is None or (
+            isinstance(self._speed, ProfileRun) and self._speed.progress().done
+        )
+        return held and self.is_steady() and isinstance(self._side, HoldOffset)
+
+    def is_steady(self) -> bool:
+        """Sees whether what it is told cannot fail."""
+        raise NotImplementedError
 
     def _cross(self, place: LanePosition, along: float, speed: float, road_map: RoadMap) -> None:
         """Takes with it what the seams up to a place leave, and lets it run out."""
@@ -212,7 +247,7 @@ class MovingActor:
             a: m/s^2.
             road_map: The map.
         """
-        pose = road_map.pose(bound)
+        pose = self.cursor.pose(bound)
         h, residual = pose.h, self.residual
         if residual is not None:
             pose = residual.on(pose)
@@ -224,7 +259,9 @@ class MovingActor:
         elif abs(speed) <= _STILL and self._half_way(bound):
             h = self.reference.h  # standing half way through a lane change
         under = lane_under(road_map, bound, pose) if bound.offset else bound
-        pitch, roll = self._tilted(pose, h)
+        pitch = roll = 0.0
+        if self.tilt is not LEVEL or pose.pitch or pose.roll:
+            pitch, roll = self._tilted(pose, h)
         if residual is not None:
             h = math.pi - (math.pi - h) % math.tau
             rate += residual.drift(speed)
@@ -313,7 +350,7 @@ class MovingActor:
     def unbind(self) -> None:
         """Is on no lane any more, and goes straight on."""
         self.bound, self._course, self.home = None, None, None
-        self.residual = self._stopping = None
+        self.residual, self._stopping, self.steady = None, None, False
 
     def turn_away(self) -> None:
         """Is turned by force: a vehicle goes back to its lane from there."""
@@ -324,6 +361,6 @@ class MovingActor:
         """State after a jump to a place on a lane."""
         self.bound, self.left, self.blocked, self.tilt = bound, None, None, LEVEL
         self._course, self.home, self._astray = None, None, False
-        self.residual = self._stopping = None
+        self.residual, self._stopping, self.steady = None, None, False
         self._side = HoldOffset()
         return self.on_lane(bound, speed, 0.0, 0.0, road_map)

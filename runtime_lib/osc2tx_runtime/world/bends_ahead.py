@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap, Route
 from osc2tx_runtime.opendrive.lane_advance import lane_heading
 from osc2tx_runtime.opendrive.lane_line import lane_line
 from osc2tx_runtime.opendrive.model import Lane
@@ -83,6 +83,17 @@ class BendsAhead:
                 break
             place = step.position
         return math.sqrt(best)
+
+    def sharpest(self) -> float:
+        """The largest curvature (1/m) of the driving lanes of the map."""
+        lanes = (
+            lane
+            for road in self._map.roads.values()
+            for section in road.sections
+            for lane in section.lanes.values()
+            if lane.type in DRIVING
+        )
+        return max((self._measured(lane)[0] for lane in lanes), default=0.0)
 
     def _measured(self, lane: Lane) -> tuple[float, Bends]:
         """The largest curvature (1/m) of a lane, and its bends."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from operator import is_
 
 from .collision import Box, box_of, swept_contacts
 from .state import ActorState
@@ -22,15 +23,18 @@ class Contacts:
         self._boxes: list[Box] = []
         self._states: list[ActorState] = []  # to which the boxes belong
         self._touching: frozenset[tuple[int, int]] = frozenset()
+        self._stand = False  # nobody moved in the last step
 
     def begin(self, states: Mapping[str, ActorState]) -> None:
         """Take the places before step 0."""
         self._states = list(states.values())
         self._boxes = [box_of(state) for state in self._states]
+        self._stand = False
 
     def put(self, index: int, state: ActorState) -> None:
         """Take a new place of an actor, by its number in the cast, between two steps."""
         self._boxes[index], self._states[index] = box_of(state), state
+        self._stand = False
 
     def step(
         self,
@@ -47,6 +51,10 @@ class Contacts:
             jumped: Who was put somewhere, and touches nothing on its way.
             coupled: Pairs that may touch.
         """
+        stood, self._stand = self._stand, not jumped and all(map(is_, states, self._states))
+        if stood and self._stand:
+            self.new = ()  # nobody has moved again, so the contacts are those of before
+            return
         boxes = []
         for i, (actor, state) in enumerate(zip(before, states, strict=True)):
             boxes.append(self._boxes[i] if state is self._states[i] else box_of(state))

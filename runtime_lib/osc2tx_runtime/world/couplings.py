@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from osc2tx_runtime.opendrive import RoadMap
 
@@ -33,6 +33,10 @@ class Couplings:
     def trailer_of(self, tow: str) -> str | None:
         """Id of the trailer that a vehicle tows."""
         return self._towed.get(tow)
+
+    def towed(self) -> Collection[str]:
+        """Who hangs on another one."""
+        return self._towed.values() if self._towed else ()
 
     def is_towed(self, actor: str) -> bool:
         """Whether an actor hangs on another one."""

@@ -200,6 +200,11 @@ class EmbeddedWorld:
         """Progress of the command in a slot."""
         return self._member(actor).progress(slot)
 
+    def unsteady(self) -> Sequence[str]:
+        """Actors of which a command may have failed in the last step; the others just go on."""
+        cast = self._cast.items()
+        return [each for each, member in cast if not (member.steady or member.is_steady())]
+
     def reference(self, actor: str) -> ActorState:
         """State that commands start from: as it was wished, abreast of where the actor is."""
         return self._member(actor).reference
@@ -309,7 +314,7 @@ class EmbeddedWorld:
         self._surroundings.set(values)
         for member in self._cast.values():
             if member.wheels is not None:
-                member.wheels.road = self._surroundings.road
+                member.wheels.road, member.steady = self._surroundings.road, False
         return self._lights.follow(self._surroundings.automatic_light)
 
     # --- time ---------------------------------------------------------------------------------
@@ -319,7 +324,15 @@ class EmbeddedWorld:
         members = tuple(self._cast.values())
         # All read the snapshot; none is replaced before every actor has moved.
         before = {actor: member.state for actor, member in self._cast.items()}
-        wished = [self._next_state(member) for member in members]
+        road_map, towed = self.map, self._couplings.towed()  # drawn along by what tows it
+        wished = [
+            (
+                member.moved(self, road_map)
+                if member.follows and member.spec.movable and member.spec.id not in towed
+                else member.state
+            )
+            for member in members
+        ]
         self._couplings.draw(self._cast, wished, self.dt, self.map)
         put = {a for a, change in self._changes.items() if change.jumps or change.turns}
         kicked = {a for a, change in self._changes.items() if change.speed is not None}
@@ -339,12 +352,6 @@ class EmbeddedWorld:
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)
-
-    def _next_state(self, member: CommandedActor) -> ActorState:
-        if self._couplings.is_towed(member.spec.id):
-            return member.state  # what tows it draws it along
-        moves = member.spec.movable and member.follows
-        return member.moved(self, self.map) if moves else member.state
 
     def _member(self, actor: str) -> CommandedActor:
         member = self._cast.get(actor)

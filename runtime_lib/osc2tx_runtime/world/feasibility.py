@@ -62,7 +62,7 @@ class FrictionWatch:
             self._turning.pop(actor, None)
         turning = self._turning
         for member in members:
-            if member.wheels is None:
+            if member.wheels is None or (member.still and member.spec.id not in turning):
                 continue
             state = member.reference
             across, aside = 0.0, self._set_aside(member, jumped)

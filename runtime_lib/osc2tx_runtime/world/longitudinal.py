@@ -35,6 +35,7 @@ from .step_inputs import StepInputs
 
 __all__ = [
     "Longitudinal",
+    "ProfileRun",
     "acceleration_of",
     "excessive_acceleration",
     "excessive_rate",
@@ -55,7 +56,7 @@ class Longitudinal(Protocol):
         """Progress at the present step."""
 
 
-class _ProfileRun:
+class ProfileRun:
     """A speed change in closed form."""
 
     __slots__ = ("_profile", "_steps", "_time")
@@ -81,7 +82,7 @@ class _ProfileRun:
         return 0.0 if self.progress().done else self._profile.rate(self._time)
 
 
-class _CourseRun(_ProfileRun):
+class _CourseRun(ProfileRun):
     """A speed that a course gives, as long as the limits allow it."""
 
     __slots__ = ("_failed", "_limits")
@@ -220,7 +221,7 @@ def acceleration_of(run: Longitudinal | None, me: ActorState) -> float:
 
     A mean would make what follows depend on the size of the step.
     """
-    return run.acceleration if isinstance(run, _ProfileRun | AccelerationRun) else me.a
+    return run.acceleration if isinstance(run, ProfileRun | AccelerationRun) else me.a
 
 
 def longitudinal_of(
@@ -236,10 +237,10 @@ def longitudinal_of(
             return _CourseRun(given, None if command.exact else TYRES)
         case SpeedChange():
             if command.start is not None:
-                return _ProfileRun(speed_profile(command, command.start, limits))
-            return _ProfileRun(speed_profile(command, speed, limits, me.a))
+                return ProfileRun(speed_profile(command, command.start, limits))
+            return ProfileRun(speed_profile(command, speed, limits, me.a))
         case Standstill():
-            return _ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk, me.a))
+            return ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk, me.a))
         case Accelerate():
             start = speed if command.start is None else command.start
             held = me.a if command.acceleration is None else command.acceleration

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
@@ -174,6 +174,9 @@ class World(Protocol):
 
     def progress(self, actor: str, slot: str) -> Progress:
         """Progress of the command in a slot."""
+
+    def unsteady(self) -> Collection[str]:
+        """Actors of which a command may have failed in the last step; the others just go on."""
 
     def assign(
         self,

@@ -49,7 +49,7 @@ def placed(spec: ActorSpec, start: Start, road_map: RoadMap, road: RoadCondition
     if start.heading is not None:
         pose = Pose(pose.x, pose.y, pose.z, start.heading)
     unplaced = ActorState(pose.x, pose.y, pose.z, pose.h, 0.0, 0.0, None, 0.0, spec.shape)
-    member = CommandedActor(spec, unplaced, unplaced, None)
+    member = CommandedActor(spec, unplaced, unplaced, None, road_map.cursor())
     if spec.shape.wheelbase > 0.0:
         member.wheels = Wheels(road)
     if spec.lane_bound and isinstance(at, LanePosition) and start.heading is None:

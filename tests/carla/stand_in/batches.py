@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from .actor_calls import ActorCalls
@@ -66,5 +67,8 @@ class BatchCalls:
         description, pose, parent, *_, following = fields
         actor = self._simulation.spawn(description, pose, parent[1] if parent[0] else 0)
         for ((number, (_, *rest)),) in following:
-            self._carry_out(number, [actor.id, *rest])
+            if number not in self._commands:
+                raise CallError(f"the stand-in does not know command {number} of batches")
+            with suppress(CallError):  # who spawned an actor hears of no failure of the rest
+                self._carry_out(number, [actor.id, *rest])
         return actor.id

@@ -38,19 +38,12 @@ class Level:
         return written(mark.transform, SPAWN_HEIGHT)
 
     def traffic_lights(self) -> Iterator[tuple[str, list[list[float]]]]:
-        """Yield the OpenDRIVE id of each light, and a place on its road."""
-        for road in ElementTree.fromstring(self.text).iter("road"):
-            for signal in road.iter("signal"):
-                if signal.get("type") == TRAFFIC_LIGHT and signal.get("dynamic") == "yes":
-                    s = float(signal.get("s", "0"))
-                    yield signal.get("id", ""), self._place(int(road.get("id", "0")), s)
-
-    def _place(self, road: int, s: float) -> list[list[float]]:
-        for lane in (-1, 1):
-            mark = self._map.get_waypoint_xodr(road, lane, s)
-            if mark is not None:
-                return written(mark.transform, 0.0)
-        return [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+        """Yield the OpenDRIVE id of each light, and where it stands."""
+        places = {mark.id: mark.transform for mark in self._map.get_all_landmarks()}
+        for signal in ElementTree.fromstring(self.text).iter("signal"):
+            if signal.get("type") == TRAFFIC_LIGHT and signal.get("dynamic") == "yes":
+                name = signal.get("id", "")
+                yield name, written(places[name], 0.0)
 
     def ground(self, location: list[float], yaw: float) -> tuple[float, float] | None:
         """Return the height of the road (m) below a place, and its slope (degrees) along a yaw.

@@ -94,6 +94,21 @@ def test_a_search_looks_no_farther_than_the_goal() -> None:
     assert work < 500  # 190 roads follow
 
 
+def test_a_way_makes_no_tables_of_the_lanes_it_passes() -> None:
+    """Straight lanes and arcs have their lengths without."""
+
+    def first_search(roads: int) -> int:
+        road_map = chain(roads)
+        begin, goal = LanePosition("0", -1, 10.0), LanePosition(str(roads - 1), -1, 10.0)
+        work = calls(lambda: road_map.route_distance(begin, goal))
+        assert road_map.route_distance(begin, goal) == pytest.approx((roads - 1) * LENGTH)
+        between = road_map.roads["1"].sections[0].lanes[-1]
+        assert between.line is None
+        return work
+
+    assert (first_search(200) - first_search(100)) / 100 < 60
+
+
 def test_what_is_not_connected_is_found_out_once() -> None:
     road_map = chain(100)
     route = road_map.route_to(LanePosition("50", 1, 10.0))

@@ -86,6 +86,9 @@ class FakeWorld:
     def take_notes(self) -> tuple[()]:
         return ()
 
+    def unsteady(self) -> tuple[()]:
+        return ()
+
 
 class Drive(Action):
     """Open-ended, claims the longitudinal slot."""

@@ -85,7 +85,7 @@ def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
 def test_failure(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(Waits, argv=["--set", "bad=true"]) == 5
     assert capsys.readouterr().out.startswith(
-        "waits: failure after 2.00 s: hero change_lane (waits.osc) failed at 2.000 s:"
+        "waits.osc: error[OSC809]: waits: failure after 2.00 s: hero change_lane failed at 2.000 s:"
         " no lane to the right\n"
     )
 
@@ -93,8 +93,8 @@ def test_failure(capsys: pytest.CaptureFixture[str]) -> None:
 def test_timeout(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(Waits, argv=["--max-time", "1"]) == 5
     assert capsys.readouterr().out.startswith(
-        "waits: timeout after 1.00 s: not finished at 1 s; still running:"
-        " wait @go (waits.osc), wait elapsed 2 s (waits.osc)\n"
+        "waits.osc: error[OSC809]: waits: timeout after 1.00 s: not finished at 1 s; still running:"
+        " wait @go, wait elapsed 2 s (waits.osc)\n"
     )
 
 

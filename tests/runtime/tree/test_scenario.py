@@ -169,7 +169,7 @@ def test_setting_one_parameter_does_not_change_another() -> None:
     ("settings", "message"),
     [
         ({"set": {"gpa": 1.0}}, "--set gpa: the scenario has no such parameter; did you mean gap?"),
-        ({"set": {"gap": "wide"}}, "--set gap=wide: write a number in SI units"),
+        ({"set": {"gap": "wide"}}, "--set gap=wide: write a number without unit"),
         ({"set": {"speed": 12.0}}, "--set speed=12: the scenario allows 5 to 10 (SI units)"),
         ({"set": {"limit": 0.5}}, "--set limit=0.5: the scenario allows 1 to 3 (SI units)"),
         ({"set": {"count": 2.5}}, "--set count=2.5: write a whole number"),

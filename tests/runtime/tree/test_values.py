@@ -20,7 +20,8 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.errors import SettingsError
-from osc2tx_runtime.language.tree.coverage import CoverageItem, Unit
+from osc2tx_runtime.language.tree.coverage import CoverageItem
+from osc2tx_runtime.language.tree.written_units import Unit
 
 
 class Relations(Scenario):

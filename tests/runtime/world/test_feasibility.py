@@ -42,6 +42,7 @@ def driven(road_map: RoadMap, spec: Any, speed: float, plant: Plant | None = Non
     world.add(spec("a"))
     world.place("a", LanePosition("1", -1, 1.0), speed)
     world.begin()
+    world.command("a", LONGITUDINAL, SpeedChange(speed))  # a speed of its own a driver lowers
     return world
 
 
@@ -164,6 +165,7 @@ def test_what_stands_high_tips_over_before_it_slides(
     world = EmbeddedWorld(circle, DT)
     world.add(replace(make_spec("a"), limits=limits_of("vehicle", category)))
     world.place("a", LanePosition("1", -1, 1.0), v)
+    world.command("a", LONGITUDINAL, SpeedChange(v))
     steps(world, 2.0)
     assert bool(world.overloads()) == (factor > 1.0)
     for found in world.overloads():

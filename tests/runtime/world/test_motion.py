@@ -213,6 +213,7 @@ def test_curve_is_followed_at_the_length_of_the_lane(
     world.add(make_spec("a"))
     start = LanePosition("1", -2, 150.0)
     world.place("a", start, 20.0)
+    world.command("a", LONGITUDINAL, SpeedChange(20.0))
     last = history(world, 10.0)[-1]
     assert last.lane_position is not None
     assert road_map.route_distance(start, last.lane_position) == pytest.approx(200.0, abs=1e-3)

@@ -43,11 +43,9 @@ def original(tmp_path_factory: pytest.TempPathFactory) -> Project:
     return project
 
 
-WAYS = [
-    (folder, seed, workers)
-    for folder in ("here", "some where/else/deeper")
-    for seed, workers in ((0, 1), (1, 2), (2, 2))
-]
+# Each is another than the first in all that must not count.
+DEEPER = "some where/else/deeper"
+WAYS = [("here", 0, 1), (DEEPER, 1, 2), (DEEPER, 2, 2)]
 
 
 @pytest.mark.slow

@@ -22,15 +22,17 @@ def command(*words: str | Path) -> Result:
     return CliRunner().invoke(cli, arguments, standalone_mode=False, obj=Session())
 
 
+@pytest.mark.parametrize("std", ["2.1", "2.2"])
 def test_the_project_builds_runs_and_passes_its_test(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, std: str
 ) -> None:
-    assert command("init", tmp_path / "project").return_value == 0
+    assert command("init", tmp_path / "project", "--std", std).return_value == 0
     monkeypatch.chdir(tmp_path / "project")
     assert command("fmt", "--check", "scenarios").return_value == 0
     assert command("check", "scenarios", "--strict").return_value == 0
     assert command("build").return_value == 0
     assert command("build", "--check").return_value == 0
+    assert f'std = "{std}" ' in command("config").output
     ended = forked(lambda: sys.exit(pytest.main(["-q", "-p", "no:cacheprovider"])))
     assert ended.code == 0, ended.out
     assert "passed" in ended.out
@@ -59,7 +61,7 @@ def test_commands_in_the_snippets_exist(tmp_path: Path) -> None:
         for line in (REPOSITORY / ".pre-commit-hooks.yaml").read_text().splitlines()
         if "entry: osc2tx " in line
     ]
-    assert len(lines) == 8
+    assert len(lines) == 9
     for line in lines:
         name, *options = line.split()
         found = cli.get_command(cli.make_context("osc2tx", ["check"]), name)

@@ -1,16 +1,21 @@
 """The command `run`: sources, modules, settings, verdicts."""
 
 import json
+import runpy
 import sys
 from pathlib import Path
 
 import click
 import pytest
+from click.shell_completion import ShellComplete
 
+from osc2tx.cli import cli
+from osc2tx.cli.reporting import Session
 from osc2tx.cli.run import choose_scenario, merge_settings
 from osc2tx.config import ConfigError, ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import SettingsError
+from tests.processes import forked
 from tests.unit.cli.shell import Shell
 
 
@@ -39,7 +44,7 @@ def test_a_scenario_that_does_not_end_in_time_failed(shell: Shell) -> None:
     shell.drive("a.osc")
     ended = shell("run", "a.osc", "--max-time", "1")
     assert ended.code == 5
-    assert ended.out.startswith("top: timeout after 1.00 s")
+    assert ended.out.startswith("a.osc:6:5: error[OSC809]: top: timeout after 1.00 s")
 
 
 def test_run_stops_at_errors_in_the_source(shell: Shell) -> None:
@@ -96,6 +101,9 @@ def test_which_scenario_runs() -> None:
     assert choose_scenario(scenarios("a", "main"), None, path).name == "main"
     assert choose_scenario(scenarios("a"), None, path).name == "a"
     assert choose_scenario(scenarios("a", "top"), "a", path).name == "a"
+    several = scenarios("a", "b", "c")
+    several["b"].is_main = True
+    assert choose_scenario(several, None, path).name == "b"
     with pytest.raises(click.UsageError, match="choose one with --scenario: a, b"):
         choose_scenario(scenarios("a", "b"), None, path)
     with pytest.raises(click.UsageError, match="no scenario `c`; there is: a, b"):
@@ -125,3 +133,49 @@ def test_whose_mistake_a_wrong_run_option_is(tmp_path: Path) -> None:
         merge_settings(config, tmp_path / "a.osc", {})
     with pytest.raises(SettingsError):
         merge_settings(config, tmp_path / "b.osc", {"signal": ("go",)})
+
+
+INVOKING = """import osc.standard
+
+scenario vehicle.cruise:
+  v: speed = 36kph
+  do drive(duration: 1s) with:
+    speed(v)
+
+scenario two:
+  ego: vehicle
+  do cruise_it: ego.cruise()
+"""
+
+
+def test_the_one_that_no_other_invokes_runs_everywhere(shell: Shell) -> None:
+    """By `run` of source and module, and by the module itself; values in any unit."""
+    source = shell.write("two.osc", INVOKING)
+    assert shell("build", source, "-o", shell.folder / "out").code == 0
+    module = shell.folder / "out" / "two.py"
+    for file in (source, module):
+        ended = shell("run", file, "--set", "cruise_it.v=20mph")
+        assert (ended.code, ended.out) == (0, "two: success after 1.00 s\n")
+    wrong = shell("run", source, "--set", "cruise_it.v=20m")
+    assert wrong.code == 2 and f"{source}:4:3: error[OSC806]" in wrong.err
+    assert "m is a unit of length" in wrong.err
+
+    def script() -> None:
+        sys.argv = [str(module), "--set", "cruise_it.v=20mph"]
+        runpy.run_path(str(module), run_name="__main__")
+
+    own = forked(script)
+    assert own.code == 0, own.out
+
+
+def test_the_scenarios_of_a_file_are_offered(shell: Shell) -> None:
+    source = shell.write("two.osc", INVOKING)
+    assert shell("build", source, "-o", shell.folder / "out").code == 0
+    complete = ShellComplete(cli, {"obj": Session()}, "osc2tx", "_OSC2TX_COMPLETE")
+    for file in (source, shell.folder / "out" / "two.py"):
+        for command in ("run", "tree"):
+            found = complete.get_completions([command, str(file), "--scenario"], "")
+            assert [each.value for each in found] == ["vehicle.cruise", "two"]
+    found = complete.get_completions(["run", str(source), "--scenario"], "t")
+    assert [each.value for each in found] == ["two"]
+    assert complete.get_completions(["run", "nowhere.osc", "--scenario"], "") == []

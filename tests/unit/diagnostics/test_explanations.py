@@ -12,7 +12,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.explanations import Explanation
 from osc2tx.options import CompileOptions
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import RUN_FAILED, ScenarioError
 
 PRELUDE = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
 WITHOUT_TEXT = {
@@ -57,7 +57,7 @@ def codes_of_run(explanation: Explanation, text: str, folder: Path) -> dict[str,
 def test_errors_of_runs_have_codes() -> None:
     kinds = [ScenarioError, *ScenarioError.__subclasses__()]
     own = {kind.code for kind in kinds if kind.__module__ == ScenarioError.__module__}
-    assert sorted(own) == [code for code in CODES if code.startswith("OSC8")]
+    assert sorted(own | {RUN_FAILED}) == [code for code in CODES if code.startswith("OSC8")]
 
 
 def test_a_code_has_an_example_and_a_remedy() -> None:

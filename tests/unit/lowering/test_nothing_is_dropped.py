@@ -93,7 +93,7 @@ CASES = {
         ),
         ast.RemoveDefault: Case(
             "remove_default(x)",
-            text='required("drive.thing.x", int)',
+            text='required("it_.drive.thing.x", int)',
             before="x: int = 1\n    lane(x)",
         ),
         ast.MethodDeclaration: Case(

@@ -11,6 +11,7 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, P
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.speed_changes import change_speed, hold_speed, jump_to
 from osc2tx.backends.xosc.actions.speed_modifiers import time_to_cover
+from osc2tx.backends.xosc.actions.steady_speeds import note_open_speed
 from osc2tx.backends.xosc.actions.walkers import change_pace, stand, walk_on
 from osc2tx.backends.xosc.facts.actors import course_of_speed
 from osc2tx.backends.xosc.report import Inexpressible
@@ -25,6 +26,7 @@ def _drive(leaf: Leaf) -> Performance:
     if leaf.state.pose is not None and leaf.member.walks:
         return _walk(leaf)
     changes = apply_modifiers(leaf)
+    note_open_speed(leaf)
     ends: Ending = "goal" if _has_goal(leaf) else "open"
     return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
 

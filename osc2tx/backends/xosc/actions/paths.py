@@ -233,7 +233,7 @@ def follow(
 ) -> Element:
     """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
     if is_timed:
-        leaf.ctx.require_support("Vertex/time", leaf.node.span)
+        leaf.ctx.require_support("FollowTrajectoryAction", leaf.node.span)
     older = leaf.ctx.version == "1.0"
     trajectory = element(
         "Trajectory",

@@ -7,6 +7,26 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.catalogue import catalogue
 
+_BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
+"""Modifiers that say nothing of the speed."""
+
+
+def note_open_speed(leaf: Leaf) -> None:
+    """Report that a driver who is told no speed slows down for bends, which no XML says."""
+    roads, speed = leaf.ctx.roads, leaf.state.speed
+    if roads is None or speed is None or leaf.member.walks:
+        return
+    if any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers):
+        return
+    if speed.low**2 * roads.sharpest_bend > leaf.limits.lateral:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "no speed is said, so in the world it slows down for bends, and in the XML it does not;"
+            " `keep_speed()` holds it in both",
+            f"{speed.low:.4g} m/s are too fast for the sharpest bend of the map",
+        )
+
 
 def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
     """Return the speed (m/s) that an actor has all the time; `None` if it may change."""
@@ -28,7 +48,7 @@ def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
     if entry is None or (entry.paces and node.action != "keep_speed"):
         return False
     for call in node.modifiers:
-        if call.name in ("keep_speed", "keep_lane", "lane", "lateral", "change_lane"):
+        if call.name in _BESIDE_SPEED or call.name == "keep_speed":
             continue
         if call.name != "speed":
             return False

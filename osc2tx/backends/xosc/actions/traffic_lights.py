@@ -203,7 +203,10 @@ def _state(ctx: Context, given: Constant) -> str:
 
 def _name(ctx: Context, signal: str) -> str:
     """Return what the tool calls a light."""
-    return ctx.profile.signal_name.format(signal)
+    if not ctx.profile.signals_by_place:
+        return signal
+    x, y = roads_of(ctx).signal_position(signal)
+    return f"pos={x:.2f},{-y:.2f}"
 
 
 def state_text(ctx: Context, signal: str, states: States) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Literal, cast
 
@@ -16,6 +16,7 @@ from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
+from osc2tx_runtime.world.bends_ahead import BendsAhead
 from osc2tx_runtime.world.lane_neighbours import lane_with_number
 from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.traffic_light_states import Signals
@@ -38,6 +39,11 @@ class Roads:
         self.map = road_map
         self.file = file
         self._signals = Signals(road_map)
+
+    @cached_property
+    def sharpest_bend(self) -> float:
+        """The largest curvature (1/m) of a driving lane."""
+        return BendsAhead(self.map).sharpest()
 
     def numbered(self, number: int, edge: str, distance: float | None) -> LanePosition | None:
         """Return the first place on a lane with a number, so far (m) along its road.
@@ -126,6 +132,18 @@ class Roads:
             return Pose(x, y, altitude, 0.0)
         near = self.map.pose(road)
         return Pose(x, y, near.z + altitude, near.h)
+
+    def signal_position(self, signal: str) -> tuple[float, float]:
+        """Return where a traffic light stands (m).
+
+        Raises:
+            Inexpressible: There is no such light.
+        """
+        light = next((each for each in self.map.signals() if each.id == signal), None)
+        if light is None:
+            raise Inexpressible(f"map {self.map.name} has no traffic light {signal}")
+        pose = self.map.road_pose(light.road, light.s, light.t)
+        return pose.x, pose.y
 
     def lamps(self, signal: str) -> tuple[Lamp, ...]:
         """Return the lamps of a traffic light.

@@ -17,7 +17,6 @@ from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.xml.tree import Element
 
 GENERIC = Remedy(profile="generic")
-CURVED = ("sinusoidal", "cubic")
 
 
 def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ...], Flow]:
@@ -46,11 +45,13 @@ def _conditions(event: Event) -> Iterator[Element]:
 
 
 def _features(node: Element) -> Iterator[str]:
-    """Yield what an element asks of a tool, as in `ToolProfile.unsupported`."""
+    """Yield what an element asks of a tool, as in `ToolProfile.unsupported` and `deviates`."""
     yield f"{node.name}/{node.get('dynamicsDimension')}"
     yield f"state/{node.get('state')}"
     if node.get("freespace") == "true":
         yield f"{node.name}/freespace"
+    if node.get("dynamicsShape") != "step":
+        yield node.name
 
 
 def _walk(node: Element) -> Iterator[Element]:
@@ -60,19 +61,18 @@ def _walk(node: Element) -> Iterator[Element]:
 
 
 def _check(ctx: Context, event: Event, node: Element) -> None:
-    """Report what a tool does not carry out, and dynamics that it takes for something else."""
+    """Report what a tool does not carry out, or carries out in another way."""
     profile, span = ctx.profile, event.place
     construct = ctx.report.construct_at(span, "action ")
-    feature = next((each for each in _features(node) if each in profile.unsupported), None)
-    if feature is not None:
-        reason = f"{profile.name} does not carry out {feature}: {profile.unsupported[feature]}"
-        ctx.report.cannot(construct, span, reason, GENERIC)
-    elif node.get("dynamicsShape") in CURVED and not profile.has_shapes:
-        reason = f"{profile.name} does not look at the shape of a change"
-        bound = (
-            "start and length of the change are exact; the new speed is its aim from the start on"
-        )
-        ctx.report.approximate(construct, span, reason, bound, GENERIC)
+    for feature in _features(node):
+        if feature in profile.unsupported:
+            reason = f"{profile.name} does not carry out {feature}: {profile.unsupported[feature]}"
+            ctx.report.cannot(construct, span, reason, GENERIC)
+            return
+        if feature in profile.deviates:
+            does, bound = profile.deviates[feature]
+            ctx.report.approximate(construct, span, f"in {profile.name} {does}", bound, GENERIC)
+            return
 
 
 # What does not hold while a comparison does; where the two sides are equal, both may.

@@ -207,13 +207,14 @@ class ModifiableAction(ModifiedMotion):
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
     def pulse(self) -> Status:
-        """Look only for what hinders it, where it has nothing else to see to."""
+        """Look only for what hinders it, where it has nothing else to see to; then rest."""
         if self._only_goes_on and self.status is Status.RUNNING:
             progress_of, actor_id = self.context.world.progress, self.actor.id
             for slot in self.slots or (LONGITUDINAL,):
                 if progress_of(actor_id, slot).failed is not None:
                     break
             else:
+                self.context.rest(self, actor_id)
                 return Status.RUNNING
         return super().pulse()
 

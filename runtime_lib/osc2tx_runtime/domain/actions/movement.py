@@ -42,7 +42,7 @@ class Move(ModifiableAction):
 
 @action("vehicle", "drive", ends="open")
 class Drive(ModifiableAction):
-    """Drive as the modifiers say; without any, on in the lane at the present speed."""
+    """Drive as the modifiers say; without any, on in the lane at the same speed, less in bends."""
 
     accepts: ClassVar[tuple[type, ...]] = Move.accepts
 

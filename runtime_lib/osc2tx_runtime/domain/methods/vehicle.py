@@ -148,7 +148,7 @@ class VehicleMethods:
         *modifiers: SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Drive as the modifiers say; without any, on in the lane at the present speed.
+        """Drive as the modifiers say; without any, on in the lane at the same speed, less in bends.
 
         Section §8.8.3.1.
         """

@@ -14,7 +14,7 @@ from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.settings import near
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.base import Behaviour, Leaf, Node
-from osc2tx_runtime.language.tree.compositions import Composition, OneOf
+from osc2tx_runtime.language.tree.compositions import Composition, OneOf, Serial
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import End, Ending
@@ -22,7 +22,7 @@ from osc2tx_runtime.language.tree.events import Event
 from osc2tx_runtime.language.tree.invocation import invocations, own_nodes, unique_name
 from osc2tx_runtime.language.tree.override import Mode, guard
 from osc2tx_runtime.language.tree.parallel import Parallel
-from osc2tx_runtime.language.tree.variables import Sampling
+from osc2tx_runtime.language.tree.variables import Sampling, SamplingStart
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.placement import Placement
@@ -49,10 +49,16 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     if ends:
         tree = around(scenario, tree, Ending(tree, ends))
     services: list[Leaf] = []
-    if scenario._variables:
-        services.append(Sampling(list(scenario._variables.values())))
+    if variables := list(scenario._variables.values()):
+        at_start = [variable for variable in variables if variable.trigger == "start"]
+        if at_start:
+            first = SamplingStart(at_start)
+            first.source, first.scope = getattr(tree, "source", ""), scenario._path
+            tree = around(scenario, tree, Serial(f"{tree.name}, sampled at its start", first, tree))
+        if len(at_start) < len(variables):
+            services.append(Sampling(variables, tree))
     if scenario._items:
-        services.append(Recording(list(scenario._items.values())))
+        services.append(Recording(list(scenario._items.values()), scenario.name))
     return with_services(scenario, tree, services) if services else tree
 
 

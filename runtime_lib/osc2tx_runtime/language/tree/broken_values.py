@@ -9,6 +9,7 @@ from typing import Any
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.module_text import failing_part
+from osc2tx_runtime.language.tree.written_units import Unit, shown_value
 
 __all__ = ["NotKeptError", "not_computed", "not_kept"]
 
@@ -25,20 +26,22 @@ class NotKeptError(Exception):
         self.place = place
 
 
-def not_kept(broken: NotKeptError, parameters: Mapping[str, Any], tried: str) -> ScenarioError:
+def not_kept(
+    broken: NotKeptError, parameters: Mapping[str, Any], units: Mapping[str, Unit], tried: str
+) -> ScenarioError:
     """Return what to say of a relation, with the values that it is about.
 
     Args:
         broken: The relation.
         parameters: All values.
+        units: Those of them that have one.
         tried: How often others were drawn, ` in 1000 draws`; empty if none were.
     """
     text = failing_part(broken)[0].removeprefix("keep(").removesuffix(")")
     words = set(re.findall(r"\w+", text))
     about = {name: v for name, v in parameters.items() if name in words}
     values = ", ".join(
-        f"{name}={v:.6g}" if isinstance(v, float) else f"{name}={v}"
-        for name, v in (about or parameters).items()
+        f"{name}={shown_value(v, units.get(name))}" for name, v in (about or parameters).items()
     )
     help_ = f" (the last values: {values})" if tried else f" ({values})" if values else ""
     what = f"`{text}`" if text else "a constraint"

@@ -34,11 +34,14 @@ class Composition(Node):
 
     _limits: Limits | None = None
     _members: tuple[Member, ...] = ()
+    _active: list[Member]  # those at work, where several are
+    _is_plain = True  # only the members decide what becomes of it
 
     def setup(self, **kwargs: Any) -> None:
         """Take the context; find out what ends by itself. Members were set up before."""
         super().setup(**kwargs)
         self._members = tuple((child, pulse_of(child)) for child in self.children)
+        self._is_plain = self._limits is None
         self._content_open = self._is_open()
         self.open_ended = self._content_open and self._limits is None
         self.instant = self._limits is None and all(is_instant(child) for child in self.children)
@@ -47,7 +50,7 @@ class Composition(Node):
         """Advance the members, within the duration."""
         if self.status is not RUNNING:
             self._begin()
-        status = self._judged()
+        status = self._advance() if self._is_plain else self._judged()
         if status is not RUNNING:
             self.stop(status)
         return status
@@ -104,6 +107,27 @@ class Composition(Node):
         """Run the members for one pass."""
         raise NotImplementedError
 
+    def _pulse_active(self) -> list[tuple[Behaviour, Status]]:
+        """Pulse the members at work that do not rest; return those that end, with their status.
+
+        A composition whose members all rest has nothing to do either.
+        """
+        resting, active, rests = self.context.resting, self._active, self._is_plain
+        ended: list[tuple[Behaviour, Status]] = []
+        for child, pulse in active:
+            if child in resting:
+                continue
+            rests = False
+            status = pulse()
+            if status is not RUNNING:
+                ended.append((child, status))
+        if ended:
+            gone = {child for child, _ in ended}
+            self._active = [member for member in active if member[0] not in gone]
+        elif rests and active:
+            resting.add(self)
+        return ended
+
 
 class Serial(Composition, SequenceComposite):
     """Members one after another, without a gap.
@@ -144,6 +168,10 @@ class Serial(Composition, SequenceComposite):
         late = context.late
         while self._index < len(members):
             self.current_child, pulse = members[self._index]
+            if self.current_child in context.resting:
+                if self._is_plain:
+                    context.resting.add(self)
+                return RUNNING
             status = pulse()
             if status is not SUCCESS:
                 context.late = late
@@ -172,7 +200,6 @@ class OneOf(Composition, ParallelComposite):
     def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
         super().__init__(name, policy=ParallelPolicy.SuccessOnOne(), children=members)
         self._limit(duration)
-        self._active: list[Member] = []
 
     def setup(self, **kwargs: Any) -> None:
         """Choose a member if the scenario does not race."""
@@ -233,25 +260,21 @@ class OneOf(Composition, ParallelComposite):
         return bool(self.children) and all(is_open(child) for child in self.children)
 
     def _advance(self) -> Status:
-        running: list[Member] = []
-        winners: list[Behaviour] = []
-        for member in self._active:
-            status = member[1]()
-            if status is RUNNING:
-                running.append(member)
-            elif status is SUCCESS and self._counts(member[0]):
-                winners.append(member[0])
+        winners = [
+            child
+            for child, status in self._pulse_active()
+            if status is SUCCESS and self._counts(child)
+        ]
         if winners:
             winner = min(winners, key=lambda child: (-ended_late(child), place_key(child)))
-            for child, _ in running:
+            for child, _ in self._active:
                 child.stop(INVALID)
             self._active = []
             self.current_child = winner
             if self.context.one_of == "race":
                 self._note(winner)
             return SUCCESS
-        self._active = running
-        return RUNNING if running else self._lost()
+        return RUNNING if self._active else self._lost()
 
 
 def is_open(child: Behaviour) -> bool:

@@ -121,7 +121,11 @@ def watch_level(function: Callable[[], bool], context: ExecutionContext) -> Watc
     def happened() -> bool:
         nonlocal sampled, value
         if context.snapshot != sampled:
-            sampled, value = context.snapshot, evaluate(function)
+            sampled = context.snapshot
+            try:  # as in `evaluate`
+                value = bool(function())
+            except EVALUATION_ERRORS as error:
+                raise without_value(error) from error
         return value
 
     return happened
@@ -192,7 +196,11 @@ class Edge:
         """Return whether the function turns in the present snapshot."""
         context = self._context
         if context.snapshot != self._sampled:
-            before, self._value = self._value, evaluate(self._function)
+            before = self._value
+            try:  # as in `evaluate`; each step of each condition comes by here
+                self._value = bool(self._function())
+            except EVALUATION_ERRORS as error:
+                raise without_value(error) from error
             self._sampled = context.snapshot
             turned = self._value is not before
             self._edge = turned and self._value is self._target and context.step >= self._settled
@@ -226,4 +234,9 @@ def evaluate(function: Callable[[], bool]) -> bool:
     try:
         return bool(function())
     except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"the condition has no value: {error}") from error
+        raise without_value(error) from error
+
+
+def without_value(error: Exception) -> ScenarioError:
+    """Return the error of a condition that has no value."""
+    return ScenarioError(f"the condition has no value: {error}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, Literal, TypedDict
@@ -12,8 +13,9 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
 from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
+from osc2tx_runtime.language.tree.written_units import Unit
 
-__all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording", "Unit"]
+__all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording"]
 
 Moment = Event | Literal["start", "end"]
 """When an item is sampled: at an event, or at the start or end of the scenario."""
@@ -35,19 +37,6 @@ class ItemOptions(TypedDict, total=False):
 
 
 ROUNDING = 1e-9  # of a slice: a value this close below a boundary lies on it
-
-
-@dataclass(frozen=True, slots=True)
-class Unit:
-    """The unit in which an item is counted: `si = value * factor + offset`."""
-
-    name: str
-    factor: float
-    offset: float = 0.0
-
-    def of(self, si: float) -> float:
-        """Return a value in SI in this unit."""
-        return (si - self.offset) / self.factor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,21 +99,28 @@ def _between(value: float, boundaries: Sequence[float]) -> tuple[float, float] |
 
 
 class Recording(Leaf):
-    """Samples the items of a scenario for as long as that runs, and at its end."""
+    """Samples the items of a scenario for as long as that runs, and at its end.
+
+    Args:
+        items: The items.
+        scenario: Name of the scenario in the source.
+    """
 
     open_ended = True
     service = True
     synthetic = True
 
-    def __init__(self, items: Sequence[CoverageItem]) -> None:
+    def __init__(self, items: Sequence[CoverageItem], scenario: str = "") -> None:
         super().__init__("record " + ", ".join(item.name for item in items))
+        self.scenario = scenario
         self._items = {item.name: item for item in items}
+        self._cut_short_at: int | None = None  # step
         self._watches: list[tuple[CoverageItem, Watch]] = []
         self._step: dict[str, int] = {}
 
     def initialise(self) -> None:
         """Sample what the start samples, and start watching."""
-        self._watches, self._step = [], {}
+        self._watches, self._step, self._cut_short_at = [], {}, None
         for item in self._items.values():
             if isinstance(item.at, Event):
                 self._watches.append((item, watch(item.at, None, self.context)))
@@ -144,12 +140,29 @@ class Recording(Leaf):
 
     def terminate(self, new_status: Status) -> None:
         """Sample what the end of the scenario samples; one that is cut short has no end."""
-        if new_status is SUCCESS:
-            for item in self._items.values():
-                if item.at == "end":
-                    self._record(item)
+        if new_status is not SUCCESS:
+            self._cut_short_at = self.context.step
+            return
+        for item in self._items.values():
+            if item.at == "end":
+                self._record(item)
 
-    def _record(self, item: CoverageItem) -> None:
+    def run_ends(self, outcome: str) -> None:
+        """Sample at the end of a run that fails, or has no time left: that ends the scenario too.
+
+        What has no value then is left out.
+
+        Args:
+            outcome: `failure` or `timeout`.
+        """
+        if self.status is not RUNNING and self._cut_short_at != self.context.step:
+            return
+        for item in self._items.values():
+            if item.at == "end":
+                with suppress(ScenarioError):
+                    self._record(item, outcome)
+
+    def _record(self, item: CoverageItem, outcome: str = "") -> None:
         parts = [self._items[name] for name in item.items] or [item]
         values = [self._value(part) for part in parts]
         if any(part.ignore and part.ignore(v) for part, v in zip(parts, values, strict=True)):
@@ -173,6 +186,8 @@ class Recording(Leaf):
             line["target"] = item.target
         if item.text:
             line["text"] = item.text
+        if outcome:
+            line["outcome"] = outcome
         self.context.trace.sampled(item.kind, line)
 
     def _value(self, item: CoverageItem) -> Any:

@@ -16,15 +16,24 @@ NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
 
 def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
     """Return what failed, where, when and why."""
-    culprits = sorted(failing(root), key=place_key)
     texts = []
-    for node in culprits:
+    for node in culprits(root):
         # The losers of a race failed before the race did.
         at = getattr(node, "failed_at", None)
         time = context.time if at is None else at
         why = node.feedback_message or "it gives no reason"
         texts.append(f"{named(node)} failed at {time:.3f} s: {why}")
     return "; ".join((*texts, *vain(root)))
+
+
+def failure_place(root: Behaviour) -> str:
+    """Return the place of what failed first; empty where it has none."""
+    return source_of(culprits(root)[0])
+
+
+def culprits(root: Behaviour) -> list[Behaviour]:
+    """Return the nodes that a failure comes from, in order."""
+    return sorted(failing(root), key=place_key)
 
 
 def vain(root: Behaviour) -> list[str]:
@@ -47,15 +56,25 @@ def failing(node: Behaviour) -> list[Behaviour]:
 
 def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
     """Return which leaves are still running."""
-    running = [node for node in root.iterate() if node.status is RUNNING and not node.children]
-    leaves = [node for node in running if not getattr(node, "synthetic", False)]
-    leaves.sort(key=place_key)
+    leaves = running_leaves(root)
     texts = [with_situation(named(leaf), leaf) for leaf in leaves[:NAMED_LEAVES]]
     if len(leaves) > NAMED_LEAVES:
         texts.append(f"and {len(leaves) - NAMED_LEAVES} more")
     running_now = ", ".join(texts) or "nothing"
     reason = f"not finished at {context.time:g} s; still running: {running_now}"
     return "; ".join((reason, *vain(root)))
+
+
+def timeout_place(root: Behaviour) -> str:
+    """Return the place of the first leaf that is still running; empty where there is none."""
+    return next((source_of(leaf) for leaf in running_leaves(root)), "")
+
+
+def running_leaves(root: Behaviour) -> list[Behaviour]:
+    """Return the leaves that are still running, in order."""
+    running = [node for node in root.iterate() if node.status is RUNNING and not node.children]
+    leaves = [node for node in running if not getattr(node, "synthetic", False)]
+    return sorted(leaves, key=place_key)
 
 
 def with_situation(text: str, node: Behaviour) -> str:
@@ -66,7 +85,8 @@ def with_situation(text: str, node: Behaviour) -> str:
 
 def source_of(node: Behaviour) -> str:
     """Return a node's place; behaviours that are not ours have none."""
-    return str(getattr(node, "source", ""))
+    place = getattr(node, "source", "")
+    return place if isinstance(place, str) else str(place)
 
 
 def named(node: Behaviour) -> str:

@@ -77,7 +77,6 @@ class Parallel(Composition, ParallelComposite):
         self.overlap: Overlap = overlap or ("start" if start_to_start is None else "any")
         self.start_to_start = start_to_start
         self.end_to_end = end_to_end
-        self._active: list[Member] = []
         self._bounding: frozenset[Behaviour] = frozenset()
         self._left = 0
         self._stretched = False
@@ -94,6 +93,7 @@ class Parallel(Composition, ParallelComposite):
         self._bounding = frozenset(child for child in self._lasting() if not is_open(child))
         if self.overlap != "start" or self.start_to_start or self.end_to_end is not None:
             self._schedule = self._plan()
+        self._is_plain = self._is_plain and not self._services and self._schedule is None
 
     def initialise(self) -> None:
         """Start with all members, or as planned."""
@@ -181,23 +181,18 @@ class Parallel(Composition, ParallelComposite):
         return max(known, default=0) if len(known) == len(lengths) else None
 
     def _advance(self) -> Status:
-        running: list[Member] = []
         failed = False
-        for member in self._active:
-            status = member[1]()
-            if status is RUNNING:
-                running.append(member)
-            elif status is FAILURE:
+        for child, status in self._pulse_active():
+            if status is FAILURE:
                 failed = True
-            elif member[0] in self._bounding:
+            elif child in self._bounding:
                 self._left -= 1
-                self._note_end(member[0])
-        self._active = running
+                self._note_end(child)
         if self._course is not None:
             return self._advance_course(failed)
         if failed:
             return FAILURE
-        if not running or (self._bounding and not self._left and not self._instants_run()):
+        if not self._active or (self._bounding and not self._left and not self._instants_run()):
             return RUNNING if self._stretches() else SUCCESS
         return RUNNING
 

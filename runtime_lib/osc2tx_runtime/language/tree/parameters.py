@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.tree.walks import Draws
+from osc2tx_runtime.language.tree.written_units import Unit, read_value, shown_value
 
 __all__ = [
     "Choice",
@@ -59,12 +60,15 @@ class Range(Generic[NumberT]):
             return value.low in self and value.high in self
         return bool(self.low <= value <= self.high)
 
-    def __str__(self) -> str:
+    def shown(self, unit: Unit | None) -> str:
+        """Return it in words, in a unit; without one its numbers are in SI units."""
+        low, high = (shown_value(bound, unit) for bound in (self.low, self.high))
+        si = "" if unit is not None else " (SI units)"
         if not math.isfinite(self.high):
-            return f"at least {self.low:g} (SI units)"
+            return f"at least {low}{si}"
         if not math.isfinite(self.low):
-            return f"at most {self.high:g} (SI units)"
-        return f"{self.low:g} to {self.high:g} (SI units)"
+            return f"at most {high}{si}"
+        return f"{low} to {high}{si}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +89,9 @@ class Choice(Generic[ValueT]):
     def __contains__(self, value: Any) -> bool:
         return value in self.values
 
-    def __str__(self) -> str:
-        return ", ".join(_text(value) for value in self.values)
+    def shown(self, unit: Unit | None) -> str:
+        """Return its values, in a unit if they have one."""
+        return ", ".join(shown_value(value, unit) for value in self.values)
 
 
 Domain: TypeAlias = Range[Any] | Choice[Any]
@@ -129,6 +134,7 @@ def choose(
     *,
     given: Any = None,
     settings: Mapping[str, float | str],
+    unit: Unit | None = None,
 ) -> Any:
     """Return the value of a parameter: as given, else set, else drawn, else its default.
 
@@ -142,6 +148,7 @@ def choose(
         generator: Draws.
         given: Value, or what the caller lets it be drawn from; None for none.
         settings: What `--set` sets.
+        unit: In which messages speak of it.
 
     Raises:
         ScenarioError: If a given value is outside of the domain.
@@ -152,27 +159,29 @@ def choose(
         value = default.draw(generator)
         domain = domain or default
     if isinstance(given, Range | Choice):
-        given = draw(name, given, domain, generator)
+        given = draw(name, given, domain, generator, unit)
     if given is not None:
-        problem = outside(given, domain)
+        problem = outside(given, domain, unit)
         if problem:
             raise ScenarioError(f"{name}={problem}")
         return given
     if name not in settings:
         if isinstance(value, type):
-            allowed = "" if domain is None else f"; the scenario allows {domain}"
+            allowed = "" if domain is None else f"; the scenario allows {domain.shown(unit)}"
             raise SettingsError(
                 f"the scenario leaves {name} open{allowed}: give it a value, --set {name}=VALUE"
             )
         return value
-    value = fit(name, settings[name], value() if isinstance(value, type) else value)
-    problem = outside(value, domain)
+    value = fit(name, settings[name], value() if isinstance(value, type) else value, unit)
+    problem = outside(value, domain, unit)
     if problem:
         raise SettingsError(f"--set {name}={problem}")
     return value
 
 
-def draw(name: str, given: Domain, domain: Domain | None, generator: Draws) -> Any:
+def draw(
+    name: str, given: Domain, domain: Domain | None, generator: Draws, unit: Unit | None
+) -> Any:
     """Return a value from what the caller gives and the scenario allows.
 
     Raises:
@@ -181,39 +190,40 @@ def draw(name: str, given: Domain, domain: Domain | None, generator: Draws) -> A
     if isinstance(given, Range) and isinstance(domain, Range):
         low, high = max(given.low, domain.low), min(given.high, domain.high)
         if low > high:
-            raise ScenarioError(f"{name}: {given} is asked for, the scenario allows {domain}")
+            asked, allowed = given.shown(unit), domain.shown(unit)
+            raise ScenarioError(f"{name}: {asked} is asked for, the scenario allows {allowed}")
         given = Range(low, high)
     if not given.is_bounded:
-        raise ScenarioError(f"{name}: {given} is no finite range to choose from; give a value")
+        shown = given.shown(unit)
+        raise ScenarioError(f"{name}: {shown} is no finite range to choose from; give a value")
     return given.draw(generator)
 
 
-def outside(value: Any, domain: Domain | None) -> str:
+def outside(value: Any, domain: Domain | None, unit: Unit | None) -> str:
     """Return what is wrong with a value that is not in its domain."""
     if domain is None or value in domain:
         return ""
-    return f"{_text(value)}: the scenario allows {domain}"
+    return f"{shown_value(value, unit)}: the scenario allows {domain.shown(unit)}"
 
 
-def _text(value: Any) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return value if isinstance(value, str) else f"{value:g}"
+def fit(name: str, value: float | str, like: Any, unit: Unit | None) -> Any:
+    """Return a value of the settings in the type of the parameter it is for.
 
-
-def fit(name: str, value: float | str, like: Any) -> Any:
-    """Return a value of the settings in the type of the parameter it is for."""
-    text = str(value)
+    Raises:
+        SettingsError: If it is none of that type, or in a unit of something else.
+    """
     if isinstance(like, bool):
-        if text in ("true", "false"):
-            return text == "true"
-        raise SettingsError(f"--set {name}={text}: write true or false")
+        if isinstance(value, bool):
+            return value
+        if str(value) in ("true", "false"):
+            return str(value) == "true"
+        raise SettingsError(f"--set {name}={value}: write true or false")
     if isinstance(like, str):
         return f"{value:g}" if isinstance(value, float) else value
     if isinstance(value, str):
-        raise SettingsError(f"--set {name}={text}: write a number in SI units")
+        value = read_value(name, value, unit)
     if isinstance(like, int):
         if value != int(value):
-            raise SettingsError(f"--set {name}={text}: write a whole number")
+            raise SettingsError(f"--set {name}={value}: write a whole number")
         return int(value)
     return value

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.tree.base import RUNNING, Leaf, Status
+from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Leaf, Status
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
 from osc2tx_runtime.language.tree.events import Event, Guard, Occurrences, Trigger, watch
 
-__all__ = ["MISSING", "Sampled", "Sampling"]
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["MISSING", "Boundary", "Sampled", "Sampling", "SamplingStart"]
+
+Boundary = Literal["start", "end"]
+"""Start and end of the scenario that declares a variable."""
 
 MISSING: Any = object()
 """Stands for a default that is not there."""
@@ -21,7 +27,7 @@ class Sampled:
 
     Args:
         expression: Gives the new value.
-        trigger: When it is sampled.
+        trigger: When it is sampled; `start` and `end` are those of its scenario.
         default: Value before the first sample; MISSING for none.
         condition: With an event: only an occurrence at which this is true counts.
         name: Name in the scenario, where its attribute cannot have it (`from`).
@@ -34,7 +40,7 @@ class Sampled:
     def __init__(
         self,
         expression: Callable[[], Any],
-        trigger: Trigger,
+        trigger: Trigger | Boundary,
         default: Any = MISSING,
         condition: Guard | None = None,
         name: str = "",
@@ -66,22 +72,34 @@ class Sampling(Leaf):
     service = True
     synthetic = True
 
-    def __init__(self, variables: Sequence[Sampled]) -> None:
-        super().__init__("sample " + ", ".join(variable.name for variable in variables))
-        self._variables = variables
+    def __init__(self, variables: Sequence[Sampled], tree: Behaviour) -> None:
+        super().__init__(sampling_of(variables))
+        self._tree = tree
+        self._at_end = [variable for variable in variables if variable.trigger == "end"]
+        self._variables = [v for v in variables if not isinstance(v.trigger, str)]
         self._watches: list[Watch] = []
         self._sampled: dict[Sampled, int] = {}  # step of the last sample at a condition
 
     def initialise(self) -> None:
         """Start watching."""
-        self._watches = [watch(v.trigger, v.condition, self.context) for v in self._variables]
+        watched = ((v.trigger, v.condition) for v in self._variables)
+        self._watches = [
+            watch(trigger, condition, self.context)
+            for trigger, condition in watched
+            if not isinstance(trigger, str)
+        ]
         self._sampled = {}
+        self._is_over = False
 
     def update(self) -> Status:
         """Sample what is due."""
         for variable, happened in zip(self._variables, self._watches, strict=True):
             if happened():
                 self._sample(variable, happened)
+        if self._tree.status is SUCCESS and not self._is_over:
+            self._is_over = True
+            for variable in self._at_end:
+                sample(variable, self.context)
         return RUNNING
 
     def _sample(self, variable: Sampled, happened: Watch) -> None:
@@ -94,8 +112,44 @@ class Sampling(Leaf):
         if occurrences and isinstance(variable.trigger, Event):
             # Several at one instant have no order: the last by value counts in every run.
             variable.trigger.meant().arguments = occurrences[-1]
-        try:
-            value = variable.expression()
-        except EVALUATION_ERRORS as error:
-            raise ScenarioError(f"{variable.name} has no value: {error}") from error
-        self.context.assign(variable, value)
+        sample(variable, self.context)
+
+
+class SamplingStart(Leaf):
+    """Samples what the start of a scenario samples: all that happens in it can read it."""
+
+    instant = True
+    synthetic = True
+
+    def __init__(self, variables: Sequence[Sampled]) -> None:
+        super().__init__(sampling_of(variables))
+        self._variables = variables
+        self._tick = 0
+
+    def initialise(self) -> None:
+        """Sample."""
+        self._tick = self.context.tick
+        for variable in self._variables:
+            sample(variable, self.context)
+
+    def update(self) -> Status:
+        """End once the values can be read, in the next pass of this instant."""
+        return SUCCESS if self.context.tick > self._tick else RUNNING
+
+
+def sampling_of(variables: Sequence[Sampled]) -> str:
+    """Return the name of a node that samples variables."""
+    return "sample " + ", ".join(variable.name for variable in variables)
+
+
+def sample(variable: Sampled, context: ExecutionContext) -> None:
+    """Give a variable the value that its expression has now.
+
+    Raises:
+        ScenarioError: It has none.
+    """
+    try:
+        value = variable.expression()
+    except EVALUATION_ERRORS as error:
+        raise ScenarioError(f"{variable.name} has no value: {error}") from error
+    context.assign(variable, value)

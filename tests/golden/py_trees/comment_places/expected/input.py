@@ -55,7 +55,7 @@ class Top(Scenario):
         self.other = self.cast("other", Vehicle())
 
         # above a value
-        self.v = self.parameter("v", 30 * kph, at_most(50 * kph))
+        self.v = self.parameter("v", 30 * kph, at_most(50 * kph), unit="kph")
         self.over = Event()
 
         self.keep(self.v < 50 * kph)

@@ -54,7 +54,7 @@ class Comments(Scenario):
         self.ego = self.cast("ego", Vehicle())
 
         # Above a value
-        self.v = self.parameter("v", 50 * kph)
+        self.v = self.parameter("v", 50 * kph, unit="kph")
 
         # above an event
         self.seen = Event()

@@ -38,7 +38,7 @@ class Conditions(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
-        self.near = self.parameter("near", 20 * m)
+        self.near = self.parameter("near", 20 * m, unit="m")
         self.close = Event(
             rise(
                 lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
@@ -46,9 +46,9 @@ class Conditions(Scenario):
             )
         )
         self.help_needed = Event()
-        self.wait_time = self.parameter("wait time", within(20 * s, 25 * s))
+        self.wait_time = self.parameter("wait time", within(20 * s, 25 * s), unit="s")
         self.late = Event(elapsed(self.wait_time))
-        self.wait_time_2 = self.parameter("wait time 2", within(1 * s, 2 * s))
+        self.wait_time_2 = self.parameter("wait time 2", within(1 * s, 2 * s), unit="s")
 
     def behavior(self) -> Behaviour:
         return Parallel(

@@ -40,7 +40,7 @@ class Constraints(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego_bounding_box_length = self.parameter(
-            "ego.bounding_box.length", within(4 * m, 5 * m)
+            "ego.bounding_box.length", within(4 * m, 5 * m), unit="m"
         )
         self.ego = self.cast(
             "ego",
@@ -52,24 +52,24 @@ class Constraints(Scenario):
             ),
         )
         self.npc_bounding_box_length = self.parameter(
-            "npc.bounding_box.length", within(4 * m, 5 * m)
+            "npc.bounding_box.length", within(4 * m, 5 * m), unit="m"
         )
         self.npc = self.cast(
             "npc", Vehicle(vehicle_category="car", length=self.npc_bounding_box_length)
         )
 
         # one bound and a default: the bound holds for settings
-        self.gap = self.parameter("gap", 10 * m, at_least(3 * m))
+        self.gap = self.parameter("gap", 10 * m, at_least(3 * m), unit="m")
 
         # an open end: a value must be given
-        self.reach = self.required("reach", Length, at_least(2 * m))
+        self.reach = self.required("reach", Length, at_least(2 * m), unit="m")
 
         # both bounds, in two constraints
-        self.slow = self.parameter("slow", within(20 * kph, 40 * kph))
-        self.fast = self.parameter("fast", within(30 * kph, 60 * kph))
+        self.slow = self.parameter("slow", within(20 * kph, 40 * kph), unit="kph")
+        self.fast = self.parameter("fast", within(30 * kph, 60 * kph), unit="kph")
 
         # solved for the one that is declared last
-        self.first = self.parameter("first", within(1 * s, 2 * s))
+        self.first = self.parameter("first", within(1 * s, 2 * s), unit="s")
         self.second = 3 * s - self.first
 
         # a set of values
@@ -79,7 +79,7 @@ class Constraints(Scenario):
         # later constraints replace defaults
         self.pause = 1 * s
         self.number = self.parameter("number", within(2, 4))
-        self.change_target = self.parameter("change.target", within(5 * kph, 10 * kph))
+        self.change_target = self.parameter("change.target", within(5 * kph, 10 * kph), unit="kph")
 
         self.keep(self.reach > 2 * m)
 

@@ -32,7 +32,7 @@ class Coverage(Scenario):
         self.npc = self.cast("npc", Vehicle())
         self.fast = Event(rise(lambda: self.ego.speed > 50 * kph))
         self.gear = self.parameter("gear", 2)
-        self.target = self.parameter("target", 60 * kph)
+        self.target = self.parameter("target", 60 * kph, unit="kph")
 
         # an item of a field: `it` is the field
         self.cover("target", lambda: self.target, unit=Unit("kph", kph), within=(40, 80), every=10)

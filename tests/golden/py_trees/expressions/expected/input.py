@@ -31,7 +31,7 @@ class Expressions(Scenario):
         self.other = self.cast("other", Vehicle())
         self.a = self.parameter("a", 2.5)
         self.b = self.parameter("b", 7)
-        self.v = self.parameter("v", 36 * kph)
+        self.v = self.parameter("v", 36 * kph, unit="kph")
         self.half = (self.a + 1) / 2 - -self.a
         self.whole = self.b // 2 + self.b % 3
         self.mean = (self.v + 10 * mps) / 2

@@ -14,6 +14,7 @@ from osc2tx_runtime import (
     Map,
     Scenario,
     Serial,
+    Unit,
     Vehicle,
     Wait,
     main,
@@ -56,7 +57,7 @@ class Commute(Scenario):
         self.mood: Mood = self.parameter("mood", "calm")
 
         # A default that a user may not want
-        self.top = self.parameter("top", 20 * mps)
+        self.top = self.parameter("top", 20 * mps, unit="mps")
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
@@ -69,6 +70,7 @@ class Commute(Scenario):
 class Extensions(Scenario):
     name = "extensions"
     source = "input.osc"
+    is_main = True
 
     def declare(self) -> None:
         """Cast, events and values."""
@@ -76,24 +78,26 @@ class Extensions(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.state: Mood = self.parameter("state", "reckless")
         self.economical_spends = self.parameter(
-            "economical.spends", within(100 * newton, 550 * newton)
+            "economical.spends", within(100 * newton, 550 * newton), unit=Unit("newton", newton)
         )
         self.economical = self.argument(
             "economical", Habits(pace=8 * mps, spends=self.economical_spends)
         )
-        self.fast_pace = self.parameter("fast.pace", within(14 * mps, 15 * mps))
+        self.fast_pace = self.parameter("fast.pace", within(14 * mps, 15 * mps), unit="mps")
         self.fast = self.argument("fast", Habits(pace=self.fast_pace))
-        self.commute_top = self.parameter("commute.top", within(8 * mps, 15 * mps))
+        self.ego_commute_top = self.parameter(
+            "ego.commute.top", within(8 * mps, 15 * mps), unit="mps"
+        )
 
         self.keep(self.fast.pace > 14 * mps)
         self.keep(self.fast.pace < 15 * mps)
-        self.keep(self.commute_top > self.economical.pace)
-        self.keep(self.commute_top < self.fast.pace)
+        self.keep(self.ego_commute_top > self.economical.pace)
+        self.keep(self.ego_commute_top < self.fast.pace)
 
     def behavior(self) -> Behaviour:
         return Serial(
             "extensions",
-            self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.commute_top),
+            self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.ego_commute_top),
             self.invoke(Commute, actor=self.ego, habit=self.fast, known_as="commute_2"),
             Wait(
                 lambda: self.economical.is_thrifty()

@@ -126,7 +126,7 @@ class Fields(Scenario):
             self.van.bounding_box.width < 2.5 * m
             and self.load.trailer_category == "central_axle_trailer",
         )
-        self.hard = self.parameter("hard", self.push.norm())
+        self.hard = self.parameter("hard", self.push.norm(), unit="mpss")
         self.steered = self.parameter(
             "steered", sum(it.max_steering > 0 * deg for it in self.van.axles)
         )

@@ -37,7 +37,7 @@ class Approach(Scenario):
         """Cast, events and values."""
         self.actor = self.cast("actor", Vehicle())
         self.lead = self.cast("lead", Vehicle())
-        self.gap = self.parameter("gap", within(10 * m, 30 * m))
+        self.gap = self.parameter("gap", within(10 * m, 30 * m), unit="m")
         self.near = Event(
             rise(
                 lambda: self.actor.object_distance(reference=self.lead, direction="euclidean")

@@ -27,7 +27,7 @@ class Methods(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         # Holds in all scenarios of a run
-        self.limit = self.global_parameter("limit", 50 * kph)
+        self.limit = self.global_parameter("limit", 50 * kph, unit="kph")
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())

@@ -10,6 +10,7 @@ from osc2tx_runtime import (
     Parallel,
     Scenario,
     Serial,
+    Unit,
     Vehicle,
     main,
     require_api,
@@ -34,8 +35,8 @@ class EventScenario(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.lambda_ = self.cast("lambda", Vehicle())
         self.place_ = self.cast("place", Vehicle())
-        self.two_words = self.parameter("two words", 10 * kph)
-        self.name_ = self.parameter("name", 2 * furlong)
+        self.two_words = self.parameter("two words", 10 * kph, unit="kph")
+        self.name_ = self.parameter("name", 2 * furlong, unit=Unit("furlong", furlong))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

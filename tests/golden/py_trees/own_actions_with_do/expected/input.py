@@ -94,7 +94,7 @@ class Hurry(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.actor = self.cast("actor", Vehicle())
-        self.to = self.parameter("to", 15 * mps)
+        self.to = self.parameter("to", 15 * mps, unit="mps")
         self.done = Event()
 
     def behavior(self) -> Behaviour:
@@ -116,7 +116,7 @@ class Platoon(Scenario):
         """Cast, events and values."""
         self.first = self.cast("first", Vehicle())
         self.second = self.cast("second", Vehicle())
-        self.pace = self.required("pace", Speed)
+        self.pace = self.required("pace", Speed, unit="mps")
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

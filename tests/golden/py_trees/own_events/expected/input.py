@@ -48,7 +48,7 @@ class Step(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.actor = self.cast("actor", Vehicle())
-        self.pace = self.parameter("pace", within(5 * mps, 6 * mps))
+        self.pace = self.parameter("pace", within(5 * mps, 6 * mps), unit="mps")
         self.moving = Event(parameters={"at": None})
 
     def placement(self) -> None:
@@ -82,6 +82,7 @@ class WalkAround(Scenario):
 class OwnEvents(Scenario):
     name = "own_events"
     source = "input.osc"
+    is_main = True
 
     def declare(self) -> None:
         """Cast, events and values."""

@@ -93,7 +93,7 @@ class Top(Scenario):
 
     def declare(self) -> None:
         """Cast, events and values."""
-        self.limit = self.global_parameter("limit", 14 * mps)
+        self.limit = self.global_parameter("limit", 14 * mps, unit="mps")
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.other = self.cast("other", Vehicle())
         self.rentals = self.cast("rentals", Company(cars=[self.other]))

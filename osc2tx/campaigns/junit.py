@@ -1,0 +1,74 @@
+"""The rows of a campaign as JUnit XML: those that passed and each kind of failure are a suite."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree import ElementTree as etree
+
+from osc2tx.campaigns.summary import Results, Run, replay_command
+from osc2tx_text import visible
+
+__all__ = ["render_junit"]
+
+NOT_A_TEST = ("error", "crashed")  # rows that could not be judged
+
+
+def render_junit(results: Results) -> str:
+    """Return the document."""
+    name = results.identity["scenario"]
+    failed = {number for group in results.failures for number in group.rows}
+    passed = [run for run in results.runs if run["number"] not in failed]
+    by_number = {run["number"]: run for run in results.runs}
+    root = etree.Element("testsuites", _counts(name, results.runs))
+    _suite(root, results, f"{name}: success", passed)
+    for group in results.failures:
+        rows = [by_number[number] for number in group.rows]
+        title = ": ".join(filter(None, (name, group.status, group.source, group.reason)))
+        _suite(root, results, title, rows)
+    etree.indent(root)
+    text = etree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _counts(name: str, runs: Sequence[Run]) -> dict[str, str]:
+    errors = sum(run["status"] in NOT_A_TEST for run in runs)
+    bad = sum(run["status"] != "success" for run in runs)
+    return {
+        "name": visible(name),
+        "tests": str(len(runs)),
+        "failures": str(bad - errors),
+        "errors": str(errors),
+        "time": f"{sum(run['seconds'] for run in runs):.3f}",
+    }
+
+
+def _suite(root: etree.Element, results: Results, name: str, runs: Sequence[Run]) -> None:
+    if not runs:
+        return
+    suite = etree.SubElement(root, "testsuite", _counts(name, runs))
+    for run in runs:
+        case = etree.SubElement(
+            suite,
+            "testcase",
+            {
+                "classname": visible(results.identity["scenario"]),
+                "name": f"row {run['number']}",
+                "time": f"{run['seconds']:.3f}",
+            },
+        )
+        if run["status"] == "success":
+            continue
+        kind = "error" if run["status"] in NOT_A_TEST else "failure"
+        found = etree.SubElement(
+            case, kind, {"type": run["status"], "message": visible(run["reason"])}
+        )
+        values = "\n".join(f"{key} = {value}" for key, value in run["parameters"].items())
+        place = f"\n{run['source']}" if run["source"] else ""
+        found.text = visible_lines(
+            f"{replay_command(results.place, run['number'])}{place}\n{values}"
+        )
+
+
+def visible_lines(text: str) -> str:
+    """Return text without what XML cannot say, its lines kept."""
+    return "\n".join(map(visible, text.splitlines()))
