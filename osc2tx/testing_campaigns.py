@@ -162,7 +162,7 @@ def plan_of(
     """Compile a scenario; return what its rows have in common, and the options as written."""
     from osc2tx.building.jobs import compile_all
     from osc2tx.cli.module_loading import module_files, written_files
-    from osc2tx.cli.run import merge_texts, only_one_to_run, settings_from
+    from osc2tx.cli.run import merge_texts, settings_from
     from osc2tx.compilation.inputs import find_inputs
     from osc2tx.compilation.needed_modules import sibling_modules
     from osc2tx.config import ConfigFiles, GivenOptions
@@ -179,7 +179,6 @@ def plan_of(
         made = compilation.module
         assert made is not None, render_all(compilation.diagnostics) or f"{path} has no scenario"
         files, module = module_files(made, sibling_modules(compilation))
-        scenario = scenario or only_one_to_run(compilation)
     loaded = Modules(files)
     try:
         name = choose_scenario(tuple(loaded.load(module).values()), scenario).name

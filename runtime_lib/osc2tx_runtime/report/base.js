@@ -33,12 +33,12 @@ function format(value, digits) {
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
 }
 
-/** Parameters in the units in which the scenario speaks of them: `v_hero = 60 kph`. */
+/** Parameters in the units of the scenario: `v_hero = 60 kph`. A trace has nine digits, so seven hold. */
 function parametersText({ parameters, units }) {
   const shown = ([name, value]) => {
     const unit = (units || {})[name];
     if (!unit || typeof value !== "number" || !unit.factor) return `${name} = ${value}`;
-    return `${name} = ${Number(((value - unit.offset) / unit.factor).toPrecision(9))} ${unit.name}`;
+    return `${name} = ${Number(((value - unit.offset) / unit.factor).toPrecision(7))} ${unit.name}`;
   };
   return Object.entries(parameters || {}).map(shown).join(", ");
 }

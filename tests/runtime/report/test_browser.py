@@ -133,6 +133,17 @@ def test_hostile_names_do_nothing(open_report, hostile, highway_map) -> None:
     assert open_report(hostile, highway_map, "#t=3.5") == {"ready": "true"}
 
 
+def test_parameters_have_the_units_of_the_scenario(open_report) -> None:
+    """Also where the nine digits of a trace are a little off: 16.6666667 m/s are 60 kph."""
+    values = '{"v": 16.6666667, "warm": 293.15, "count": 2, "odd": 3}'
+    kph, celsius = '{"name": "kph", "factor": 0.277777778, "offset": 0}', '"C", "factor": 1'
+    units = f'{{"v": {kph}, "warm": {{"name": {celsius}, "offset": 273.15}}, "odd": 1}}'
+    header = f'{{"kind": "header", "parameters": {values}, "units": {units}}}'
+    shown = "document.documentElement.dataset.shown = parametersText(RUNS[0].header)"
+    found = open_report([header], driver=f"<script>{shown}</script>")
+    assert found == {"ready": "true", "shown": "v = 60 kph, warm = 20 C, count = 2, odd = 3"}
+
+
 @pytest.mark.parametrize(
     "lines",
     [
