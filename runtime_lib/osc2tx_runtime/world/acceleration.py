@@ -9,7 +9,7 @@ from .protocol import PENDING, REACHED, Progress
 from .state import ActorState
 from .step_inputs import StepInputs
 
-__all__ = ["AccelerationRun", "ConstantAcceleration", "acceleration_profile"]
+__all__ = ["AccelerationRun", "AssignedSpeed", "ConstantAcceleration", "acceleration_profile"]
 
 
 class ConstantAcceleration:
@@ -31,6 +31,13 @@ class ConstantAcceleration:
     def progress(self) -> Progress:
         """Never done: there is no goal."""
         return PENDING
+
+
+class AssignedSpeed(ConstantAcceleration):
+    """A speed that it has at one instant: of what follows nothing is said."""
+
+    def __init__(self, speed: float) -> None:
+        super().__init__(0.0, speed)
 
 
 def acceleration_profile(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from osc2tx_runtime.opendrive import Pose, RoadMap
 
-from .acceleration import ConstantAcceleration
+from .acceleration import AssignedSpeed, ConstantAcceleration
 from .actor_step import ANY_LANE, CRUISE, MovingActor, cruise_of
 from .attitude_control import Turning
 from .collision_avoidance import Cautious
@@ -111,8 +111,9 @@ class CommandedActor(MovingActor):
         """
         self.steady = False
         self._open.forget()
-        drives = speed > 0.0 and acceleration == 0.0
-        self._speed = None if drives else ConstantAcceleration(acceleration, speed)
+        self._speed = (
+            ConstantAcceleration(acceleration, speed) if acceleration else AssignedSpeed(speed)
+        )
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""

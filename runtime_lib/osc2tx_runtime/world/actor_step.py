@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from osc2tx_runtime.opendrive import DRIVING, LaneCursor, LanePosition, Pose, RoadMap, Route
 
+from .acceleration import AssignedSpeed
 from .actor_dimensions import TYRES, Limits
 from .attitude import LEVEL, Tilt, tilt_on
 from .attitude_control import Turning
@@ -127,7 +128,10 @@ class MovingActor:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
         run = self._stopping or self._speed
-        speed = self._unsaid(inputs) if run is None else run.speed_after(state, inputs)
+        if run is None or isinstance(run, AssignedSpeed):
+            speed = self._unsaid(inputs)
+        else:
+            speed = run.speed_after(state, inputs)
         path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.road != "dry":
             way = curvature_ahead(road_map, self.bound, self.route)
