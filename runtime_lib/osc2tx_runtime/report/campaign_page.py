@@ -12,7 +12,7 @@ def render_campaign(data: Json) -> str:
     """Return the page as text; the same data give the same text.
 
     Args:
-        data: What `osc2tx.campaigns.report_data` gives: a summary, coverage, and columns of rows.
+        data: A summary, coverage, and columns of rows, as `osc2tx campaign report` collects them.
     """
     script = "\n".join(resource(name) for name in ("base.js", "campaign.js", "parallel.js"))
     style = "\n".join(resource(name) for name in ("report.css", "campaign.css"))
