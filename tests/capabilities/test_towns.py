@@ -39,8 +39,11 @@ ROWS = [
             "C22_lateral_speeds C24_temporal_modifiers C25_relative_modifiers C31_overlaps "
             "C37_rise "
         ),
-        "hills": ("C03_composition C06_speed_control C13_careful_following C21_distance "),
-        "motorway": ("C01_action_lifecycle C16_fog C31_parallel C38_fall "),
+        "hills": (
+            "C01_action_lifecycle C03_composition C06_speed_control C13_careful_following "
+            "C21_distance "
+        ),
+        "motorway": ("C16_fog C31_parallel C38_fall "),
     }.items()
     for name in names.split()
 ]

@@ -52,7 +52,7 @@ def test_a_life(stand_in: StandInProcess) -> None:
     steps = names[spawns[-1] + 1 : end]
     ticks = [i for i, name in enumerate(steps) if name == "tick_cue"]
     batches = [i for i, name in enumerate(steps) if name == "apply_batch"]
-    assert len(ticks) == 296 + 2  # one to begin with, one that destroys
+    assert len(ticks) == 431 + 2  # one to begin with, one that destroys
     assert all(steps[i - 1] == "apply_batch" for i in ticks)
     assert len(commands(calls, 1)) == 2 and batches[-1] == ticks[-1] - 1
 
@@ -70,7 +70,7 @@ def test_places_are_left_handed(stand_in: StandInProcess) -> None:
 def test_physics_is_off_where_places_are_written(stand_in: StandInProcess) -> None:
     exact, driven = (calls_of(stand_in, "cut_in", control) for control in ("exact", "driven"))
     assert [enabled for _, enabled in commands(exact, 14)] == [False, False]
-    assert commands(driven, 14) == [] and len(commands(driven, 2)) >= 2 * 296
+    assert commands(driven, 14) == [] and len(commands(driven, 2)) >= 2 * 431
 
 
 def test_pedals_are_pressed_one_at_a_time(stand_in: StandInProcess) -> None:

@@ -137,7 +137,7 @@ def no_such_name() -> None:
 def sampled() -> Behaviour:
     variable = Sampled(broken, elapsed(0.1), 0)
     variable.name = "v"
-    return Parallel("p", Sampling([variable]), Wait(elapsed(1.0)))
+    return Parallel("p", Sampling([variable], Wait(elapsed(1.0))), Wait(elapsed(1.0)))
 
 
 @pytest.mark.parametrize(

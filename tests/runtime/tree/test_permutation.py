@@ -201,8 +201,9 @@ def hash_path(path: str) -> int:
 
 def run(spec: Spec, shuffle: random.Random | None) -> tuple[list[str], list[object], Run]:
     builder = Builder(shuffle)
+    tree = builder.build(spec, "r")
     result = Run(
-        Parallel("all", builder.build(spec, "r"), Sampling(builder.sampled)),
+        Parallel("all", tree, Sampling(builder.sampled, tree)),
         world=builder.world,
         events=builder.events,
         label_events=builder.labels,

@@ -35,7 +35,7 @@ scenario measured:
             car.drive() with:
                 lane(1, at: start)
                 position(50m, at: start)
-                speed(20mps)
+                speed({speed})
                 until {condition}
             {then}
 """
@@ -50,9 +50,10 @@ def emitted(
     road: str = "highway",
     yaw: str = "30deg",
     then: str = "car.drive(duration: 1s)",
+    speed: str = "20mps",
 ) -> XmlScenario:
     path = folder / "a.osc"
-    text = SOURCE.format(condition=condition, map=road, yaw=yaw, then=then)
+    text = SOURCE.format(condition=condition, map=road, yaw=yaw, then=then, speed=speed)
     path.write_text(text, encoding="utf-8")
     xml = XmlOptions(version=version)
     compilation = Compilation(path, path.name, CompileOptions(target="xosc", xml=xml))
@@ -108,7 +109,8 @@ def test_who_turns_later_has_no_known_side(tmp_path: Path) -> None:
 @pytest.mark.parametrize("version", ["1.0", "1.1", "1.3"])
 def test_coordinates_of_the_only_road(version: XmlVersion, tmp_path: Path) -> None:
     asked = "rise(car.get_s_coord() > 90m)"
-    condition = condition_of(emitted(tmp_path, asked, version, road="curve"), "DistanceCondition")
+    found = emitted(tmp_path, asked, version, road="curve", speed="10mps")  # none too fast for it
+    condition = condition_of(found, "DistanceCondition")
     assert (condition.get("value"), condition.get("rule")) == ("90", "greaterThan")
     position = condition.find("Position/RoadPosition")
     assert position is not None and (position.get("s"), position.get("t")) == ("0", "0")
