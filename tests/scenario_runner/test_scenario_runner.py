@@ -55,11 +55,11 @@ def play(document: str, folder: Path, port: int) -> Played:
 def test_events_and_end_are_those_of_the_world(name: str, tmp_path: Path) -> None:
     from tests.carla.stand_in.process import StandInProcess
 
-    path, bound = SCENARIOS / f"{name}.osc", BOUNDS[name]
+    (path,), bound = SCENARIOS.rglob(f"{name}.osc"), BOUNDS[name]
     (document,) = documents(compiled(path, PLAIN), READ_BY_IT)
     assert document.xml is not None, document.report.obstacles
     settings = RunSettings(dt=STEP, set=bound.get("values", {}))
-    expected = replace(world(path, name, settings, PLAIN), track={})
+    expected = replace(world(path, document.name, settings, PLAIN), track={})
     for each in SHIPPED.glob("*.xodr"):
         shutil.copy(each, tmp_path)
     with StandInProcess([SHIPPED], "crossing") as server:
