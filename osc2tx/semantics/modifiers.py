@@ -221,10 +221,8 @@ def instead_of_scenario(invoked: Symbol | None, name: str, written: str) -> str 
     )
 
 
-def _receiver(modifier: ModifierSymbol, name: ast.Name, owner: TypeSymbol | None) -> str:
+def _receiver(wanted: ActorSymbol, name: ast.Name, owner: TypeSymbol | None) -> str:
     """Say of which actor a modifier may be applied."""
-    wanted = modifier.actor
-    assert wanted is not None
     fields = [
         member.name
         for member in (() if owner is None else owner.members.values())
@@ -260,18 +258,19 @@ def _report_misfit(
                 labels=declared_here(modifier),
             )
             return
-    wanted = modifier.actor.name if modifier.actor else "?"
+    if modifier.actor is None:  # what it modifies is unknown, which has been reported
+        return
     if actor is None:
         r.report(
             "OSC407",
             name.span,
             f"modifier `{modifier.qualified_name}` needs an actor",
-            help=_receiver(modifier, name, owner),
+            help=_receiver(modifier.actor, name, owner),
         )
         return
     r.report(
         "OSC406",
         name.span,
-        f"modifier `{name}` belongs to `{wanted}`, not to `{actor.name}`",
+        f"modifier `{name}` belongs to `{modifier.actor.name}`, not to `{actor.name}`",
         labels=declared_here(modifier),
     )

@@ -238,3 +238,10 @@ scenario kept:
     speeds = [run(scenario, RunSettings(seed=s)).state("ego", 0.5)["v"] for s in range(6)]
     assert len(set(speeds)) == 6
     assert all(40 * KPH <= v <= 50 * KPH + 1e-6 for v in speeds)
+
+
+def test_an_element_that_is_not_there(drive: Callable[..., Trace]) -> None:
+    members = "v: speed = 36kph\nlanes: list of int\nkeep(lanes[1] > 2)\nkeep(lanes[0] == 31)"
+    with pytest.raises(ScenarioError, match=r"lanes\[1\]. cannot be computed: .* index") as e:
+        drive(members)
+    assert e.value.source == "case.osc:11"

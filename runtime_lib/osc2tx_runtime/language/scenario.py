@@ -13,7 +13,7 @@ from osc2tx_runtime.language.scenario_parts import Caller, ScenarioParts
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements, number_nodes
 from osc2tx_runtime.language.tree.base import Behaviour, split_label
-from osc2tx_runtime.language.tree.broken_values import not_computed
+from osc2tx_runtime.language.tree.broken_values import NO_RESULT, not_computed
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger
 from osc2tx_runtime.language.tree.invocation import (
@@ -244,7 +244,7 @@ class BaseScenario(ScenarioParts):
         """Call a method of the generated class; a value without result is an error of it."""
         try:
             return method()
-        except ArithmeticError as error:
+        except NO_RESULT as error:
             raise not_computed(error, self._source_map, 0) from error
 
     if not TYPE_CHECKING:  # so that type checkers still know which attributes there are

@@ -10,7 +10,13 @@ from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.source_map import SourceMap
-from osc2tx_runtime.language.tree.broken_values import NotKeptError, not_computed, not_kept
+from osc2tx_runtime.language.tree.broken_values import (
+    NO_RESULT,
+    NoResult,
+    NotKeptError,
+    not_computed,
+    not_kept,
+)
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 from osc2tx_runtime.language.tree.walks import Draws, Walk
@@ -69,7 +75,7 @@ class ScenarioValues:
         self.has_drawn_values = False
         self._draws = False  # whether a value was drawn, so that another draw may help
         self._kept = 0
-        self._broken: ArithmeticError | NotKeptError | None = None  # by the last draw
+        self._broken: NoResult | NotKeptError | None = None  # by the last draw
         self._walk: Walk | None = None  # after that many draws in vain
         self._items: dict[str, CoverageItem] = {}
 
@@ -254,7 +260,7 @@ class ScenarioValues:
             self._kept, self._draws = 0, False
             try:
                 declare()
-            except (ArithmeticError, NotKeptError) as error:
+            except (*NO_RESULT, NotKeptError) as error:
                 self._broken = error
                 return self._kept
             return None

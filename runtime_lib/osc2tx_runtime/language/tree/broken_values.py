@@ -11,7 +11,12 @@ from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.module_text import failing_part
 from osc2tx_runtime.language.tree.written_units import Unit, shown_value
 
-__all__ = ["NotKeptError", "not_computed", "not_kept"]
+__all__ = ["NO_RESULT", "NoResult", "NotKeptError", "not_computed", "not_kept"]
+
+NoResult = ArithmeticError | IndexError
+"""What an expression raises that has no result: a division by zero, no such element."""
+
+NO_RESULT = (ArithmeticError, IndexError)
 
 
 class NotKeptError(Exception):
@@ -49,7 +54,7 @@ def not_kept(
 
 
 def not_computed(
-    error: ArithmeticError, source_map: SourceMap, kept: int, tried: str = ""
+    error: NoResult, source_map: SourceMap, kept: int, tried: str = ""
 ) -> ScenarioError:
     """Return what to say of a value that has no result.
 
