@@ -242,6 +242,5 @@ scenario kept:
 
 def test_an_element_that_is_not_there(drive: Callable[..., Trace]) -> None:
     members = "v: speed = 36kph\nlanes: list of int\nkeep(lanes[1] > 2)\nkeep(lanes[0] == 31)"
-    with pytest.raises(ScenarioError, match=r"lanes\[1\]. cannot be computed: .* index") as e:
+    with pytest.raises(ScenarioError, match=r"lanes\[1\]. cannot be computed: .* index"):
         drive(members)
-    assert e.value.source == "case.osc:11"
