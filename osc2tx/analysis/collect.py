@@ -21,8 +21,8 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Op = ast.BinaryOperator
 

@@ -37,8 +37,8 @@ from osc2tx.analysis.specialisation import (
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 MOST_CONFLICTS = 10  # reported for one type
 

@@ -11,7 +11,7 @@ import math
 from dataclasses import replace
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 Number: TypeAlias = int | float
 Value: TypeAlias = int | float | bool | str

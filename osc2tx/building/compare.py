@@ -13,7 +13,7 @@ from osc2tx.building.revision import checked_out
 from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx.compilation.inputs import find_inputs
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 from osc2tx_text import visible
 
 if TYPE_CHECKING:

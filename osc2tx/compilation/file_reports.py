@@ -12,7 +12,7 @@ from typing import Protocol
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.diagnostics.suppressions import Suppression, SuppressionResult, settle
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 class Reportable(Protocol):

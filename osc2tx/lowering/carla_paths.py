@@ -14,8 +14,8 @@ from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.modifiers import lower_modifier
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 TYPE = "Path"
 MAP_MODIFIER = "set_map"

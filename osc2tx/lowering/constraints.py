@@ -26,8 +26,8 @@ from osc2tx.lowering.parameter_domains import DomainWriter, all_values, as_type,
 from osc2tx.lowering.parameter_settings import Instance, Setting, is_known_here, is_last
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(slots=True)

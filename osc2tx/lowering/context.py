@@ -24,8 +24,8 @@ from osc2tx.semantics.symbols import (
     Symbol,
     TypeSymbol,
 )
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Part = TypeVar("Part")
 

@@ -19,9 +19,9 @@ from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
 from osc2tx.semantics.type_names import tell_types_apart
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(slots=True, eq=False)

@@ -23,8 +23,8 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import Dimension, PhysicalType
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 NULL = "null"
 

@@ -16,7 +16,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 from osc2tx.backends.py_trees.type_table import ROOT
 from osc2tx.catalogue import ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

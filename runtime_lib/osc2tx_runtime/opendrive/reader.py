@@ -7,10 +7,11 @@ real maps carry junk there. `geoReference` is kept as it is until somebody asks 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from lxml import etree
+
+from osc2tx_classes import dataclass
 
 from .crosswalks import Crosswalk, read_crosswalks
 from .errors import MapError

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
+
+from osc2tx_classes import dataclass
 
 from .lane_advance import wrap
 from .model import DRIVING, Lane, Pose, Road

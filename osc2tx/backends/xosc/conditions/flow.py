@@ -11,7 +11,7 @@ from itertools import product
 from typing import Literal, TypeAlias
 
 from osc2tx.backends.xosc.xml.tree import Element, element
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 ElementKind: TypeAlias = Literal["act", "action", "event", "maneuver", "maneuverGroup", "story"]
 Edge: TypeAlias = Literal["none", "rising", "falling"]

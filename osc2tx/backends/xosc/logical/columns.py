@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, element_type
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.options import XmlVersion
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 MOST_COLUMNS = 60
 """Attributes that follow from parameters; a table with more is no help to anyone."""

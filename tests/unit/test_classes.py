@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx.support.light_dataclass import dataclass as light
+from osc2tx_classes import dataclass as light
 
 Decorator = Callable[..., Any]
 
@@ -132,3 +132,37 @@ def test_patterns() -> None:
 def test_what_is_not_supported_is_refused() -> None:
     with pytest.raises(TypeError):
         light(order=True)
+
+
+KINDS = (dataclasses.dataclass, light)
+
+
+@pytest.mark.parametrize("base_frozen", [True, False])
+@pytest.mark.parametrize("frozen", [True, False])
+@pytest.mark.parametrize("outer", KINDS)
+@pytest.mark.parametrize("inner", KINDS)
+def test_one_kind_inherits_from_the_other(
+    inner: Decorator, outer: Decorator, frozen: bool, base_frozen: bool
+) -> None:
+    """As within the standard library: frozen classes inherit from frozen ones only."""
+
+    @inner(frozen=base_frozen, slots=True)
+    class Base:
+        x: int
+
+    def derive() -> Any:
+        @outer(frozen=frozen, slots=True)
+        class Derived(Base):
+            y: int = 2
+
+        return Derived
+
+    if frozen != base_frozen:
+        with pytest.raises(TypeError, match="cannot inherit"):
+            derive()
+        return
+    made = derive()(1)
+    assert made == type(made)(1, 2) and (made.x, made.y) == (1, 2)
+    changed = outcome(lambda: setattr(made, "x", 5))
+    assert changed is (FrozenInstanceError if frozen else None)
+    assert Base.__dataclass_params__.frozen is base_frozen  # type: ignore[attr-defined]

@@ -1,12 +1,12 @@
 """`dataclass` as of the standard library, but cheap to declare and quicker to construct.
 
 The decorator of the standard library writes and compiles six methods for each class when its module
-is imported: a third of a millisecond each, and osc2tx has three hundred classes, of which a run
-needs a few. Here a constructor is compiled when it is first called, and the others are shared by
+is imported: a third of a millisecond each. osc2tx has three hundred classes and its runtime two
+hundred, of which a run needs a few. Here a constructor is compiled when it is first called, and the others are shared by
 all classes. Constructors of frozen classes fill the slots directly, in half the time.
 
-Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance, pickling,
-`FrozenInstanceError`. Type checkers see the decorator of the standard library. Supported options
+Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance from either kind,
+pickling, `FrozenInstanceError`. Type checkers see the decorator of the standard library. Supported options
 are those in the signature; `field(init=…, repr=…, hash=…, compare=…)` is, `InitVar` is not.
 """
 
@@ -31,10 +31,9 @@ else:
             raise TypeError("no ordered dataclasses here")
 
         def decorate(cls):
-            bare = {"init": False, "repr": False, "eq": False}
             if cls.__doc__ is None:
                 cls.__doc__ = cls.__qualname__  # else it would be the signature, which is slow
-            made = dataclasses.dataclass(cls, slots=slots, kw_only=kw_only, **bare)
+            made = _bare(cls, frozen, slots, kw_only)
             methods = {"__init__": _init_first}
             if repr:
                 methods["__repr__"] = _repr
@@ -54,6 +53,30 @@ else:
             return made
 
         return decorate if cls is None else decorate(cls)
+
+
+def _bare(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> Any:
+    """Return the class with its fields and slots, and without methods.
+
+    Asked for a frozen class, the standard library would compile two methods. So it is asked for
+    another, and meanwhile the bases must not be frozen either.
+    """
+    bases = [base for base in cls.__mro__[1:] if "__dataclass_params__" in base.__dict__]
+    states = [base.__dataclass_params__.frozen for base in bases]
+    if bases and any(states) != frozen:
+        kinds = ("frozen", "non-frozen") if frozen else ("non-frozen", "frozen")
+        raise TypeError("cannot inherit {} dataclass from a {} one".format(*kinds))
+    try:
+        for base in bases:
+            base.__dataclass_params__.frozen = False
+        made: Any = dataclasses.dataclass(
+            cls, init=False, repr=False, eq=False, slots=slots, kw_only=kw_only
+        )
+    finally:
+        for base, state in zip(bases, states, strict=True):
+            base.__dataclass_params__.frozen = state
+    made.__dataclass_params__.frozen = frozen
+    return made
 
 
 def _init_first(self: Any, /, *positional: object, **named: object) -> None:
