@@ -2,12 +2,14 @@
 
 The decorator of the standard library writes and compiles six methods for each class when its module
 is imported: a third of a millisecond each. osc2tx has three hundred classes and its runtime two
-hundred, of which a run needs a few. Here a constructor is compiled when it is first called, and the others are shared by
-all classes. Constructors of frozen classes fill the slots directly, in half the time.
+hundred, of which a run needs a few. Here a constructor is compiled when it is first called, and the
+others are shared by all classes. Constructors of frozen classes fill the slots directly, in half
+the time.
 
-Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance from either kind,
-pickling, `FrozenInstanceError`. Type checkers see the decorator of the standard library. Supported options
-are those in the signature; `field(init=…, repr=…, hash=…, compare=…)` is, `InitVar` is not.
+Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance from classes of
+either kind, pickling, `FrozenInstanceError`. Type checkers see the decorator of the standard
+library. Supported options are those in the signature; `field(init=…, repr=…, hash=…, compare=…)`
+is, `InitVar` is not.
 """
 
 from __future__ import annotations

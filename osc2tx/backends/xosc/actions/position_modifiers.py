@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.gap_elements import Gap, hold, missing_at_start
@@ -16,6 +16,7 @@ from osc2tx.backends.xosc.facts.actors import Linear
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_classes import dataclass
 
 
 @modifier("position")
