@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from typing import TypeVar
 
 from osc2tx import ir
@@ -25,7 +25,7 @@ from osc2tx.semantics.symbols import (
     TypeSymbol,
 )
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_classes import dataclass, replace
 
 Part = TypeVar("Part")
 

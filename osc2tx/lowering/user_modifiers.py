@@ -6,8 +6,6 @@ of its body then belong to the invocation like any others.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
 from osc2tx.analysis.parameter_lookup import Place
@@ -24,7 +22,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.modifiers import instead_of_scenario
 from osc2tx.semantics.scope import is_subtype
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_classes import dataclass, replace
 
 # Members by which a modifier changes something.
 EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)

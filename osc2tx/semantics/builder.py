@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import ChainMap
 from dataclasses import field
 
 from osc2tx.diagnostics import DiagnosticSink, Span
@@ -138,10 +137,10 @@ def _model(
         files=files,
         scenarios=scenarios,
         actions=actions,
-        types=ChainMap(r.types, below.types),
-        references=ChainMap(r.references, below.references),
-        bindings=ChainMap(r.bindings, below.bindings),
-        units=ChainMap(r.units, below.units),
+        types={**below.types, **r.types},
+        references={**below.references, **r.references},
+        bindings={**below.bindings, **r.bindings},
+        units={**below.units, **r.units},
         quantities=r.quantities,
         symbols=tuple(r.scope.declared),
         known_units=tuple(r.scope.all_units()),
