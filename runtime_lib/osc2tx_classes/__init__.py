@@ -36,7 +36,7 @@ else:
             if cls.__doc__ is None:
                 cls.__doc__ = cls.__qualname__  # else it would be the signature, which is slow
             made = _bare(cls, frozen, slots, kw_only)
-            methods = {"__init__": _init_first}
+            methods = {"__init__": _init_first, "__signature__": _Signature()}
             if repr:
                 methods["__repr__"] = _repr
             if eq:
@@ -68,10 +68,8 @@ _READERS: dict[type, Any] = {}
 
 
 def _reader(cls: Any) -> Any:
-    fields = dataclasses.fields(cls)
-    if not all(field.init for field in fields):
-        raise TypeError(f"{cls.__qualname__} has fields that its constructor does not take")
-    names = ", ".join(f"{field.name!r}: instance.{field.name}" for field in fields)
+    given = [field.name for field in dataclasses.fields(cls) if field.init]
+    names = ", ".join(f"{name!r}: instance.{name}" for name in given)
     _READERS[cls] = eval(f"lambda instance: {{{names}}}")
     return _READERS[cls]
 
@@ -100,9 +98,27 @@ def _bare(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> Any:
     return made
 
 
+class _Signature:
+    """What `inspect.signature` of a class reads."""
+
+    def __get__(self, instance: object, cls: Any) -> Any:
+        from inspect import signature  # loaded by few
+
+        if cls.__init__ is _init_first:
+            owner = _owner(cls)
+            owner.__init__ = _constructor(owner)
+        found = signature(cls.__init__)
+        return found.replace(parameters=list(found.parameters.values())[1:])
+
+
+def _owner(cls: Any) -> Any:
+    """Return the class of which one has the constructor that is not compiled yet."""
+    return next(each for each in cls.__mro__ if each.__dict__.get("__init__") is _init_first)
+
+
 def _init_first(self: Any, /, *positional: object, **named: object) -> None:
     """Compile the constructor of a class, and from then on use it."""
-    cls: Any = next(c for c in type(self).__mro__ if c.__dict__.get("__init__") is _init_first)
+    cls = _owner(type(self))
     constructor = cls.__init__ = _constructor(cls)
     constructor(self, *positional, **named)
 
