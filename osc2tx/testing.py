@@ -208,7 +208,7 @@ def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.building.jobs import compile_all
     from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
     from osc2tx.compilation.inputs import find_inputs
-    from osc2tx.compilation.needed_modules import sibling_drafts
+    from osc2tx.compilation.needed_modules import sibling_modules
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all
 
@@ -218,7 +218,7 @@ def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
             yield scenarios
         return
     (compilation,) = compile_all([path], GivenOptions())
-    module = compilation.draft
+    module = compilation.module
     assert module is not None, render_all(compilation.diagnostics) or f"{path} has no scenario"
-    with scenarios_of_module(module, sibling_drafts(compilation)) as scenarios:
+    with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
         yield scenarios

@@ -14,7 +14,7 @@ from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
-from osc2tx.compilation.needed_modules import sibling_drafts
+from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.support.real_paths import real_path
 from osc2tx_classes import replace
@@ -116,16 +116,16 @@ def run(
 def _run_source(
     compilation: Compilation, wanted: str | None, settings: RunSettings, reporter: Reporter
 ) -> Exit:
-    bugs = run_all([compilation], lambda item: item.draft)
+    bugs = run_all([compilation], lambda item: item.module)
     code, _ = reporter.report([compilation], bugs)
     if code is not Exit.OK:
         return code
-    module = compilation.draft
+    module = compilation.module
     path = compilation.path
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
     try:
-        with scenarios_of_module(module, sibling_drafts(compilation)) as scenarios:
+        with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
             return _run_one_of(scenarios, path, wanted, settings, reporter)
     except ScenarioError as error:
         complain(error.report(str(path)))

@@ -11,7 +11,7 @@ from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.cli.run import choose_scenario
-from osc2tx.compilation.needed_modules import sibling_drafts
+from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.report.tree_pictures import tree_svg, tree_text
@@ -33,15 +33,15 @@ def tree(
     if reporter.form != "text":
         raise click.UsageError("the tree and --output-format both print to standard output")
     (compilation,) = compile_all([file], given)
-    bugs = run_all([compilation], lambda item: item.draft)
+    bugs = run_all([compilation], lambda item: item.module)
     code, _ = reporter.report([compilation], bugs)
     if code >= Exit.USAGE:
         return code
-    if compilation.draft is None:
+    if compilation.module is None:
         raise click.UsageError(f"{file} declares no scenario")
     place = str(file)
     try:
-        with scenarios_of_module(compilation.draft, sibling_drafts(compilation)) as scenarios:
+        with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
             chosen = choose_scenario(scenarios, scenario, file)
             place = chosen.source
             drawn = _FORMS[form](chosen().create_tree())

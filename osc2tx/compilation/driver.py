@@ -204,16 +204,6 @@ class Compilation:
         with room_for_trees():
             return emit(self.ir, self.sharing)
 
-    @cached_property
-    def draft(self) -> GeneratedModule | None:
-        """The Python module to run at once: the same, but not laid out for readers."""
-        if not self.has_module or self.ir is None:
-            return None
-        from osc2tx.backends.py_trees.emitter import draft
-
-        with room_for_trees():
-            return draft(self.ir, self.sharing)
-
     def alone(self, imported: SourceFile) -> Compilation:
         """Return the compilation of an imported file for itself, as a build compiles it."""
         if imported.name not in self.compiled_alone:
