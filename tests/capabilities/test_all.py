@@ -127,7 +127,7 @@ def departures(usual: Performance, other: Performance, late: float) -> list[str]
             away = math.dist((line["x"], line["y"]), (there["x"], there["y"]))
             if away > AWAY + late * fastest[line["actor"]]:
                 found.append(f"{line['actor']} at {line['t']:.2f} s: {away:.2f} m")
-    assert compared
+    assert compared or not fastest  # some are about lights only
     return found
 
 

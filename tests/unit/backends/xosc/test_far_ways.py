@@ -23,7 +23,8 @@ def off(*corners: tuple[float, float], aside: float = 0.0, smooth: bool = False)
     return off_the_line(points, line, start, 20.0, CAR, is_smooth=smooth, offsets=(0.0, 0.0))
 
 
-@pytest.mark.parametrize("far", [1000.0, 5000.0, 20000.0])
+@pytest.mark.slow
+@pytest.mark.parametrize("far", [1000.0, 20000.0])
 def test_the_length_of_straight_stretches_does_not_matter(far: float) -> None:
     bend = 150.0
     near = off((0.0, 0.0), (500.0, 0.0), (500.0 + bend, bend), (1000.0 + bend, bend))
@@ -36,6 +37,7 @@ def test_the_length_of_straight_stretches_does_not_matter(far: float) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("smooth", [False, True])
 def test_the_work_for_a_far_way_is_bounded(smooth: bool) -> None:
     def work(far: float) -> int:
