@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 
 from lxml import etree
@@ -196,8 +197,15 @@ def _plan_view(road: etree._Element, attributes: Attributes) -> ReferenceLine:
     pieces.sort(key=lambda piece: piece[0])
     kept = [piece for piece in pieces if piece[1].length > 0.0] or pieces[:1]
     end, length = kept[-1][0] + kept[-1][1].length, attributes.length(road, "length")
-    if abs(end - length) > ROUNDING:
+    if end - length > ROUNDING:
         attributes.remark(road, f"is {length:g} m long, its geometry {end:g} m")
+    for (start, segment), (following, _) in pairwise([*kept, (length, kept[-1][1])]):
+        end = start + segment.length
+        if following - end > ROUNDING:  # what a curve does beyond its end is nobody's intention
+            told = f"has no geometry from s = {end:g} m to {following:g} m: it goes straight on"
+            attributes.remark(road, told)
+            kept.append((end, Line(*segment.at(segment.length)[:3], following - end)))
+    kept.sort(key=lambda piece: piece[0])
     return ReferenceLine([piece[0] for piece in kept], [piece[1] for piece in kept])
 
 

@@ -117,10 +117,22 @@ def test_a_border_on_the_other_side(number: int, a: float) -> None:
 
 
 def test_a_road_that_is_longer_than_its_geometry() -> None:
-    road = make_map(road_text(shape("line", 90.0), 100.0))
-    (remark,) = road.remarks
-    assert remark == "line 1: `road` 1 is 100 m long, its geometry 90 m"
+    """Where there is no geometry the road is the tangent of what stands before."""
+    arc = '<geometry s="0" x="0" y="0" hdg="0" length="50"><arc curvature="0.02"/></geometry>'
+    road_map = make_map(road_text(arc, 100.0))
+    (remark,) = road_map.remarks
+    told = "has no geometry from s = 50 m to 100 m: it goes straight on"
+    assert remark == f"line 1: `road` 1 {told}"
+    x, y, h, curvature = road_map.roads["1"].reference.at(80.0)
+    assert (h, curvature) == (pytest.approx(1.0), 0.0)
+    assert x == pytest.approx(50.0 * math.sin(1.0) + 30.0 * math.cos(1.0))
+    assert y == pytest.approx(50.0 * (1.0 - math.cos(1.0)) + 30.0 * math.sin(1.0))
     assert not make_map(road_text(LINE, 100.0)).remarks
+
+
+def test_a_road_that_is_shorter_than_its_geometry() -> None:
+    (remark,) = make_map(road_text(LINE, 90.0)).remarks
+    assert remark == "line 1: `road` 1 is 90 m long, its geometry 100 m"
 
 
 def test_what_is_read_otherwise_than_it_is_meant_is_named() -> None:
