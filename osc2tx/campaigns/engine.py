@@ -21,7 +21,7 @@ from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.rows import CRASHED
 from osc2tx_runtime.campaigns.worker import Refused, work
 
-__all__ = ["Engine", "LocalEngine"]
+__all__ = ["Engine", "LocalEngine", "crashed"]
 
 ATTEMPTS = 2
 STARTS = 3  # of workers that end before they are ready, with no row done meanwhile
@@ -188,8 +188,7 @@ class _Pool:
         if tried < ATTEMPTS:
             self._suspects.append(row)
             return []
-        reason = f"the process of this row ended, {tried} times"
-        return [RowResult(row, {}, CRASHED, reason, attempts=tried)]
+        return [crashed(row, tried)]
 
     def _give_up(self, worker: _Worker) -> RowResult:
         worker.end()
@@ -203,6 +202,13 @@ class _Pool:
         """End all workers."""
         for worker in self._workers:
             worker.end()
+
+
+def crashed(row: Row, attempts: int) -> RowResult:
+    """Return what came of a row that ended its process each time, the same on all engines."""
+    return RowResult(
+        row, {}, CRASHED, "the process of this row ended, each time", attempts=attempts
+    )
 
 
 def _tried(result: RowResult, attempts: int) -> RowResult:

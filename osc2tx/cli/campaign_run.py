@@ -11,8 +11,9 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.workers import processors
 from osc2tx.campaigns import CampaignError
+from osc2tx.campaigns.cluster import DaskEngine
 from osc2tx.campaigns.driver import Progress, run_campaign
-from osc2tx.campaigns.engine import LocalEngine
+from osc2tx.campaigns.engine import Engine, LocalEngine
 from osc2tx.campaigns.samplers import SAMPLERS
 from osc2tx.campaigns.sampling import Wanted
 from osc2tx.campaigns.store import Store
@@ -95,6 +96,12 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
     help="Where the results are.  [default: SCENARIO.campaign]",
 )
 @click.option(
+    "--engine",
+    metavar="local|dask://HOST:PORT",
+    default="local",
+    help="Where rows are run: in processes here, or on a cluster of Dask.  [default: local]",
+)
+@click.option(
     "--workers",
     metavar="N",
     type=click.IntRange(min=1),
@@ -136,6 +143,7 @@ def run(
     sampler: str,
     levels: int,
     place: Path | None,
+    engine: str,
     workers: int | None,
     batch: int,
     timeout: float | None,
@@ -171,9 +179,9 @@ def run(
     measures = tuple(MEASURES) if not kpis else tuple(each for each in kpis if each != "none")
     plan = Plan(files, module, name, settings, measures, conditions, digests)
     wanted = Wanted(sampler, settings.seed, samples, levels)
-    engine = LocalEngine(workers or processors(), batch, timeout)
+    runs_rows = _engine(engine, workers, batch, timeout)
     try:
-        return _run(plan, texts, wanted, place or Path(f"{name}.campaign"), engine, reporter)
+        return _run(plan, texts, wanted, place or Path(f"{name}.campaign"), runs_rows, reporter)
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
     except ScenarioError as error:
@@ -181,8 +189,24 @@ def run(
         return Exit(error.exit_code)
 
 
+def _engine(name: str, workers: int | None, batch: int, timeout: float | None) -> Engine:
+    if name == "local":
+        return LocalEngine(workers or processors(), batch, timeout)
+    scheme, _, address = name.partition("://")
+    host, _, port = address.rpartition(":")
+    if scheme != "dask" or not host or not port.isdecimal():
+        raise click.UsageError(f"--engine {name}: there is local and dask://HOST:PORT")
+    for option, value in (("--workers", workers), ("--timeout", timeout)):
+        if value is not None:
+            raise click.UsageError(
+                f"{option} is for --engine local: a cluster has its own workers, and a row there"
+                " cannot be ended from here"
+            )
+    return DaskEngine(address, batch)
+
+
 def _run(
-    plan: Plan, texts: Texts, wanted: Wanted, place: Path, engine: LocalEngine, reporter: Reporter
+    plan: Plan, texts: Texts, wanted: Wanted, place: Path, engine: Engine, reporter: Reporter
 ) -> Exit:
     with Store(place, is_new=True) as store:
         wanted = _with_samples(wanted, store)

@@ -95,6 +95,7 @@ CAMPAIGN_SETTINGS = (
     Setting("fail-if", "A row fails also if this holds.", is_list=True),
     Setting("timeout", "Seconds by the clock that a row may take.", is_single=True),
     Setting("workers", "How many processes run rows.", is_single=True),
+    Setting("engine", "Where rows are run.", is_single=True),
     Setting("digests", "Make each trace, and store its digest.", is_flag=True),
 )
 TABLES = ("scenarios",)  # of tables, one for each scenario file

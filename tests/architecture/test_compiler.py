@@ -64,7 +64,8 @@ OTHERS = {
     "backends/xosc": {"osc2tx_text"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "backends/xosc/xml": {"lxml", "osc2tx_text"},
-    "campaigns": {"osc2tx_runtime", "osc2tx_text", "scipy"},  # rows are chosen here, run there
+    # rows are chosen here, run there
+    "campaigns": {"distributed", "osc2tx_runtime", "osc2tx_text", "scipy"},
     "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
     "testing_campaigns": {"osc2tx_runtime", "pytest"},
