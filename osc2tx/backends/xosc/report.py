@@ -11,7 +11,7 @@ from enum import Enum
 
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 class Grade(Enum):

@@ -7,8 +7,6 @@ the course is up to the tool anyway, a `SpeedAction` of the same length stands f
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx.backends.xosc.actions.leaf import Change, Course, Leaf
 from osc2tx.backends.xosc.actions.speed_notes import GENERIC, note_acceleration
 from osc2tx.backends.xosc.facts.actors import (
@@ -26,6 +24,7 @@ from osc2tx.backends.xosc.facts.actors import (
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""

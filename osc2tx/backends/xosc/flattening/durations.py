@@ -6,7 +6,6 @@ of a race that fails leaves it; elsewhere the scenario fails, which the verdict 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
@@ -17,6 +16,7 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_classes import replace
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
 
