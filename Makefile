@@ -74,6 +74,7 @@ docs-config: $(STAMP)
 
 coverage: $(STAMP)
 	$(BIN)/python tools/make_coverage.py
+	$(BIN)/python tools/make_reference.py
 
 parser: $(STAMP)
 	sh tools/make_parser.sh
@@ -87,6 +88,7 @@ tables: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/
 	$(BIN)/python tools/make_readme_example.py
 	$(BIN)/python tools/make_coverage.py
+	$(BIN)/python tools/make_reference.py
 
 $(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 import sys
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 REPOSITORY = Path(__file__).parent.parent
-sys.path.insert(0, str(REPOSITORY))
+sys.path[:0] = [str(REPOSITORY), str(Path(__file__).parent)]
+
+from site_pictures import picture  # noqa: E402
 
 from osc2tx.reference import Entry, as_markdown, entries  # noqa: E402
 
@@ -22,7 +23,6 @@ KINDS = {
     "enum": "Enums",
     "type": "Physical types",
 }
-LINES_AROUND = 3  # lines of a scenario that an example shows after the first use
 _CODE = re.compile(r"`((?:action|modifier|actor|struct|enum|type) )?([\w.]+)`")
 
 
@@ -42,19 +42,31 @@ def on_files(files: Any, config: Any, **_: Any) -> Any:
 
     pages = {_place(entry): page_of(entry) for entry in entries()}
     pages[f"{FOLDER}/index.md"] = index()
+    for entry in entries():
+        svg = picture(entry)
+        if svg is not None:
+            pages[_picture_of(entry)] = svg
+            pages[_place(entry)] = with_picture(pages[_place(entry)], entry)
     for place, text in pages.items():
         files.append(File.generated(config, place, content=text))
     return files
 
 
 def page_of(entry: Entry) -> str:
-    """Return the page of a declaration, with links to others and an example that a test runs."""
-    text = _linked(as_markdown(entry), entry)
-    found = example(entry)
-    if found is None:
-        return text
-    name, lines = found
-    return f"{text}\n## Example\n\nFrom `{name}`, which the tests run:\n\n```\n{lines}\n```\n"
+    """Return the page of a declaration, with links to others."""
+    return _linked(as_markdown(entry), entry)
+
+
+def with_picture(page: str, entry: Entry) -> str:
+    """Return the page with the picture of what its example does."""
+    said = f"What its example does ({Path(entry.shown.file).name})"
+    shown = f"![{said}](../pictures/{Path(_picture_of(entry)).name})"
+    head, example, tail = page.partition("\n## Example\n")
+    return f"{head}\n## Effect\n\n{shown}\n{example}{tail}"
+
+
+def _picture_of(entry: Entry) -> str:
+    return f"{FOLDER}/pictures/{entry.declaration.kind}-{entry.declaration.name}.svg"
 
 
 def index() -> str:
@@ -68,42 +80,6 @@ def index() -> str:
             rows.append(f"| {link} | {declaration.section} | {declaration.meaning} |")
         parts += [f"## {title}", "\n".join(rows)]
     return "\n\n".join(parts) + "\n"
-
-
-def example(entry: Entry) -> tuple[str, str] | None:
-    """Return the shortest scenario of the repository that uses an action or modifier.
-
-    Returns:
-        Its path and the lines around the first use; None if none uses it.
-    """
-    kind, own = entry.declaration.kind, entry.own_name
-    if kind not in ("action", "modifier"):
-        return None
-    before = r"\w\." if kind == "action" or "." in entry.declaration.name else r"(?<![\w.])"
-    use = re.compile(rf"{before}{own}\(")
-    for name, text in _scenarios():
-        lines = [line.partition("#")[0] for line in text.splitlines()]
-        number = next((i for i, line in enumerate(lines) if use.search(line)), None)
-        if number is not None:
-            first = max(number - (kind == "modifier") * 2, 0)
-            shown = text.splitlines()[first : number + 1 + LINES_AROUND]
-            return name, _dedented(shown)
-    return None
-
-
-@cache
-def _scenarios() -> tuple[tuple[str, str], ...]:
-    texts = [
-        (path.relative_to(REPOSITORY).as_posix(), path.read_text(encoding="utf-8"))
-        for path in sorted((REPOSITORY / "scenarios").rglob("*.osc"))
-        if path.stem != "hello_world"  # in the dialect of CARLA
-    ]
-    return tuple(sorted(texts, key=lambda item: (len(item[1]), item[0])))
-
-
-def _dedented(lines: list[str]) -> str:
-    width = min(len(line) - len(line.lstrip()) for line in lines if line.strip())
-    return "\n".join(line[width:].rstrip() for line in lines).strip("\n")
 
 
 def _of_kind(kind: str) -> list[Entry]:

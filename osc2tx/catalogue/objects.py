@@ -21,6 +21,7 @@ class ObjectTables:
         needed: Type of actor or struct to what its constructor cannot do without.
         unknown: Members of actors that only the scenario can say.
         reserved: What actors of the runtime have besides actions.
+        declared: Structs that are objects as actors are, not values, to what these have.
         lane_bound: Types of actors that follow lanes.
         enums: Names of the types of the library's enums.
         units: Names of the library's units.
@@ -32,6 +33,7 @@ class ObjectTables:
     needed: Mapping[str, frozenset[str]]
     unknown: frozenset[str]
     reserved: frozenset[str]
+    declared: Mapping[str, frozenset[str]]
     lane_bound: frozenset[str]
     enums: frozenset[str]
     units: frozenset[str]
@@ -52,6 +54,7 @@ def object_tables() -> ObjectTables:
         needed=sets("needed"),
         unknown=frozenset(table["unknown"]),
         reserved=frozenset(table["reserved"]),
+        declared=sets("declared"),
         lane_bound=frozenset(table["lane_bound"]),
         enums=frozenset(table["enums"]),
         units=frozenset(table["units"]),

@@ -25,7 +25,7 @@ from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.version import __version__
-from osc2tx_text import READER_HAS_GONE, OutputError, complain, put
+from osc2tx_text import READER_HAS_GONE, OutputError, complain, expect_output, put
 from osc2tx_text import explain as explain_output
 
 # Command -> where it is, and its line in the help page.
@@ -43,6 +43,8 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "reference": ("osc2tx.cli.reference:reference", "Say what a name of the library means."),
     "explain": ("osc2tx.cli.explain:explain", "Say what a diagnostic code means."),
 }
+
+PRINTED_BY_CLICK = frozenset(["-h", "--help", "--version"])
 
 
 class Commands(click.Group):
@@ -94,6 +96,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 def _exit_code(arguments: Sequence[str]) -> int:
     session = Session()
     try:
+        if PRINTED_BY_CLICK.intersection(arguments):
+            expect_output()
         return _run(arguments, session)
     except OutputError as error:
         return explain_output(error)

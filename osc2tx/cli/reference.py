@@ -7,9 +7,11 @@ import json
 import click
 from click.shell_completion import CompletionItem
 
+from osc2tx.diagnostics.code_lookup import find_code
+from osc2tx.diagnostics.render import explanation_data, render_explanation
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.reference import as_data, as_text, entries, find
-from osc2tx_text import put
+from osc2tx_text import in_json, put
 
 
 def _complete(
@@ -25,8 +27,14 @@ def _complete(
 def reference(name: str | None, as_json: bool) -> None:
     """Say what an actor, action, modifier, struct, enum or physical type of the library is.
 
-    NAME is `drive`, `vehicle.drive` or `action vehicle.drive`. Without it, all names are listed.
+    NAME is `drive`, `vehicle.drive`, `action vehicle.drive` or the code of a diagnostic. Without
+    it, all names are listed.
     """
+    code = None if name is None else find_code(name)
+    if code is not None:
+        data = in_json(json.dumps([explanation_data(code)], indent=2)) + "\n"
+        put(data if as_json else render_explanation(code) + "\n")
+        return
     if name is None:
         found = list(entries())
         text = "\n".join(each.key for each in found)

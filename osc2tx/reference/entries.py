@@ -6,6 +6,7 @@ from functools import cache
 
 from osc2tx.catalogue import ActionEntry, ModifierEntry, catalogue
 from osc2tx.reference.declarations import Declaration, declarations
+from osc2tx.reference.shown import Shown, shown
 from osc2tx.support.light_dataclass import dataclass
 
 __all__ = ["Entry", "entries", "find"]
@@ -25,14 +26,12 @@ class Entry:
     Attributes:
         declaration: What the library says.
         facts: What the runtime makes of it, one sentence each.
-        xml: What OpenSCENARIO XML has for it; empty where that is no question.
         modifiers: Modifiers that an action honours.
         users: Declarations that use it as a type, or inherit from it.
     """
 
     declaration: Declaration
     facts: tuple[str, ...]
-    xml: str
     modifiers: tuple[str, ...]
     users: tuple[str, ...]
 
@@ -40,6 +39,11 @@ class Entry:
     def key(self) -> str:
         """How the entry is asked for: `action vehicle.drive`."""
         return f"{self.declaration.kind} {self.declaration.name}"
+
+    @property
+    def shown(self) -> Shown:
+        """An example, and what CARLA and OpenSCENARIO XML make of it."""
+        return shown(self.key)
 
     @property
     def own_name(self) -> str:
@@ -68,15 +72,14 @@ def _entry(declaration: Declaration, users: tuple[str, ...]) -> Entry:
     known = catalogue()
     if declaration.kind == "action" and declaration.name in known.actions:
         action = known.actions[declaration.name]
-        facts = _action_facts(action)
-        return Entry(declaration, facts, _xml(action), tuple(sorted(action.modifiers)), users)
+        return Entry(declaration, _action_facts(action), tuple(sorted(action.modifiers)), users)
     own = declaration.name.rpartition(".")[2]
     if declaration.kind == "modifier" and own in known.modifiers:
         modifier = known.modifiers[own]
-        return Entry(declaration, _modifier_facts(modifier), _xml(modifier), (), users)
+        return Entry(declaration, _modifier_facts(modifier), (), users)
     if declaration.name in known.abstract:
-        return Entry(declaration, ("It is only there to be inherited from.",), "", (), users)
-    return Entry(declaration, (), "", (), users)
+        return Entry(declaration, ("It is only there to be inherited from.",), (), users)
+    return Entry(declaration, (), (), users)
 
 
 def _action_facts(action: ActionEntry) -> tuple[str, ...]:
@@ -104,10 +107,6 @@ def _shared_facts(entry: ActionEntry | ModifierEntry) -> tuple[str, ...]:
     if entry.needs:
         facts.append(f"The world must offer {_listed(entry.needs)}; a world that does not says so.")
     return tuple(facts)
-
-
-def _xml(entry: ActionEntry | ModifierEntry) -> str:
-    return f"It has no form: {entry.without_xml}." if entry.without_xml else "It has a form."
 
 
 def _listed(names: tuple[str, ...] | frozenset[str]) -> str:

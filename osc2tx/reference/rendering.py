@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import indent
 from typing import Any
 
 from osc2tx.reference.declarations import Declaration, Member
@@ -9,6 +10,7 @@ from osc2tx.reference.entries import Entry
 
 __all__ = ["as_data", "as_markdown", "as_text", "signature"]
 
+INDENT = "    "
 MANY = 12  # users that a page names
 
 
@@ -38,8 +40,15 @@ def as_text(entry: Entry) -> str:
     parts += [fact.replace("`", "") for fact in entry.facts]
     if entry.modifiers:
         parts.append(f"Modifiers: {', '.join(entry.modifiers)}")
-    if entry.xml:
-        parts.append(f"OpenSCENARIO XML: {entry.xml}")
+    shown = entry.shown
+    if shown.carla:
+        parts.append(f"In CARLA: {shown.carla}.")
+    if shown.xml:
+        parts.append(f"OpenSCENARIO XML: {_sentence(shown.xml)}")
+    if shown.example:
+        parts += [f"Example, from {shown.file}:", indent(shown.example, INDENT)]
+    if shown.xml_example:
+        parts += ["As OpenSCENARIO XML:", indent(shown.xml_example, INDENT)]
     return "\n\n".join(parts)
 
 
@@ -53,12 +62,19 @@ def as_markdown(entry: Entry) -> str:
         parts.append(_table(declaration))
     if declaration.units:
         parts.append("Units: " + ", ".join(f"`{unit}`" for unit in declaration.units))
-    if entry.facts:
-        parts += ["## How it runs", "\n".join(f"- {fact}" for fact in entry.facts)]
+    shown = entry.shown
+    facts = [*entry.facts, *([f"In CARLA: {shown.carla}."] if shown.carla else [])]
+    if facts:
+        parts += ["## How it runs", "\n".join(f"- {fact}" for fact in facts)]
     if entry.modifiers:
         parts += ["## Modifiers", ", ".join(f"`{name}`" for name in entry.modifiers)]
-    if entry.xml:
-        parts += ["## OpenSCENARIO XML", entry.xml]
+    if shown.example:
+        parts += ["## Example", f"From `{shown.file}`, which the tests run:"]
+        parts.append(f"```\n{shown.example}\n```")
+    if shown.xml:
+        parts += ["## OpenSCENARIO XML", _sentence(shown.xml)]
+    if shown.xml_example:
+        parts += ["What the example becomes:", f"```xml\n{shown.xml_example}\n```"]
     if entry.users:
         more = f", and {len(entry.users) - MANY} more" if len(entry.users) > MANY else ""
         parts += ["## Used by", ", ".join(f"`{user}`" for user in entry.users[:MANY]) + more]
@@ -78,7 +94,11 @@ def as_data(entry: Entry) -> dict[str, Any]:
         "units": list(declaration.units),
         "modifiers": list(entry.modifiers),
         "facts": [fact.replace("`", "") for fact in entry.facts],
-        "xml": entry.xml,
+        "carla": entry.shown.carla,
+        "xml": entry.shown.xml,
+        "file": entry.shown.file,
+        "example": entry.shown.example,
+        "xml_example": entry.shown.xml_example,
     }
 
 

@@ -15,6 +15,7 @@ __all__ = [
     "OutputError",
     "clear_status",
     "complain",
+    "expect_output",
     "explain",
     "is_watched",
     "put",
@@ -68,6 +69,16 @@ def explain(error: OutputError) -> int:
 def is_watched(*, err: bool = True) -> bool:
     """Whether standard error, or standard output, is a terminal."""
     return (sys.stderr if err else sys.stdout).isatty()
+
+
+def expect_output() -> None:
+    """Refuse to go on without standard output; for libraries that would print into nothing.
+
+    Raises:
+        OutputError: If the process was started without it.
+    """
+    if _HAS_NO_OUTPUT:
+        raise OutputError("standard output", "it is closed")
 
 
 def say(line: str) -> None:
@@ -126,8 +137,8 @@ def _write(name: Literal["stdout", "stderr"], text: str) -> None:
     """
     stream: TextIO = getattr(sys, name)
     told = f"standard {'output' if name == 'stdout' else 'error'}"
-    if name == "stdout" and _HAS_NO_OUTPUT:
-        raise OutputError(told, "it is closed")
+    if name == "stdout":
+        expect_output()
     encoding = stream.encoding or "utf-8"
     try:
         stream.write(text.encode(encoding, "backslashreplace").decode(encoding))

@@ -8,6 +8,7 @@ import pytest
 from osc2tx.catalogue import catalogue
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
+from tests.coverage import reference
 from tests.coverage.capabilities import rows
 from tests.coverage.library import Item, Kind, declared_items
 from tests.coverage.page import PAGE, render
@@ -40,6 +41,12 @@ DO = """
 @pytest.mark.slow
 def test_the_page_is_up_to_date() -> None:
     assert PAGE.read_text(encoding="utf-8") == render(), "run `make coverage`"
+
+
+@pytest.mark.slow
+def test_the_reference_shows_what_the_scenarios_give() -> None:
+    shown = reference.TABLE.read_text(encoding="utf-8")
+    assert shown == reference.render(), "run `make coverage`"
 
 
 @pytest.mark.slow

@@ -63,18 +63,24 @@ def _reasons(found: Iterable[XmlScenario]) -> str:
 
 def construct_rows() -> Iterator[list[str]]:
     """Yield for each construct the best and the worst that becomes of it, by version."""
+    for name, by_version in sorted(losses().items()):
+        yield [
+            f"`{name}`",
+            *(_grades(by_version.get(v, ())) for v in XML_VERSIONS),
+            _why(by_version),
+        ]
+
+
+@cache
+def losses() -> dict[str, dict[XmlVersion, list[Entry]]]:
+    """Return what became of each construct, by version."""
     seen: dict[str, dict[XmlVersion, list[Entry]]] = {}
     for version in XML_VERSIONS:
         for scenario in _all(version):
             for entry in scenario.report.entries:
                 name = _kind(entry.construct)
                 seen.setdefault(name, {}).setdefault(version, []).append(entry)
-    for name, by_version in sorted(seen.items()):
-        yield [
-            f"`{name}`",
-            *(_grades(by_version.get(v, ())) for v in XML_VERSIONS),
-            _why(by_version),
-        ]
+    return seen
 
 
 def _all(version: XmlVersion) -> Iterator[XmlScenario]:

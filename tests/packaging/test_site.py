@@ -2,15 +2,20 @@
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path, PurePosixPath
 from runpy import run_path
 from typing import Any
+
+import pytest
+from lxml.etree import fromstring
 
 from osc2tx.diagnostics import CODES
 from osc2tx.reference import entries, find
 
 TOOLS = Path(__file__).parents[2] / "tools"
 PAGES: dict[str, Any] = run_path(str(TOOLS / "site_pages.py"))
+PICTURES: dict[str, Any] = run_path(str(TOOLS / "site_pictures.py"))
 SPLITS: dict[str, Any] = run_path(str(TOOLS / "site_splits.py"))
 
 
@@ -33,9 +38,9 @@ def test_types_and_modifiers_are_linked() -> None:
 
 def test_what_the_runtime_carries_out_has_an_example() -> None:
     """From scenarios that the tests run; some modifiers of the map are in none of them."""
-    acting = [e for e in entries() if e.xml and e.declaration.kind in ("action", "modifier")]
+    acting = [e for e in entries() if e.shown.xml and e.declaration.kind in ("action", "modifier")]
     acting = [entry for entry in acting if not entry.declaration.name.startswith("map.")]
-    without = [entry.key for entry in acting if PAGES["example"](entry) is None]
+    without = [entry.key for entry in acting if not entry.shown.example]
     assert without == []
 
 
@@ -60,3 +65,27 @@ def test_old_anchors_lead_to_the_new_pages() -> None:
     assert lead(SPLITS["_lead_to_chapter"], text) == (
         "[a](../coverage-capabilities.md#in-carla) [b](coverage-openscenario-xml.md)"
     )
+
+
+@pytest.mark.slow
+def test_a_picture_shows_what_the_run_does() -> None:
+    """One lane to the right within 3 s, from the second lane of the highway, 3.5 m away."""
+    (entry,) = find("modifier keep_speed")
+    chart = PICTURES["_across_lanes"](PICTURES["_run"]("scenarios/cut_in_and_evade.osc"), entry)
+    times = [t for t, _ in chart.curves["hero"]]
+    ways = [way for _, way in chart.curves["hero"]]
+    assert times[0] == 0 and ways[0] == 0
+    assert abs(abs(ways[-1]) - 3.5) < 0.01
+    assert max(abs(b - a) for a, b in pairwise(ways)) < 0.15  # no jump between lanes
+
+
+@pytest.mark.slow
+def test_pictures_are_made_where_something_changes() -> None:
+    (gap,) = find("action vehicle.change_time_gap")
+    svg = PICTURES["picture"](gap)
+    root = fromstring(svg)
+    names = [node.text for node in root.iter("{*}text")]
+    assert {"leader", "follower", "time (s)", "speed (km/h)"} <= set(names)
+    assert len(list(root.iter("{*}polyline"))) == 2
+    assert PICTURES["picture"](find("action environment.rain")[0]) is None
+    assert svg == PICTURES["picture"](gap)

@@ -52,19 +52,20 @@ class _TypeWriter:
 
     def write(self) -> TypeView:
         own = self._own
-        if not own.is_actor:
+        is_object = self._table.is_object(own)
+        if not is_object:
             self._uses.standard("dataclasses", "dataclass")
         elif own.all_fields:
             self._uses.standard("typing", "Any")
         word = "Actor" if own.is_actor else "Struct"
-        kinds, above = self._table.kinds_of(own)
+        kinds, above = self._table.kinds_of(own) if own.is_actor else ((), None)
         about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
         return TypeView(
             class_name=self._table.class_of((own.name,)),
             bases=self._table.bases_of(own),
             kinds=tuple(map(literal, kinds)),
             above=above,
-            is_actor=own.is_actor,
+            is_object=is_object,
             docstring=tuple(PyDocLine.of(line) for line in about),
             fields=tuple(map(self._field, own.all_fields)),
             methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),

@@ -23,6 +23,9 @@ ACTOR_CLASSES = {
     "vehicle": "Vehicle",
 }
 
+# Type of the standard library that no object is of alone -> the next one above it with a class.
+ABSTRACT_TYPES = {"route_element": "route", "traffic_participant": "movable_object"}
+
 # Struct type of the standard library -> value class of the runtime.
 STRUCT_CLASSES = {
     "acceleration_6d": "Acceleration",

@@ -8,6 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, name_expression
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
+    ABSTRACT_TYPES,
     ACTOR_CLASSES,
     ANNOTATIONS,
     PHYSICAL_TYPES,
@@ -16,7 +17,8 @@ from osc2tx.backends.py_trees.runtime_api import (
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.catalogue import object_tables
 
-CLASSES = {**ACTOR_CLASSES, **STRUCT_CLASSES}
+_CONCRETE = {**ACTOR_CLASSES, **STRUCT_CLASSES}
+CLASSES = {**_CONCRETE, **{name: _CONCRETE[above] for name, above in ABSTRACT_TYPES.items()}}
 
 # The type that all actors derive from.
 ROOT = "osc_actor"
@@ -54,8 +56,7 @@ class TypeTable:
         self._own = {each.name: each for each in own}
         self._classes = classes
         self._uses = uses
-        of_actors = object_tables().reserved | {"fields", "self"}
-        self._taken = {t.name: of_actors if t.is_actor else _seen_by_class(t) for t in own}
+        self._taken = {each.name: self._members_taken(each) for each in own}
 
     def class_of(self, lineage: Sequence[str]) -> PyName:
         """Name the class of an object, the first type of its lineage that has one."""
@@ -70,16 +71,35 @@ class TypeTable:
     def class_or_object(self, type_: str) -> PyName:
         """Name the class of a type; `object` if the module has none of it."""
         lineage = self.lineage(type_)
-        is_known = class_key(type_) in self._classes or any(name in CLASSES for name in lineage)
-        if lineage[-1] == ROOT and not is_known:
+        if lineage[-1] == ROOT and not self._is_known(lineage):
             return self._uses.name("Actor")
-        return self.class_of(lineage) if is_known else PyName("object")
+        return self.class_of(lineage) if self._is_known(lineage) else PyName("object")
+
+    def is_object(self, own: ir.UserType) -> bool:
+        """Whether an own type is one of objects that are declared, not of values."""
+        return own.is_actor or self._of_library(own) in object_tables().declared
+
+    def _members_taken(self, own: ir.UserType) -> frozenset[str]:
+        if not self.is_object(own):
+            return _seen_by_class(own)
+        tables = object_tables()
+        members = tables.reserved if own.is_actor else tables.declared[self._of_library(own)]
+        return members | {"fields", "self"}
+
+    def _of_library(self, own: ir.UserType) -> str:
+        """Name the type of the library that an own type is of; empty if there is none."""
+        names = [name for name in self.lineage(own.name) if name in CLASSES]
+        return ABSTRACT_TYPES.get(names[0], names[0]) if names else ""
 
     def bases_of(self, own: ir.UserType) -> tuple[PyName, ...]:
         """Name the base classes of an own type; an actor of no special kind is an `Actor`."""
         if own.is_actor and own.bases in ((), (ROOT,)):
             return (self._uses.name("Actor"),)
-        return tuple(self.class_of((base,)) for base in own.bases)
+        lineages = map(self.lineage, own.bases)
+        return tuple(self.class_of(lineage) for lineage in lineages if self._is_known(lineage))
+
+    def _is_known(self, lineage: Sequence[str]) -> bool:
+        return class_key(lineage[0]) in self._classes or any(name in CLASSES for name in lineage)
 
     def kinds_of(self, own: ir.UserType) -> tuple[tuple[str, ...], PyName | None]:
         """Return the kinds that an own type adds, and the class whose kinds follow."""

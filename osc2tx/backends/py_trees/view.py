@@ -118,9 +118,9 @@ class TypeView:
     Attributes:
         class_name: Its name.
         bases: What it inherits from.
-        kinds: Its name in the source; for a combination also those of the types it combines.
+        kinds: Name of an actor in the source; of a combination also those of what it combines.
         above: The class whose kinds follow; a struct has none.
-        is_actor: An actor takes its fields by its constructor, a struct is a dataclass.
+        is_object: An object takes its fields by its constructor, a struct of values is a dataclass.
         docstring: Lines of its docstring.
         fields: Its own fields.
         methods: Its own methods.
@@ -131,7 +131,7 @@ class TypeView:
     bases: tuple[PyName, ...]
     kinds: tuple[PyExpr, ...]
     above: PyName | None
-    is_actor: bool
+    is_object: bool
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
     methods: tuple[FunctionView, ...]

@@ -112,6 +112,9 @@ def _properties(ctx: Context) -> Element | None:
 
 
 def _road_network(ctx: Context) -> Element:
+    roads = ctx.roads
+    if roads is not None and any(roads.map.geo_reference.offset) and ctx.profile.moves_maps:
+        ctx.report.exact("map with an offset", ctx.scenario.span, ctx.profile.moves_maps)
     signals = element("TrafficSignals", *ctx.controllers) if ctx.controllers else None
     return element("RoadNetwork", element("LogicFile", filepath=_map_file(ctx)), signals)
 

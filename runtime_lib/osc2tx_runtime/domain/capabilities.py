@@ -18,6 +18,7 @@ from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
 from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.declared import DeclaredObject
 from osc2tx_runtime.language.registry import RegisteredMethod, methods
 
 __all__ = ["actions", "modifiers", "objects"]
@@ -56,7 +57,8 @@ def objects() -> dict[str, Any]:
         `methods`: `physical_object.object_distance` to its parameters; `fields`: name to type;
         `objects`: actor or value type to what its constructor takes; `needed`: what that cannot do
         without; `unknown`: members of actors that only the scenario can say; `reserved`: what
-        actors have besides actions; `lane_bound`: actors that follow lanes; `enums`: types of the
+        actors have besides actions; `declared`: structs that are objects as actors are, to what
+        these have; `lane_bound`: actors that follow lanes; `enums`: types of the
         library's enums; `units`: names of its units.
     """
     return {
@@ -65,7 +67,12 @@ def objects() -> dict[str, Any]:
         "objects": {name: _keywords(OBJECTS[name]) for name in sorted(OBJECTS)},
         "needed": {name: _needed(name) for name in sorted(OBJECTS)},
         "unknown": sorted(UNKNOWN),
-        "reserved": sorted(_members()),
+        "reserved": sorted({name for kind in _declared(Actor) for name in _members(kind)}),
+        "declared": {
+            name: _members(kind)
+            for name, kind in sorted(OBJECTS.items())
+            if kind in _declared(DeclaredObject) and kind not in _declared(Actor)
+        },
         "enums": sorted(enums.__all__),
         "units": sorted(name for name, unit in vars(units).items() if _is_unit(name, unit)),
         "lane_bound": sorted(
@@ -113,11 +120,16 @@ def _modifier(kind: type[Modifier]) -> dict[str, Any]:
     }
 
 
-def _members() -> set[str]:
-    """Public attributes of actors: an action of such a name would never be looked up."""
+def _declared(base: type[DeclaredObject]) -> list[type[DeclaredObject]]:
+    """Classes of objects that a scenario declares."""
     kinds = [kind for kind in OBJECTS.values() if isinstance(kind, type)]
-    actors = [kind() for kind in kinds if issubclass(kind, Actor)]
-    return {name for actor in actors for name in (*dir(actor),) if not name.startswith("_")}
+    return [kind for kind in kinds if issubclass(kind, base)]
+
+
+def _members(kind: type[DeclaredObject]) -> list[str]:
+    """Public attributes of an object: an action or a field of such a name would hide them."""
+    members = [*dir(kind), *_keywords(kind)] if _required(kind) else dir(kind())
+    return sorted({name for name in members if not name.startswith("_")})
 
 
 def _arguments(function: Callable[..., Any]) -> list[str]:

@@ -65,12 +65,12 @@ class Pose:
         yaw: Counter-clockwise from x.
     """
 
-    x: float
-    y: float
-    z: float
-    roll: float
-    pitch: float
-    yaw: float | None
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float | None = None
 
     def __init__(
         self,

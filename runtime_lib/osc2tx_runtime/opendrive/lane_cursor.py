@@ -74,8 +74,7 @@ class LaneCursor:
         self._lane, self._line = lane, line
         self._begin, self._end = lane.section.begin, lane.section.end
         self._row = max(bisect_right(line.nodes, s) - 1, 0)
-        flat = road.elevation is None and road.superelevation is None
-        self._is_flat = flat and lane.heights is None
+        self._is_flat = road.is_flat and lane.heights is None
         self._centre_start = self._centre_end = 0.0
         self._segment_start = self._segment_end = 0.0
         self._h = math.nan

@@ -26,6 +26,14 @@ def passable(lane: Lane, s: float) -> bool:
     return lane.type == "biking" or lane.width is None or lane.width.value(s) < _NARROW
 
 
+def _sides(section: LaneSection) -> tuple[tuple[Lane, ...], ...]:
+    """Lanes in the order in which one changes across them; over the middle if none comes there."""
+    inner = (*section.right[:1], *section.left[:1])
+    if section.road.reversed and len({lane.direction for lane in inner}) < len(inner):
+        return ((*reversed(section.left), *section.right),)
+    return section.right, section.left
+
+
 class RouteField:
     """Distance to go from the end of each group to the begin of a goal group.
 
@@ -61,9 +69,12 @@ class LaneGroups:
 
     def _add_section(self, section: LaneSection) -> None:
         middle = 0.5 * (section.begin + section.end)
-        for side in (section.right, section.left):
+        for side in _sides(section):
             group: list[Lane] = []
             for lane in side:
+                if group and group[0].direction != lane.direction:
+                    self._close(group)
+                    group = []
                 if lane.type in DRIVING:
                     group.append(lane)
                     continue
@@ -152,8 +163,10 @@ class LaneGroups:
         In a junction each lane often has a connecting road of its own. Those that end in the same
         group count as parallel: a car in the outer lane of a bend stays there.
         """
-        then = following[target] if target != goal.group else -1
         lanes = self.groups[lane.group]
+        if len(lanes) == 1 and len(lane.successors) == 1:
+            return lane.successors[0]
+        then = following[target] if target != goal.group else -1
         here = lanes.index(lane)
         candidates = [
             (

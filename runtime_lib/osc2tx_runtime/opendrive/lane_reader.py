@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from sys import intern
 
 from lxml import etree
 
@@ -10,7 +11,7 @@ from .model import Lane, LaneSection
 from .polynomials import Piecewise, Row
 from .xml_reader import Attributes, source_line
 
-__all__ = ["read_sections"]
+__all__ = ["read_reversed", "read_sections"]
 
 NARROWEST = -0.05
 """Metres below nothing that are the rounding of whoever wrote the map."""
@@ -61,6 +62,25 @@ def read_sections(
     )
 
 
+def read_reversed(lanes: etree._Element, attributes: Attributes) -> frozenset[int]:
+    """Ids of the lanes of a road on which traffic runs the other way than their side says.
+
+    Raises:
+        MapError: A lane has an id that is no number.
+    """
+    elements: dict[str, list[etree._Element]] = {}
+    for lane in lanes.iter("lane"):
+        elements.setdefault(lane.get("id", ""), []).append(lane)
+    found = set()
+    for same in elements.values():
+        kinds = {each.get("direction") == "reversed" for each in same}
+        if kinds == {True}:
+            found.add(attributes.integer(same[0], "id"))
+        elif True in kinds:
+            attributes.remark(same[0], "is reversed in some sections only: it is not reversed")
+    return frozenset(found)
+
+
 def _says(section: etree._Element, side: str) -> bool:
     """True if a section decides about the lanes of a side."""
     one_side = section.get("singleSide") in ("true", "1")
@@ -89,7 +109,7 @@ def _lane(element: etree._Element, span: _Span, attributes: Attributes) -> Lane:
     begin, end = span
     lane = Lane(
         attributes.integer(element, "id"),
-        element.get("type", "none"),
+        intern(element.get("type", "none")),
         source_line(element),
     )
     widths: list[tuple[float, Row]] = []
@@ -107,15 +127,16 @@ def _lane(element: etree._Element, span: _Span, attributes: Attributes) -> Lane:
         elif tag == "height":
             inner, outer = (attributes.number(child, edge) for edge in ("inner", "outer"))
             heights.append((begin + attributes.number(child, "sOffset"), inner, outer))
-    lane.width = Piecewise.from_records(widths)
+    lane.width = attributes.piecewise(widths)
     if lane.width is not None and (narrowest := lane.width.extremes(begin, end)[0]) < NARROWEST:
         raise attributes.error(element, f"is {narrowest:g} m wide at one place; give a width")
-    lane.border = Piecewise.from_records(borders)
+    lane.border = attributes.piecewise(borders)
     if lane.width is None and lane.border is not None:
         _check_side(element, lane, span, attributes)
     lane.heights = _heights(heights)
-    if element.get("direction", "standard") != "standard":
-        attributes.remark(element, f"has direction `{element.get('direction')}`, which is not read")
+    lane.level = element.get("level") in ("true", "1")
+    if element.get("direction") == "both":
+        attributes.remark(element, "has direction `both`: traffic runs as on others of its side")
     return lane
 
 

@@ -10,6 +10,7 @@ from .polynomials import ZERO, Piecewise, combine
 
 if TYPE_CHECKING:
     from .arc_length import LaneLine
+    from .cross_sections import CrossSection
     from .geometry import ReferenceLine
 
 __all__ = [
@@ -105,11 +106,21 @@ class LaneOutline:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """Road link. `kind` is "road" or "junction", `contact` is "start" or "end" (roads only)."""
+    """Road link.
+
+    Attributes:
+        kind: "road" or "junction".
+        id: Of what is linked.
+        contact: The end of a linked road, "start" or "end".
+        s: Where it is linked within a road (m), None if at an end of it.
+        with_s: Whether the own way from start to end runs on along s of that road.
+    """
 
     kind: str
     id: str
     contact: str
+    s: float | None = None
+    with_s: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +155,8 @@ class Lane:
         predecessors: Lanes that lead here, sorted.
         centre: t of the centre line over road s (m).
         outer: t of the edge away from the reference line (m).
+        level: Whether it stays level where its road is not.
+        level_from: t of the edge (m) whose height it then has, None if it is as its road is.
         heights: Of its surface above the road at the inner and at the outer edge (m); None if
             it lies on the road.
     """
@@ -157,6 +170,8 @@ class Lane:
         "heights",
         "id",
         "key",
+        "level",
+        "level_from",
         "line",
         "next_ids",
         "outer",
@@ -175,6 +190,8 @@ class Lane:
         self.file_line = file_line
         self.width: Piecewise | None = None
         self.border: Piecewise | None = None
+        self.level = False
+        self.level_from: Piecewise | None = None
         self.heights: tuple[Piecewise, Piecewise] | None = None
         self.previous_ids: tuple[int, ...] = ()
         self.next_ids: tuple[int, ...] = ()
@@ -229,8 +246,10 @@ class LaneSection:
         self.ready = True
         offset = self.road.lane_offset
         for sign, lanes in ((1.0, self.left), (-1.0, self.right)):
-            inner = offset
+            inner, level_from = offset, None
             for lane in lanes:
+                if lane.level:
+                    level_from = lane.level_from = level_from or inner
                 lane.outer = self._outer(lane, inner, sign)
                 lane.centre = combine(((0.5, inner), (0.5, lane.outer)), self.begin, self.end)
                 inner = lane.outer
@@ -257,8 +276,10 @@ class Road:
         reference: Plan view.
         elevation: Height over s (m), None if flat.
         superelevation: Roll of the cross-section over s (rad), None if zero.
+        cross_section: Heights across it, None if it is even.
         lane_offset: t of lane 0 over s (m).
         sections: Lane sections in order of s.
+        reversed: Ids of its lanes on which traffic runs the other way than their side says.
     """
 
     id: str
@@ -269,6 +290,7 @@ class Road:
     reference: ReferenceLine
     elevation: Piecewise | None
     superelevation: Piecewise | None
+    cross_section: CrossSection | None
     lane_offset: Piecewise
     sections: tuple[LaneSection, ...]
     predecessor: Link | None
@@ -276,18 +298,28 @@ class Road:
     file_line: int
     starts: list[float] = field(default_factory=list)
     order: tuple[int, int, str] = (0, 0, "")
+    reversed: frozenset[int] = frozenset()
 
     def __post_init__(self) -> None:
         """Ties lanes and sections to this road."""
         self.starts = [section.begin for section in self.sections]
         self.order = road_order(self.id)
-        with_s = -1 if self.right_hand_traffic else 1
         for section in self.sections:
             section.road = self
             for lane in section.lanes.values():
                 lane.road, lane.section = self, section
                 lane.key = LaneKey(self.id, section.index, lane.id)
-                lane.direction = 1 if lane.id * with_s > 0 else -1
+                lane.direction = self.direction_of(lane.id)
+
+    def direction_of(self, lane: int) -> int:
+        """+1 if traffic on a lane of this id runs with s, -1 against."""
+        with_s = (lane < 0) == self.right_hand_traffic
+        return 1 if with_s != (lane in self.reversed) else -1
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether all of it lies in the xy plane, but for heights of lanes."""
+        return self.elevation is None and self.superelevation is None and self.cross_section is None
 
     def section_at(self, s: float) -> LaneSection:
         """Lane section at `s`; a boundary belongs to the section that begins there."""

@@ -46,7 +46,7 @@ def linked_ends(lane: Lane, at_end: bool) -> Iterator[tuple[Road, float]]:
         ahead = (beside.direction > 0) == at_end
         for other in beside.successors if ahead else beside.predecessors:
             at_start = (other.direction > 0) == ahead
-            s = 0.0 if at_start else other.road.length
+            s = other.section.begin if at_start else other.section.end
             if (other.road.id, s) not in seen:
                 seen[other.road.id, s] = None
                 yield other.road, s
@@ -75,8 +75,7 @@ def _link_edges(lane: Lane, roads: Mapping[str, Road]) -> Iterator[_Edge]:
         if link is None or link.kind != "road" or link.id not in roads:
             return
         other = roads[link.id]
-        entry = link.contact or _contact(other, road)
-        targets = _end_section(other, entry)
+        targets, entry = _touched(other, road, link, at_end=lane.direction > 0)
     for lane_id in ids:
         target = targets.lanes.get(lane_id)
         if target is not None and _enters(target, entry):
@@ -90,10 +89,14 @@ def _connection_edges(
     incoming, connecting = roads.get(connection.incoming), roads.get(connection.connecting)
     if incoming is None or connecting is None:
         return
-    leave = _junction_end(incoming, junction.id, connecting, connection.contact)
-    if leave is None:
-        return
-    sources, targets = _end_section(incoming, leave), _end_section(connecting, connection.contact)
+    at_end = connection.contact == "end"
+    link = connecting.successor if at_end else connecting.predecessor
+    if link is not None and link.s is not None and link.id == incoming.id:
+        sources, leave = _touched(incoming, connecting, link, at_end=at_end)
+    else:
+        leave = _junction_end(incoming, junction.id, connecting, connection.contact)
+        sources = _end_section(incoming, leave)
+    targets = _end_section(connecting, connection.contact)
     for source_id, target_id in connection.links:
         source, target = sources.lanes.get(source_id), targets.lanes.get(target_id)
         if source is None or target is None:
@@ -113,7 +116,18 @@ def _end_section(road: Road, contact: str) -> LaneSection:
     return road.sections[-1 if contact == "end" else 0]
 
 
-def _junction_end(road: Road, junction: str, connecting: Road, contact: str) -> str | None:
+def _touched(other: Road, road: Road, link: Link, *, at_end: bool) -> tuple[LaneSection, str]:
+    """The section of a linked road that one end of a road touches, and by which of its ends."""
+    if link.s is None:
+        contact = link.contact or _contact(other, road)
+        return _end_section(other, contact), contact
+    onward = link.with_s == at_end  # else it is where the own way comes from
+    ends = [section.begin if onward else section.end for section in other.sections]
+    gaps = [abs(end - link.s) for end in ends]
+    return other.sections[gaps.index(min(gaps))], "start" if onward else "end"
+
+
+def _junction_end(road: Road, junction: str, connecting: Road, contact: str) -> str:
     """The end of a road that touches a junction; by geometry if both do or none says so."""
     at_end = _names(road.successor, junction)
     at_start = _names(road.predecessor, junction)

@@ -15,8 +15,9 @@ def lane_pose(lane: Lane, s: float, offset: float) -> Pose:
     road, direction = lane.road, lane.direction
     t, slope = lane.centre.value_slope(s)
     t += offset * direction
-    if road.elevation is not None or road.superelevation is not None:
-        pose = surface_pose(road, s, t, slope, direction)
+    if not road.is_flat:
+        level = None if lane.level_from is None else lane.level_from.value_slope(s)
+        pose = surface_pose(road, s, t, slope, direction, level=level)
         return pose if lane.heights is None else pose._replace(z=pose.z + lane.height_at(s, t))
     x, y, h, k = road.reference.at(s)
     heading = h + math.atan2(slope, 1.0 - k * t) if slope else h
@@ -26,20 +27,35 @@ def lane_pose(lane: Lane, s: float, offset: float) -> Pose:
 
 
 def surface_pose(
-    road: Road, s: float, t: float, slope: float, direction: int, *, tangent: bool = False
+    road: Road,
+    s: float,
+    t: float,
+    slope: float,
+    direction: int,
+    *,
+    tangent: bool = False,
+    level: tuple[float, float] | None = None,
 ) -> Pose:
-    """Pose with height, pitch and roll. `slope` is dt/ds of the line that is followed."""
+    """Pose with height, pitch and roll.
+
+    Args:
+        road: The road.
+        s: Road coordinate (m).
+        t: Road coordinate (m).
+        slope: dt/ds of the line that is followed.
+        direction: Of travel: 1 along s, -1 against it.
+        tangent: Heading as the reference line, instead of as the line that is followed.
+        level: Where the place is level, t (m) and dt/ds of the edge that has its height.
+    """
     x, y, h, k = road.reference.at(s)
-    z = climb = roll = 0.0
     lateral, drift = t, slope
-    if road.elevation is not None:
-        z, climb = road.elevation.value_slope(s)
     if road.superelevation is not None:
-        roll, rate = road.superelevation.value_slope(s)
-        c, n = math.cos(roll), math.sin(roll)
-        z += t * n
-        climb += slope * n + t * c * rate
-        lateral, drift = t * c, slope * c - t * n * rate
+        bank, rate = road.superelevation.value_slope(s)
+        c = math.cos(bank)
+        lateral, drift = t * c, slope * c - t * math.sin(bank) * rate
+    z, climb, roll = _height(road, s, *(level or (t, slope)))
+    if level is not None:
+        roll = 0.0
     along = 1.0 if tangent else 1.0 - k * lateral
     heading = h if tangent else h + math.atan2(drift, along)
     pitch = -math.atan2(climb * direction, math.hypot(along, 0.0 if tangent else drift))
@@ -53,3 +69,21 @@ def surface_pose(
         pitch,
         roll * direction,
     )
+
+
+def _height(road: Road, s: float, t: float, slope: float) -> tuple[float, float, float]:
+    """Height (m), its change along a line with dt/ds `slope`, and roll (rad)."""
+    z = climb = roll = 0.0
+    if road.elevation is not None:
+        z, climb = road.elevation.value_slope(s)
+    if road.superelevation is not None:
+        roll, rate = road.superelevation.value_slope(s)
+        c, n = math.cos(roll), math.sin(roll)
+        z += t * n
+        climb += slope * n + t * c * rate
+    if road.cross_section is not None:
+        height, along, across = road.cross_section.at(s, t)
+        z += height
+        climb += along + across * slope
+        roll += math.atan(across)
+    return z, climb, roll

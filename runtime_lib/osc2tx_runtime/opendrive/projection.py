@@ -123,6 +123,8 @@ def height(road: Road, s: float, t: float) -> float:
     z = road.elevation.value(s) if road.elevation is not None else 0.0
     if road.superelevation is not None:
         z += t * math.sin(road.superelevation.value(s))
+    if road.cross_section is not None:
+        z += road.cross_section.at(s, t)[0]
     return z
 
 

@@ -6,23 +6,27 @@ real maps carry junk there. `geoReference` is kept as it is until somebody asks 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
+from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 
 from lxml import etree
 
+from .cross_sections import read_cross_section
 from .crosswalks import Crosswalk, read_crosswalks
 from .errors import MapError
 from .geodesy import GeoReference
 from .geometry import Arc, Line, ParamPoly, ReferenceLine, Segment, make_spiral
-from .lane_reader import read_sections
+from .lane_reader import read_reversed, read_sections
 from .model import Junction, JunctionConnection, Link, Road, road_order
 from .polynomials import ZERO, Piecewise
 from .signal_reader import read_controllers, read_signals
 from .signals import Controller, Signal
-from .unread import unread
-from .xml_reader import Attributes, parse_bytes, parse_xml, source_line
+from .virtual_junctions import cut_where_roads_branch_off
+from .xml_reader import Attributes, parse_stream, parse_xml, source_line
 
 ROUNDING = 0.01
 """Metres that numbers of a file may be apart and mean the same."""
@@ -38,7 +42,7 @@ class MapContent:
     """All that is read from a file. Roads and junctions are in numeric order of their ids.
 
     `header` has the attributes of the element of that name. `remarks` are what is wrong with the
-    file, or matters and is not read, each with its line or its number.
+    file, or matters and is not read, each with its line.
     """
 
     file: str
@@ -59,29 +63,36 @@ def read_content(path: Path) -> MapContent:
     Raises:
         MapError: The file is not a usable OpenDRIVE map.
     """
-    return _read(parse_xml(path), str(path), path.stem)
+    return _read(partial(parse_xml, path), str(path), path.stem)
 
 
 def read_content_text(text: str | bytes, name: str) -> MapContent:
     """Reads a map that is in memory; `name` is used in messages."""
-    content = text.encode() if isinstance(text, str) else text
-    return _read(parse_bytes(content, name), name, name)
+    stream = BytesIO(text.encode() if isinstance(text, str) else text)
+    return _read(partial(parse_stream, stream, name), name, name)
 
 
-def _read(root: etree._Element, file: str, name: str) -> MapContent:
+def _read(
+    parse: Callable[[Callable[[etree._Element], None]], etree._Element], file: str, name: str
+) -> MapContent:
     attributes = Attributes(file)
-    elements = root.findall("road")
-    if not elements:
-        raise MapError(file, "the map has no `road`; export it again with its road network")
     roads: dict[str, Road] = {}
-    for element in elements:
+
+    def take(element: etree._Element) -> None:
         road = _road(element, attributes)
         if road.id in roads:
             raise attributes.error(element, f"road id `{road.id}` is used twice; make ids unique")
         roads[road.id] = road
+        _keep_furniture(element)
+
+    root = parse(take)
+    elements = root.findall("road")
+    if not elements:
+        raise MapError(file, "the map has no `road`; export it again with its road network")
     total = sum(road.length for road in roads.values())
     if total > LONGEST:
         raise MapError(file, f"has {total / 1000:.0f} km of roads; at most {LONGEST / 1000:.0f} km")
+    cut_where_roads_branch_off(roads)
     header = root.find("header")
     junctions = [_junction(element, attributes) for element in root.iterchildren("junction")]
     return MapContent(
@@ -94,8 +105,18 @@ def _read(root: etree._Element, file: str, name: str) -> MapContent:
         read_crosswalks(elements, roads, attributes),
         _geo_reference(header, attributes),
         {} if header is None else {str(key): str(value) for key, value in header.items()},
-        (*attributes.remarks, *unread(root)),
+        tuple(attributes.remarks),
     )
+
+
+def _keep_furniture(road: etree._Element) -> None:
+    """Leave of a road what is read when all roads are known: signals and crosswalks."""
+    for child in list(road):
+        if child.tag == "objects":
+            for each in [each for each in child if each.get("type") != "crosswalk"]:
+                child.remove(each)
+        elif child.tag != "signals":
+            road.remove(child)
 
 
 def _geo_reference(header: etree._Element | None, attributes: Attributes) -> GeoReference:
@@ -115,9 +136,13 @@ def _road(element: etree._Element, attributes: Attributes) -> Road:
     lanes = element.find("lanes")
     if lanes is None:
         raise attributes.error(element, "has no `lanes`; a road needs at least one lane section")
-    superelevation = _profile(element.find("lateralProfile"), "superelevation", attributes)
-    if superelevation is not None and any(e.get("level") == "true" for e in lanes.iter("lane")):
-        attributes.remark(element, "has lanes that are `level`: they are banked as their road is")
+    lateral = element.find("lateralProfile")
+    superelevation = _profile(lateral, "superelevation", attributes)
+    cross_section = read_cross_section(lateral, attributes)
+    if superelevation is not None and cross_section is not None:
+        attributes.remark(
+            element, "has a cross-section and superelevation: their heights are added up"
+        )
     return Road(
         id=attributes.text(element, "id"),
         name=element.get("name", ""),
@@ -127,8 +152,10 @@ def _road(element: etree._Element, attributes: Attributes) -> Road:
         reference=_plan_view(element, attributes),
         elevation=_profile(element.find("elevationProfile"), "elevation", attributes),
         superelevation=superelevation,
+        cross_section=cross_section,
         lane_offset=_profile(lanes, "laneOffset", attributes) or ZERO,
         sections=read_sections(lanes, length, attributes),
+        reversed=read_reversed(lanes, attributes),
         predecessor=_link(link, "predecessor", attributes),
         successor=_link(link, "successor", attributes),
         file_line=source_line(element),
@@ -140,8 +167,12 @@ def _link(link: etree._Element | None, name: str, attributes: Attributes) -> Lin
     if element is None:
         return None
     kind = element.get("elementType", "road")
+    other = attributes.text(element, "elementId")
+    if kind == "road" and element.get("elementS") is not None:
+        with_s = element.get("elementDir", "+") != "-"
+        return Link(kind, other, "", attributes.length(element, "elementS"), with_s)
     # A missing contact point is guessed later from the geometry; junction links have none.
-    return Link(kind, attributes.text(element, "elementId"), element.get("contactPoint", ""))
+    return Link(kind, other, element.get("contactPoint", ""))
 
 
 def _profile(parent: etree._Element | None, name: str, attributes: Attributes) -> Piecewise | None:
@@ -166,8 +197,15 @@ def _plan_view(road: etree._Element, attributes: Attributes) -> ReferenceLine:
     pieces.sort(key=lambda piece: piece[0])
     kept = [piece for piece in pieces if piece[1].length > 0.0] or pieces[:1]
     end, length = kept[-1][0] + kept[-1][1].length, attributes.length(road, "length")
-    if abs(end - length) > ROUNDING:
+    if end - length > ROUNDING:
         attributes.remark(road, f"is {length:g} m long, its geometry {end:g} m")
+    for (start, segment), (following, _) in pairwise([*kept, (length, kept[-1][1])]):
+        end = start + segment.length
+        if following - end > ROUNDING:  # what a curve does beyond its end is nobody's intention
+            told = f"has no geometry from s = {end:g} m to {following:g} m: it goes straight on"
+            attributes.remark(road, told)
+            kept.append((end, Line(*segment.at(segment.length)[:3], following - end)))
+    kept.sort(key=lambda piece: piece[0])
     return ReferenceLine([piece[0] for piece in kept], [piece[1] for piece in kept])
 
 
@@ -200,13 +238,12 @@ _SHAPES = frozenset({"arc", "line", "paramPoly3", "poly3", "spiral"})
 
 def _junction(element: etree._Element, attributes: Attributes) -> Junction:
     kind = element.get("type", "default")
-    connections = tuple(
-        _connection(e, kind, attributes)
-        for e in element.iterchildren("connection")
-        if e.get("type") != "virtual"
-    )
-    if kind == "virtual":
-        attributes.remark(element, "is virtual: ways that leave a road within it are not read")
+    found = list(element.iterchildren("connection"))
+    real = [e for e in found if e.get("type") != "virtual"]
+    connections = tuple(_connection(e, kind, attributes) for e in real)
+    if len(real) < len(found):
+        number = len(found) - len(real)
+        attributes.remark(element, f"has {number} connections without a road, which nobody takes")
     controllers = tuple(attributes.text(e, "id") for e in element.iterchildren("controller"))
     return Junction(
         attributes.text(element, "id"), element.get("name", ""), kind, connections, controllers
@@ -225,7 +262,7 @@ def _connection(element: etree._Element, kind: str, attributes: Attributes) -> J
     )
     return JunctionConnection(
         element.get("id", ""),
-        attributes.text(element, "incomingRoad"),
+        attributes.text(element, "incomingRoad", "-1" if kind == "virtual" else None),
         target,
         element.get("contactPoint", "start"),
         links,

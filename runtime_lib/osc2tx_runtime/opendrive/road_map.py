@@ -142,7 +142,7 @@ class RoadMap:
 
     def travel_direction(self, road: str, lane: int) -> int:
         """+1 if traffic on the lane runs with s, -1 against."""
-        return 1 if (lane < 0) == self._road(road).right_hand_traffic else -1
+        return self._road(road).direction_of(lane)
 
     def lanes(
         self,
@@ -163,13 +163,11 @@ class RoadMap:
         found = self._road(road)
         s = min(max(s, 0.0), found.length)
         section = found.section_at(s)
-        direction = 1 if like is None else self.travel_direction(road, like)
-        with_s = section.right if found.right_hand_traffic else section.left
-        against = section.left if found.right_hand_traffic else section.right
+        direction = 1 if like is None else found.direction_of(like)
         ids = sorted(
             lane.id
-            for lane in (with_s if direction > 0 else against)
-            if lane.type in DRIVING and lane.width_at(s) >= _THIN
+            for lane in section.lanes.values()
+            if lane.direction == direction and lane.type in DRIVING and lane.width_at(s) >= _THIN
         )
         return tuple(ids if direction > 0 else reversed(ids))
 
@@ -184,9 +182,9 @@ class RoadMap:
         step = lane.direction if side == "left" else -lane.direction
         beside, left = lane.id, count
         while left > 0:
-            beside += step
+            beside += step if beside + step else 2 * step  # lane 0 has no width
             found = lane.section.lanes.get(beside)
-            if found is None or beside * lane.id <= 0:
+            if found is None or found.direction != lane.direction:
                 return None
             if found.type in DRIVING and found.width_at(s) >= _THIN:
                 left -= 1

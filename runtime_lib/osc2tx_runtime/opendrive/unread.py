@@ -1,16 +1,15 @@
-"""Elements of a map that matter for where things are, and that nothing here reads."""
+"""Elements of a map that nothing here reads."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 from pathlib import Path
 
 from lxml import etree
 
 from .xml_reader import parse_xml
 
-__all__ = ["READ", "unread", "unread_elements"]
+__all__ = ["READ", "unread_elements"]
 
 READ = frozenset(
     {
@@ -18,6 +17,8 @@ READ = frozenset(
         *("road", "link", "predecessor", "successor", "planView", "geometry"),
         *("line", "arc", "spiral", "poly3", "paramPoly3"),
         *("elevationProfile", "elevation", "lateralProfile", "superelevation"),
+        *("shape", "crossSectionSurface", "tOffset", "surfaceStrips", "strip"),
+        *("constant", "linear", "quadratic", "cubic", "coefficients"),
         *("lanes", "laneOffset", "laneSection", "left", "center", "right"),
         *("lane", "width", "border", "height"),
         *("signals", "signal", "signalReference", "validity", "objects"),
@@ -25,22 +26,6 @@ READ = frozenset(
     }
 )
 """What the reader takes, beside crosswalks among the objects."""
-
-_MATTERS: Mapping[str, str] = {
-    "shape": "the road is flat across instead",
-    "crossSectionSurface": "the road is flat across instead",
-}
-"""Elements that change where things are, and what is there instead."""
-
-
-def unread(root: etree._Element) -> tuple[str, ...]:
-    """A sentence for each kind of element that matters and is not read."""
-    remarks = []
-    for tag, instead in _MATTERS.items():
-        number = sum(1 for _ in root.iter(tag))
-        if number:
-            remarks.append(f"`{tag}` ({number}) is not read: {instead}")
-    return tuple(remarks)
 
 
 def unread_elements(path: Path) -> tuple[tuple[str, int], ...]:

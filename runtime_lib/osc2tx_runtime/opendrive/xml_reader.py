@@ -2,49 +2,72 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import BinaryIO, cast
 
 from lxml import etree
 
 from osc2tx_runtime.plain_numbers import to_float, to_int
 
 from .errors import MapError
+from .polynomials import Piecewise, Row
 
-__all__ = ["Attributes", "parse_bytes", "parse_xml", "source_line"]
+__all__ = ["Attributes", "parse_stream", "parse_xml", "source_line"]
 
 _REQUIRED = object()
 _LARGEST = 1e9  # beyond it, products of three attributes would leave the range of floats
+_CHUNK = 1 << 16  # bytes
 _LONGEST = 1e6  # m: samples along a road must fit into memory
 
 
-def parse_xml(path: Path) -> etree._Element:
-    """Root element of a file.
-
-    Entities are not resolved and nothing is fetched: maps come from third parties.
+def parse_xml(
+    path: Path, take: Callable[[etree._Element], None] = lambda road: None
+) -> etree._Element:
+    """Root element of a file; see `parse_stream`.
 
     Raises:
-        MapError: The file cannot be read or is not XML.
+        MapError: The file cannot be read or is not a map.
     """
     if path.is_dir():
         raise MapError(str(path), "is a folder; give the path of an .xodr file")
     try:
-        content = path.read_bytes()
+        with path.open("rb") as stream:
+            return parse_stream(stream, str(path), take)
     except OSError as error:
         reason = error.strerror or str(error)
         raise MapError(str(path), f"cannot be read ({reason}); check the path") from error
-    return parse_bytes(content, str(path))
 
 
-def parse_bytes(content: bytes, name: str) -> etree._Element:
-    """Root element of the text of a map; `name` is used in messages."""
-    parser = etree.XMLParser(
+def parse_stream(
+    stream: BinaryIO, name: str, take: Callable[[etree._Element], None]
+) -> etree._Element:
+    """Root element of the text of a map.
+
+    Entities are not resolved and nothing is fetched: maps come from third parties.
+
+    Args:
+        stream: The text.
+        name: Used in messages.
+        take: Is given each road as soon as it is complete, and may remove what it has read: the
+            elements of a large map are many times larger than what is made from them.
+
+    Raises:
+        MapError: It is not XML, or not a map.
+    """
+    parser = etree.XMLPullParser(
+        ("start", "end"),
+        tag=("{*}OpenDRIVE", "{*}road"),
         resolve_entities=False,
         no_network=True,
         remove_comments=True,
         remove_pis=True,
     )
     try:
-        root = etree.fromstring(content, parser)
+        while chunk := stream.read(_CHUNK):
+            parser.feed(chunk)
+            _take_roads(parser, take)
+        root = parser.close()
     except (etree.XMLSyntaxError, ValueError) as error:
         line = getattr(error, "lineno", None)
         raise MapError(name, f"is not well-formed XML ({error}); export the map again", line) from (
@@ -57,6 +80,17 @@ def parse_bytes(content: bytes, name: str) -> etree._Element:
             name, f"is not OpenDRIVE: the root element is `{root.tag}`", source_line(root)
         )
     return root
+
+
+def _take_roads(parser: etree.XMLPullParser, take: Callable[[etree._Element], None]) -> None:
+    """Hand over the roads of the map that are complete by now."""
+    for event, found in parser.read_events():
+        element = cast("etree._Element", found)
+        parent = element.getparent()
+        if event == "end" and parent is not None and parent.getparent() is None:
+            if str(element.tag) != "road":
+                _strip_namespaces(element)
+            take(element)
 
 
 def source_line(element: etree._Element) -> int:
@@ -79,11 +113,12 @@ class Attributes:
         remarks: What is wrong with the file, but not so that it cannot be used.
     """
 
-    __slots__ = ("file", "remarks")
+    __slots__ = ("_shared", "file", "remarks")
 
     def __init__(self, file: str) -> None:
         self.file = file
         self.remarks: dict[str, None] = {}
+        self._shared: dict[tuple[tuple[float, Row], ...], Piecewise] = {}
 
     def remark(self, element: etree._Element, message: str) -> None:
         """Take down what is wrong with an element that can be used all the same."""
@@ -139,6 +174,17 @@ class Attributes:
         except ValueError:
             message = f"attribute `{name}` is not a whole number: `{text[:40]}`"
             raise self.error(element, message) from None
+
+    def piecewise(self, records: Iterable[tuple[float, Row]]) -> Piecewise | None:
+        """Of polynomials with their starts; what is the same is one object, as many lanes are."""
+        key = tuple(records)
+        found = self._shared.get(key)
+        if found is None:
+            made = Piecewise.from_records(key)
+            if made is None:
+                return None
+            found = self._shared[key] = made
+        return found
 
     def cubic(self, element: etree._Element, suffix: str = "") -> tuple[float, float, float, float]:
         """Coefficients a to d, with a suffix "U" or "V" for paramPoly3."""

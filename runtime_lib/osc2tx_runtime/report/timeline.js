@@ -45,9 +45,20 @@ function waitRows(run) {
 
 const TIMELINE_ROWS = buildTimelineRows();
 
+/** Labels of actions by run and place: the tree names a node by its label, as `cut_in: npc change_lane`. */
+const ACTION_LABELS = new Map(RUNS.map((run) => [run, new Map(run.nodes
+  .filter((node) => node.kind === "action" && /^\w+(: |$)/.test(node.text))
+  .map((node) => [node.source, node.text.match(/^\w+/)[0]]))]));
+
 /** Without the actor's name in front, which the row already says. */
 const shortName = (action) =>
   action.name.startsWith(action.actor + " ") ? action.name.slice(action.actor.length + 1) : action.name;
+
+/** What a bar says: the label of the scenario, then what it does. */
+function barName(action) {
+  const label = action.source && ACTION_LABELS.get(action.run).get(action.source);
+  return label && action.actor ? `${label}: ${shortName(action)}` : shortName(action);
+}
 
 /** The first line on which [from, to] is free; a new one if none is; `limit` if there are enough. */
 function freeLine(lines, from, to, limit) {
@@ -62,7 +73,7 @@ function freeLine(lines, from, to, limit) {
 function layoutBar(action, toX, left, right) {
   const x0 = Math.max(toX(action.start), left), x1 = Math.max(Math.min(toX(actionEnd(action)), right), x0 + 5);
   const style = action.status === "fail" ? "600 12px" : "12px";
-  const name = fitText(shortName(action), 260, style);
+  const name = fitText(barName(action), 260, style);
   const textSpan = textWidth(name, style) + 12;
   if (textSpan <= x1 - x0) return { action, x0, x1, name, textX: x0 + 6, from: x0, to: x1 };
   if (x1 + textSpan <= right) return { action, x0, x1, name, textX: x1 + 5, from: x0, to: x1 + textSpan };
@@ -96,7 +107,7 @@ function layoutRow(row, toX, left, right) {
 
 function barTitle(action) {
   const end = action.end === null ? "not ended" : seconds(action.end);
-  const lines = [`${action.name} (${action.status})`, `${seconds(action.start)} to ${end}`];
+  const lines = [`${barName(action)} (${action.status})`, `${seconds(action.start)} to ${end}`];
   return [...lines, action.source, action.reason].filter(Boolean).join("\n");
 }
 

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 import random
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 from osc2tx_runtime.opendrive.lane_line import lane_length, lane_line
 from osc2tx_runtime.opendrive.projection import lane_at, place_score, position_of, project
-from tests.runtime.opendrive.small_maps import LANES, make_map, road_text, shape
+from tests.runtime.opendrive.small_maps import LANES, WIDTH, make_map, map_text, road_text, shape
 from tests.work import calls
 
 LENGTH = 400.0
@@ -92,6 +95,41 @@ def test_a_search_looks_no_farther_than_the_goal() -> None:
     assert near() == pytest.approx(800.0)
     work = calls(lambda: road_map.route_to(LanePosition("8", -1, 9.0)).distance(begin))
     assert work < 500  # 190 roads follow
+
+
+@pytest.mark.slow
+def test_memory_for_a_map_of_a_city(tmp_path: Path) -> None:
+    """20,000 roads with four lanes each, in a process of its own: 30 MB of text."""
+    sides = [(2, "sidewalk"), (1, "driving"), (-1, "driving"), (-2, "sidewalk")]
+    mark = '<roadMark sOffset="0" type="solid" weight="standard" color="white" width="0.12"/>'
+    made = [
+        f'<lane id="{i}" type="{kind}" level="false"><link><predecessor id="{i}"/>'
+        f'<successor id="{i}"/></link>{WIDTH}{mark}</lane>'
+        for i, kind in sides
+    ]
+    lanes = (
+        f'<laneSection s="0"><left>{made[0]}{made[1]}</left><center><lane id="0" type="none"/>'
+        f"</center><right>{made[2]}{made[3]}</right></laneSection>"
+    )
+    grid = ((i, j) for i in range(100) for j in range(200))
+    roads = (
+        road_text(shape("line", 100.0, x=i * 100.0, y=j * 50.0), 100.0, identity=f"{i * 200 + j}")
+        for i, j in grid
+    )
+    path = tmp_path / "city.xodr"
+    path.write_text(map_text(*(each.replace(LANES, lanes) for each in roads)), encoding="utf-8")
+    program = (
+        "import resource, sys; from pathlib import Path;"
+        "from osc2tx_runtime.opendrive import read_map;"
+        "road_map = read_map(Path(sys.argv[1]));"
+        "assert road_map.locate(4950.0, 5001.0).road == '9900';"
+        "assert len(road_map.roads) == 20_000;"
+        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(path)], capture_output=True, text=True, check=True
+    )
+    assert int(done.stdout) / 1024 < 200  # MB
 
 
 def test_a_way_makes_no_tables_of_the_lanes_it_passes() -> None:

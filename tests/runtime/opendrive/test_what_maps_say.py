@@ -117,31 +117,40 @@ def test_a_border_on_the_other_side(number: int, a: float) -> None:
 
 
 def test_a_road_that_is_longer_than_its_geometry() -> None:
-    road = make_map(road_text(shape("line", 90.0), 100.0))
-    (remark,) = road.remarks
-    assert remark == "line 1: `road` 1 is 100 m long, its geometry 90 m"
+    """Where there is no geometry the road is the tangent of what stands before."""
+    arc = '<geometry s="0" x="0" y="0" hdg="0" length="50"><arc curvature="0.02"/></geometry>'
+    road_map = make_map(road_text(arc, 100.0))
+    (remark,) = road_map.remarks
+    told = "has no geometry from s = 50 m to 100 m: it goes straight on"
+    assert remark == f"line 1: `road` 1 {told}"
+    x, y, h, curvature = road_map.roads["1"].reference.at(80.0)
+    assert (h, curvature) == (pytest.approx(1.0), 0.0)
+    assert x == pytest.approx(50.0 * math.sin(1.0) + 30.0 * math.cos(1.0))
+    assert y == pytest.approx(50.0 * (1.0 - math.cos(1.0)) + 30.0 * math.sin(1.0))
     assert not make_map(road_text(LINE, 100.0)).remarks
 
 
-def test_what_matters_and_is_not_read_is_named() -> None:
-    level = LANES.replace('id="-1" type', 'id="-1" level="true" type')
-    shapes = '<shape s="0" t="-3" a="0.1" b="0" c="0" d="0"/>' * 2
+def test_a_road_that_is_shorter_than_its_geometry() -> None:
+    (remark,) = make_map(road_text(LINE, 90.0)).remarks
+    assert remark == "line 1: `road` 1 is 90 m long, its geometry 100 m"
+
+
+def test_what_is_read_otherwise_than_it_is_meant_is_named() -> None:
+    shapes = '<shape s="0" t="-3" a="0.1" b="0" c="0" d="0"/>'
     bank = '<superelevation s="0" a="0.1" b="0" c="0" d="0"/>'
     road = make_map(
-        road_text(
-            LINE, 100.0, lanes=level, extra=f"<lateralProfile>{bank}{shapes}</lateralProfile>"
-        ),
-        rest='<junction id="7" type="virtual" mainRoad="1" sStart="1" sEnd="2" orientation="+"/>',
+        road_text(LINE, 100.0, extra=f"<lateralProfile>{bank}{shapes}</lateralProfile>"),
+        rest='<junction id="7" type="virtual" mainRoad="1" sStart="1" sEnd="2" orientation="+">'
+        '<connection id="0" type="virtual"/></junction>',
     )
     assert road.remarks == (
-        "line 1: `road` 1 has lanes that are `level`: they are banked as their road is",
-        "line 1: `junction` 7 is virtual: ways that leave a road within it are not read",
-        "`shape` (2) is not read: the road is flat across instead",
+        "line 1: `road` 1 has a cross-section and superelevation: their heights are added up",
+        "line 1: `junction` 7 has 1 connections without a road, which nobody takes",
     )
-    reversed_ = LANES.replace('id="-1" type', 'id="-1" direction="reversed" type')
-    (remark,) = make_map(road_text(LINE, 100.0, lanes=reversed_)).remarks
-    assert remark == "line 1: `lane` -1 has direction `reversed`, which is not read"
-    assert map_warnings(road)[0] == f"map small: {road.remarks[0]}"
+    both = LANES.replace('id="-1" type', 'id="-1" direction="both" type')
+    (remark,) = make_map(road_text(LINE, 100.0, lanes=both)).remarks
+    assert remark == "line 1: `lane` -1 has direction `both`: traffic runs as on others of its side"
+    assert map_warnings(make_map(road_text(LINE, 100.0, lanes=both)))[0] == f"map small: {remark}"
 
 
 def kinked(dx: float, dy: float, turn: float) -> RoadMap:

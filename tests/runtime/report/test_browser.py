@@ -281,6 +281,23 @@ def test_distances_by_hand(tmp_path: Path) -> None:
     }
 
 
+def test_bars_have_the_labels_of_the_scenario(tmp_path: Path) -> None:
+    """A label stands before what the action does; the text of an action without one is no label."""
+    made = TraceMaker("labels")
+    made.car("hero", wandering(1))
+    made.action("hero", "change_lane", 0.5, 1.0, line=1)
+    made.action("hero", "drive", 1.0, 2.0, line=2)
+    made.node(0, "action", "evade: hero change_lane", (0.5, 1.0, "success"))
+    made.node(0, "action", "hero.drive(speed(v))", (1.0, 2.0, "success"))
+    made.nodes[1]["source"] = "labels.osc:2"
+    driver = """<script>
+    const bars = [...byId("timeline").querySelectorAll(".bar text")].map((bar) => bar.textContent);
+    document.documentElement.dataset.bars = bars.slice(0, 2).join();
+    </script>"""
+    found = looked_at(tmp_path, [Trace(made.text(60))], driver)
+    assert found == {"ready": "true", "bars": "evade: change_lane,drive"}
+
+
 def test_two_runs_over_each_other(tmp_path: Path, overtaking) -> None:
     driver = """<script>
     const out = document.documentElement.dataset;

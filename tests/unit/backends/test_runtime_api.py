@@ -10,6 +10,7 @@ import osc2tx_runtime.enums
 import osc2tx_runtime.units
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
+    ABSTRACT_TYPES,
     ACTOR_CLASSES,
     API_LEVEL,
     FLAT_MEMBERS,
@@ -45,6 +46,19 @@ def test_level_and_classes_exist() -> None:
     for name in (*ACTOR_CLASSES.values(), *STRUCT_CLASSES.values()):
         assert name in osc2tx_runtime.__all__
     assert {*ACTOR_CLASSES, *STRUCT_CLASSES} == set(objects()["objects"])
+
+
+def test_types_without_a_class_are_known_with_what_is_above_them() -> None:
+    scope = shared_library("2.2", "asam", "all").scope
+    symbols = [each for group in scope.types.values() for each in group]
+    classes = {**ACTOR_CLASSES, **STRUCT_CLASSES}
+    above = {
+        each.name: each.base.name
+        for each in symbols
+        if isinstance(each, ActorSymbol | StructSymbol) and each.name not in classes
+        if each.base is not None
+    }
+    assert above == ABSTRACT_TYPES
 
 
 def test_members_that_are_objects_are_so_in_the_library() -> None:

@@ -25,6 +25,13 @@ def test_closed_streams(tmp_path: Path, command: str) -> None:
     assert usual.stdout
 
 
+@pytest.mark.parametrize("words", ["--help", "--version", "check --help"])
+def test_help_for_nobody(tmp_path: Path, words: str) -> None:
+    silent = _bash(tmp_path, f"{OSC2TX} {words} >&-")
+    assert silent.returncode == 4
+    assert silent.stderr == "error: standard output cannot be written: it is closed\n"
+
+
 def test_a_module_without_streams(tmp_path: Path) -> None:
     drive(tmp_path / "a.osc")
     assert _bash(tmp_path, f"{OSC2TX} build a.osc -o out").returncode == 0

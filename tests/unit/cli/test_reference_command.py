@@ -58,7 +58,7 @@ def test_every_meaning_beside_the_library_is_needed() -> None:
 
 
 def test_every_action_and_modifier_of_the_catalogue_is_explained() -> None:
-    explained = {each.declaration.name for each in entries() if each.xml}
+    explained = {each.declaration.name for each in entries() if each.shown.xml}
     standard = {name for name, entry in catalogue().actions.items() if entry.section}
     assert standard <= explained
 
@@ -108,3 +108,26 @@ def test_the_command_prints_it(shell: Shell) -> None:
     assert names == ["speed", "speed"]
     wrong = shell("reference", "chnge_lane")
     assert wrong.code == 2 and "did you mean `change_lane`?" in wrong.err
+
+
+def test_codes_of_diagnostics_have_their_page_too(shell: Shell) -> None:
+    assert shell("reference", "OSC302").out.strip() == shell("explain", "302").out.strip()
+    (data,) = json.loads(shell("reference", "OSC302", "--json").out)
+    assert data == json.loads(shell("explain", "302", "--json").out)
+
+
+def test_an_action_shows_an_example_and_what_others_make_of_it(shell: Shell) -> None:
+    """In the terminal, on the page and as data; the form is that of the schema."""
+    (data,) = json.loads(shell("reference", "vehicle.change_lane", "--json").out)
+    (entry,) = find("vehicle.change_lane")
+    scenario = (REPOSITORY / data["file"]).read_text(encoding="utf-8")
+    assert all(line.strip() in scenario for line in data["example"].splitlines())
+    assert "change_lane(" in data["example"]
+    assert "<LaneChangeAction>" in data["xml_example"]
+    assert re.search(r"since OpenSCENARIO XML 1\.0", data["xml"])
+    assert "throttle" in data["carla"]
+    for text in (as_text(entry), as_markdown(entry)):
+        shown = re.sub(r"^ +", "", text, flags=re.MULTILINE)
+        for key in ("file", "example", "xml_example"):
+            assert re.sub(r"^ +", "", data[key], flags=re.MULTILINE) in shown
+        assert data["carla"].partition(":")[2] in text

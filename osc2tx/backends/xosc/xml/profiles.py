@@ -37,6 +37,8 @@ class ToolProfile:
         signals_by_place: It knows traffic lights by where they stand, in coordinates of CARLA, not
             by their ids in the map.
         knows_towns: Maps have names for it, not only files.
+        moves_maps: What it does with the offset in the header of a map; empty if it leaves maps
+            where they are.
     """
 
     name: XmlProfile
@@ -55,6 +57,7 @@ class ToolProfile:
     ego_property: str = ""
     signals_by_place: bool = False
     knows_towns: bool = False
+    moves_maps: str = ""
 
 
 _ESMINI_IGNORES = {
@@ -108,6 +111,10 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         deviates={},
         carries_acceleration=True,
         needs_lane_range=True,
+        moves_maps=(
+            "positions are without the offset in the header of the map; esmini adds it to the map"
+            " and, from version 2.41.1 on, to positions as well; with `--ignore_odr_offset` to none"
+        ),
     ),
     "scenario_runner": ToolProfile(
         name="scenario_runner",

@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-__all__ = ["IN_CARLA"]
+__all__ = ["IN_CARLA", "how"]
 
 RUNTIME = "by the runtime, on measured states"
 MOTION = "exact: poses written; driven: throttle, brake, steering"
+MAP = "by the runtime on the map of the level"
+WEATHER = (
+    "sun and clouds exact; rain, fog and wind approximated (percentages); snow, temperature,"
+    " pressure, humidity and direction of the wind not possible (no field), their effects and"
+    " conditions hold"
+)
+VEHICLE_LIGHTS = "position, low and high beam exact, daytime as position"
+TRAILERS = "exact only (CARLA has no couplings)"
+UNMOVED = "exact only (CARLA has no blueprints that move)"
+WALKERS = "walker control"
+HEADING = "exact; driven: transform"
+PITCH_AND_ROLL = "pitch and roll exact only (driven: what the suspension makes of it)"
 
 IN_CARLA: Mapping[str, str] = {
     "C01": RUNTIME,
@@ -15,35 +27,33 @@ IN_CARLA: Mapping[str, str] = {
     " model has one",
     "C03": RUNTIME,
     "C04": RUNTIME,
-    "C05": f"{MOTION}; persons by walker control; animals and movable objects exact only (CARLA has"
-    " no blueprints that move); trailers exact only (CARLA has no couplings)",
+    "C05": f"{MOTION}; persons by {WALKERS}; animals and movable objects {UNMOVED};"
+    f" trailers {TRAILERS}",
     "C06": MOTION,
     "C07": f"{MOTION}; driven ones follow within what the engine of the model gives",
     "C08": "exact; driven: brake and hand brake",
     "C09": "exact; driven: transform, then target velocity",
-    "C10": "exact; driven: transform; pitch and roll last until the wheels settle",
+    "C10": f"{HEADING}; pitch and roll last until the wheels settle",
     "C11": f"{MOTION}; driven ones cut corners that are tighter than their look-ahead",
     "C12": f"{MOTION}; driven ones come some tenths of a second late where it asks for jumps",
     "C13": RUNTIME,
     "C14": RUNTIME,
     "C15": RUNTIME,
-    "C16": "sun and clouds exact; rain, fog and wind approximated (percentages); snow, temperature,"
-    " pressure, humidity and direction of the wind not possible (no field), their effects and"
-    " conditions hold; vehicle lights: position, low and high beam exact, daytime as position",
+    "C16": f"{WEATHER}; vehicle lights: {VEHICLE_LIGHTS}",
     "C17": "by OpenDRIVE id; red, yellow, green and off exact; red with yellow, flashing lamps and"
     " arrows approximated by one color; a light of the scenario stops the cycles of all",
     "C18": "driven: a friction trigger over the whole map; exact: limits of the runtime",
     "C19": MOTION,
     "C20": MOTION,
-    "C21": "by the runtime on the map of the level; defaults from its spawn points",
+    "C21": f"{MAP}; defaults from its spawn points",
     "C22": MOTION,
     "C23": "prefer_non_physical: transform and target velocity; else as the mode of the actor",
     "C24": RUNTIME,
     "C25": RUNTIME,
-    "C26": "heading as C10; pitch and roll exact only (driven: what the suspension makes of it)",
+    "C26": f"heading as C10; {PITCH_AND_ROLL}",
     "C27": "y, pitch and yaw negated, degrees",
     "C28": RUNTIME,
-    "C29": "by the runtime on the map of the level",
+    "C29": MAP,
     "C30": RUNTIME,
     "C31": RUNTIME,
     "C32": RUNTIME,
@@ -55,3 +65,38 @@ IN_CARLA: Mapping[str, str] = {
     "C38": RUNTIME,
 }
 """How each row does in CARLA. `exact` and `driven` are modes of control (`--control`)."""
+
+# Actions and modifiers of which a row, or a part of one, says more than what they control and need.
+_OF = {
+    "animal.walk": UNMOVED,
+    "assign_orientation": IN_CARLA["C10"],
+    "assign_position": IN_CARLA["C09"],
+    "follow_path": IN_CARLA["C11"],
+    "follow_trajectory": IN_CARLA["C12"],
+    "orientation": f"{HEADING}; {PITCH_AND_ROLL}",
+    "person.walk": WALKERS,
+    "physical_movement": IN_CARLA["C23"],
+    "position": IN_CARLA["C21"],
+    "remain_stationary": IN_CARLA["C08"],
+    "yaw": HEADING,
+}
+_NEEDING = {
+    "lights": VEHICLE_LIGHTS,
+    "map": MAP,
+    "towing": TRAILERS,
+    "traffic_lights": IN_CARLA["C17"],
+    "weather": WEATHER,
+}
+
+
+def how(name: str, *, moves: bool, needs: Sequence[str]) -> str:
+    """Say how an action or modifier does in CARLA.
+
+    Args:
+        name: `vehicle.drive`, `speed`.
+        moves: Whether it controls how an actor moves, or lets it move.
+        needs: What it needs of a world, as in its registration.
+    """
+    own = _OF.get(name) or _OF.get(name.rpartition(".")[2])
+    of_needs = next((_NEEDING[need] for need in needs if need in _NEEDING), None)
+    return own or of_needs or (MOTION if moves else RUNTIME)

@@ -1,0 +1,53 @@
+"""Types of a scenario's own that derive from a type of the library, for each that there is."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.compilation.driver import Compilation
+from osc2tx.options import CompileOptions
+from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.symbols import ActorSymbol, StructSymbol
+from osc2tx_runtime import RunSettings, Scenario
+from osc2tx_runtime.errors import UnsupportedError
+
+TEXT = """import osc.standard.all
+namespace own use std, stdtypes
+
+{word} own_kind inherits {base}:
+    serial_number: uint
+
+scenario holds_one:
+    held: own_kind with:
+        keep(it.serial_number == 3)
+    ego: vehicle
+    do ego.drive(duration: 1s)
+"""
+SCOPE = shared_library("2.2", "asam", "all").scope
+SYMBOLS = [each for group in SCOPE.types.values() for each in group]
+BASES = {each.name: each for each in SYMBOLS if isinstance(each, ActorSymbol | StructSymbol)}
+INCOMPLETE = {"OSC501"}
+"""No object of the type, or one of which too little is said; `held` says nothing of its base."""
+
+
+@pytest.mark.parametrize("name", sorted(BASES))
+def test_derived(
+    tmp_path: Path, name: str, load: Callable[[GeneratedModule], type[Scenario]]
+) -> None:
+    word = "actor" if isinstance(BASES[name], ActorSymbol) else "struct"
+    path = tmp_path / "holds_one.osc"
+    path.write_text(TEXT.format(word=word, base=name), encoding="utf-8")
+    compilation = Compilation(path, path.name, CompileOptions(standard="2.2"))
+    if not compilation.check():
+        errors = {each.code for each in compilation.diagnostics if each.severity == "error"}
+        assert errors <= INCOMPLETE
+        return
+    assert compilation.ir is not None
+    scenario_class = load(draft(compilation.ir))
+    if name == "bm_engine":  # what drives is the world's own, not the scenario's
+        with pytest.raises(UnsupportedError, match="name one of its models"):
+            scenario_class(RunSettings())
+        return
+    assert vars(scenario_class(RunSettings()))["held"].serial_number == 3
