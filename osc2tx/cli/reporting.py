@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from enum import IntEnum
 from functools import wraps
 from pathlib import Path
@@ -19,8 +18,8 @@ import click
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics import Severity
 from osc2tx.diagnostics.report import Report, make_report
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.version import __version__
+from osc2tx_classes import dataclass, replace
 from osc2tx_text import complain, is_watched, put, put_document, say
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]

@@ -8,7 +8,6 @@ from itertools import combinations, islice, product
 from pathlib import Path
 
 import pytest
-from scipy.stats import kstest, qmc
 
 from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.designs import levels_of
@@ -50,12 +49,16 @@ def test_constraints_are_kept(sampler: str) -> None:
 @pytest.mark.parametrize("sampler", ["random", "sobol", "halton"])
 def test_points_fill_the_allowed_set_evenly(sampler: str) -> None:
     """Of the triangle a < b the larger side has the distribution x^2, the smaller 1 - (1 - x)^2."""
+    from scipy.stats import kstest  # takes seconds to load
+
     found = values(TRIANGLE, sampler, 600, seed=3).values()
     assert kstest([each["b"] / 10.0 for each in found], lambda x: x * x).pvalue > 0.01
     assert kstest([each["a"] / 10.0 for each in found], lambda x: 1 - (1 - x) ** 2).pvalue > 0.01
 
 
 def test_sequences_spread_better_than_chance() -> None:
+    from scipy.stats import qmc  # takes seconds to load
+
     def unevenness(sampler: str) -> float:
         found = values(MIXED, sampler, 256).values()
         return float(qmc.discrepancy([[(each["v"] - 10.0) / 10.0] for each in found]))

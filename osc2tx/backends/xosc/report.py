@@ -12,7 +12,7 @@ from math import ceil, floor, inf, log10
 
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 class Grade(Enum):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from xml.etree import ElementTree
 
+from osc2tx_classes import replace
 from osc2tx_runtime.language.outline import OutlineNode, outline
 from osc2tx_runtime.language.tree import Behaviour
 from osc2tx_text import visible

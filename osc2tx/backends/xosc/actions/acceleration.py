@@ -7,7 +7,6 @@ speed, one that changes is a course through points.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
@@ -27,6 +26,7 @@ from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import dataclass, replace
 
 
 @action("assign_acceleration")

@@ -6,7 +6,6 @@ distance rigid, which is what a gap needs that is there already.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from math import inf
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
@@ -18,6 +17,7 @@ from osc2tx.backends.xosc.flattening.adjacent_members import predecessor
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import dataclass, replace
 
 HOW = "how it closes the gap, and when it is there, is up to the tool"
 """What reports say about gaps: the standard has no law for their control."""

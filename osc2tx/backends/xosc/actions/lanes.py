@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
@@ -18,6 +17,7 @@ from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 LANE_WIDTH = 3.5
 """Metres between lanes where there is no map to ask."""

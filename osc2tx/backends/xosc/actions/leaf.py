@@ -7,7 +7,6 @@ domain (longitudinal, lateral) that it controls.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
@@ -18,6 +17,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import dataclass
 
 Ending: TypeAlias = Literal["goal", "open", "instant"]
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.gap_elements import Gap, hold, missing_at_start
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
@@ -17,6 +15,7 @@ from osc2tx.backends.xosc.facts.actors import Linear, way_between
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_classes import dataclass, replace
 
 
 @modifier("position")

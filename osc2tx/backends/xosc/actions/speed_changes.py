@@ -8,7 +8,6 @@ which has the limits of acceleration and jerk, or any course through points. Bef
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed_notes import GENERIC, note_acceleration, note_even_change
@@ -28,6 +27,7 @@ from osc2tx.backends.xosc.facts.actors import (
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""

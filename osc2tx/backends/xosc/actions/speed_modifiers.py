@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 
 from osc2tx import ir
@@ -23,6 +22,7 @@ from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_classes import replace
 
 RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import (
@@ -18,6 +17,7 @@ from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import WAY, ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element, text_of
+from osc2tx_classes import replace
 
 
 def user_action(leaf: Leaf) -> Performance:

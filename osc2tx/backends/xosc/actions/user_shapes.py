@@ -6,7 +6,6 @@ They are computed before the run and drawn through points, close enough to each 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 
@@ -15,6 +14,7 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, through_points
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx_classes import dataclass, replace
 
 NEAR = 0.02
 """m/s within which a line between points is the course."""

@@ -7,7 +7,6 @@ trajectory takes it across the road.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.paths import follow
@@ -18,6 +17,7 @@ from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import WAY, known
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 SAMPLES = 20
 """Points of a change of the speed, before those that are not needed are left out."""

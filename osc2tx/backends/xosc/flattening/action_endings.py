@@ -6,8 +6,6 @@ runs on until it is done, or another one takes over.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
@@ -18,6 +16,7 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 BACK_TO_CENTRE = 1.5
 """Seconds for the way back after a change of lane that was cut short."""

@@ -7,7 +7,6 @@ fails, which the verdict of 1.3 can tell. In the dialect `carla` whatever comes 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
@@ -18,6 +17,7 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_classes import replace
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
 

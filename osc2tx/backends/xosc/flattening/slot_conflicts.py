@@ -6,13 +6,13 @@ In the XML one of them would just take over from the other.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.parallel_overlaps import is_open
 from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of
 from osc2tx.backends.xosc.report import Remedy
+from osc2tx_classes import replace
 
 
 def report_conflicts(ctx: Context, node: ir.Parallel) -> None:
