@@ -19,7 +19,6 @@ True
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TypedDict, Unpack
@@ -34,6 +33,7 @@ from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
 from osc2tx.support.output_names import MODULE
+from osc2tx_classes import dataclass
 
 __all__ = ["CompileResult", "compile_file", "compile_text"]
 

@@ -23,11 +23,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from osc2tx.testing_campaigns import Campaign, CampaignRow, run_campaign
+from osc2tx_classes import dataclass, replace
 
 if TYPE_CHECKING:
     import pytest

@@ -5,9 +5,10 @@ from __future__ import annotations
 import shlex
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from osc2tx_classes import dataclass
 
 if TYPE_CHECKING:
     import pytest

@@ -16,7 +16,7 @@ from osc2tx.analysis.usage import find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

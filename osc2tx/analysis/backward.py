@@ -7,7 +7,6 @@ returned stays as it is.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import reduce
 from typing import TypeAlias
 
@@ -22,9 +21,11 @@ from osc2tx.analysis.domains import (
     is_disjoint,
     is_void,
     join,
+    numbers_of,
 )
 from osc2tx.analysis.forward import negated, range_between
 from osc2tx.analysis.operation_list import Operation
+from osc2tx_classes import replace
 
 Narrowings: TypeAlias = Iterator[tuple[int, Domain]]
 
@@ -134,8 +135,8 @@ def _order(relation: str, left: Interval, right: Interval) -> Narrowings:
     if is_void(left) or is_void(right):
         raise EmptyDomainError  # NaN compares with nothing
     if relation == "==":
-        yield 0, replace(right, nan=False)
-        yield 1, replace(left, nan=False)
+        yield 0, numbers_of(right)
+        yield 1, numbers_of(left)
         return
     yield 0, _side(relation, right)
     yield 1, _side(SWAPPED[relation], left)

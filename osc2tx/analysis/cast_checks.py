@@ -14,8 +14,8 @@ from osc2tx.diagnostics import Span
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(slots=True, eq=False)

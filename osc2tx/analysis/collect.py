@@ -8,7 +8,6 @@ and invocations of user-defined types what these demand of their own members.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx.analysis.operation_list import Key, OperationList, OperationListBuilder
@@ -21,8 +20,8 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 Op = ast.BinaryOperator
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 
 from osc2tx.analysis.collect import Constraint, Entry, Removal
 from osc2tx.analysis.operation_list import Key
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

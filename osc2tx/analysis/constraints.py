@@ -16,7 +16,7 @@ expression in force, all overriding done, so that a backend can write it as auth
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import field
 from enum import Enum
 from functools import partial
 
@@ -37,8 +37,8 @@ from osc2tx.analysis.specialisation import (
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 MOST_CONFLICTS = 10  # reported for one type
 

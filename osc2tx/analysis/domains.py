@@ -8,10 +8,9 @@ it is excluded, and whether NaN is in the set: comparisons drop it, their negati
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 Number: TypeAlias = int | float
 Value: TypeAlias = int | float | bool | str
@@ -166,12 +165,17 @@ def join(first: Domain, second: Domain) -> Domain:
 def is_disjoint(first: Domain, second: Domain) -> bool:
     """Whether two sets have nothing in common; NaN never counts, as it equals nothing."""
     if isinstance(first, Interval) and isinstance(second, Interval):
-        first, second = replace(first, nan=False), replace(second, nan=False)
+        first, second = numbers_of(first), numbers_of(second)
     try:
         intersect(first, second)
     except EmptyDomainError:
         return True
     return False
+
+
+def numbers_of(interval: Interval) -> Interval:
+    """Return an interval without NaN."""
+    return replace(interval, nan=False) if interval.nan else interval
 
 
 def is_void(interval: Interval) -> bool:

@@ -22,8 +22,8 @@ from osc2tx.analysis.domains import (
 from osc2tx.analysis.interval_arithmetic import WHOLE
 from osc2tx.semantics import SemanticModel, to_si, types
 from osc2tx.semantics import symbols as sym
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Op = ast.BinaryOperator
 ARITHMETIC = (Op.ADD, Op.SUBTRACT, Op.MULTIPLY, Op.DIVIDE, Op.MODULO)

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from osc2tx.analysis.operation_list import Key, OperationList
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 # Which sides of a comparison are the smaller one, 0 left and 1 right, and whether strictly.
 SMALLER: Mapping[str, tuple[tuple[int, ...], bool]] = {

@@ -25,7 +25,7 @@ from osc2tx.analysis.forward import evaluate
 from osc2tx.analysis.linear_equations import linear_solutions
 from osc2tx.analysis.operation_list import Key, OperationList
 from osc2tx.analysis.order_constraints import find_contradiction
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 PASSES = 40  # how often a constraint is visited on average, at most
 FREE_PASSES = 4  # from then on only steps that change something visibly are followed

@@ -13,8 +13,8 @@ from osc2tx.analysis.operation_list import Key
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Special = sym.ActorSymbol | sym.StructSymbol
 

@@ -10,8 +10,8 @@ from osc2tx.analysis.tree_walk import do_directives, do_members, nodes_below
 from osc2tx.catalogue import catalogue
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 MOST_ROUNDS = 50
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from inspect import get_annotations
 
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
 SKIPPED = frozenset({"span", "comments", "trailing_comment", "end_comments"})
-_FIELDS: dict[str, tuple[str, ...]] = {}
+_PLAIN = frozenset({"str", "str | None", "float", "int", "bool", "int | float", "tuple[str, ...]"})
+_FIELDS: dict[type[ast.Node], tuple[str, ...]] = {}
 
 
 def do_members(root: ast.BehaviorMember) -> Iterator[ast.BehaviorMember]:
@@ -44,18 +46,27 @@ def nodes_below(root: ast.Node) -> Iterator[ast.Node]:
 def children_of(node: ast.Node) -> list[ast.Node]:
     """Return the nodes right below a node, in source order."""
     children: list[ast.Node] = []
-    for name in _child_fields(type(node)):
+    kind = type(node)
+    fields = _FIELDS.get(kind)
+    for name in _child_fields(kind) if fields is None else fields:
         value = getattr(node, name)
-        if isinstance(value, ast.Node):
+        if isinstance(value, tuple):
+            children += [item for item in value if isinstance(item, ast.Node)]
+        elif isinstance(value, ast.Node):
             children.append(value)
-        elif isinstance(value, tuple):
-            children += (item for item in value if isinstance(item, ast.Node))
     return children
 
 
 def _child_fields(kind: type[ast.Node]) -> tuple[str, ...]:
     """Return the fields of a class of nodes that may hold nodes, those of its bases first."""
-    if kind.__name__ not in _FIELDS:
-        slots = (name for base in reversed(kind.__mro__) for name in getattr(base, "__slots__", ()))
-        _FIELDS[kind.__name__] = tuple(name for name in slots if name not in SKIPPED)
-    return _FIELDS[kind.__name__]
+    found = {
+        name: annotation
+        for base in reversed(kind.__mro__)
+        for name, annotation in get_annotations(base).items()
+    }
+    _FIELDS[kind] = tuple(
+        name
+        for name, said in found.items()
+        if name not in SKIPPED and said not in _PLAIN and not said.startswith("ClassVar")
+    )
+    return _FIELDS[kind]

@@ -10,8 +10,8 @@ from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype, supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Declared = tuple[sym.TypeSymbol, sym.EventSymbol]
 """A type and an event that it declares."""

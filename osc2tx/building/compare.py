@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from osc2tx.building.jobs import find_jobs
@@ -13,7 +12,7 @@ from osc2tx.building.revision import checked_out
 from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

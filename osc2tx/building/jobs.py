@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from traceback import format_exception
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx.compilation.inputs import find_inputs
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 from osc2tx_text import visible
 
 if TYPE_CHECKING:

@@ -24,8 +24,8 @@ from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.version import __version__
+from osc2tx_classes import dataclass
 from osc2tx_text import in_json
 
 MANIFEST_NAME = ".osc2tx-manifest.json"

@@ -15,7 +15,6 @@ from osc2tx.building.manifest import Manifest, beside
 from osc2tx.building.results import FileResult, OutputRecord
 from osc2tx.building.version_control import committed_objects, is_object
 from osc2tx.building.written_digests import Digests
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.output_names import (
     LOSS_REPORT,
     MODULE,
@@ -25,6 +24,7 @@ from osc2tx.support.output_names import (
     source_map_of,
 )
 from osc2tx.support.portable_names import is_portable
+from osc2tx_classes import dataclass
 
 
 class State(Enum):

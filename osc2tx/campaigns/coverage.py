@@ -7,12 +7,13 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import product
 from typing import Any
 
 from osc2tx.campaigns.identity import plan_from
 from osc2tx.campaigns.store import Store
+from osc2tx_classes import dataclass
 from osc2tx_runtime.campaigns import Executor, Plan
 
 __all__ = ["Bucket", "Item", "coverage_of", "items_of"]

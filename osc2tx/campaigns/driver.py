@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass, replace
 
 from osc2tx.campaigns.engine import Engine
 from osc2tx.campaigns.identity import Texts, identity_of, plan_to
@@ -12,6 +11,7 @@ from osc2tx.campaigns.planner import Planner, columns_of, is_allowed
 from osc2tx.campaigns.samplers import sampler_by_name
 from osc2tx.campaigns.sampling import Sampler, Wanted
 from osc2tx.campaigns.store import Store
+from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.campaigns import Executor, Plan, Row
 
 __all__ = ["Progress", "run_campaign"]

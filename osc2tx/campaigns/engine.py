@@ -12,11 +12,11 @@ import time
 from collections import deque
 from collections.abc import Generator, Iterator
 from contextlib import suppress
-from dataclasses import replace
 from multiprocessing.connection import Connection, wait
 from typing import Protocol
 
 from osc2tx.campaigns.errors import CampaignError
+from osc2tx_classes import replace
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.rows import CRASHED
 from osc2tx_runtime.campaigns.worker import Refused, work

@@ -5,12 +5,12 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from osc2tx.campaigns.sampling import Sampler, Wanted
 from osc2tx.version import __version__
+from osc2tx_classes import replace
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Executor, Plan, Row
 from osc2tx_runtime.running.options import read_options

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import replace
 from pathlib import Path
 
 from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import plan_from
 from osc2tx.campaigns.store import Store, row_of
+from osc2tx_classes import replace
 from osc2tx_runtime import RunResult
 from osc2tx_runtime.campaigns import Executor
 from osc2tx_runtime.campaigns.executor import trace_digest

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import count
 from typing import Any
 
@@ -12,6 +12,7 @@ from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.sampling import Sampler, Wanted, row_seed
 from osc2tx.campaigns.sequences import SequenceSampler
 from osc2tx.campaigns.tables import TableSampler
+from osc2tx_classes import dataclass
 from osc2tx_runtime.campaigns import Row
 from osc2tx_runtime.campaigns.points import Column
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Protocol
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.campaigns import Row
 
 __all__ = ["Sampler", "Wanted", "row_seed"]

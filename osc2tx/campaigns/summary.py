@@ -6,11 +6,11 @@ import math
 import re
 import shlex
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from osc2tx.campaigns.coverage import Item, coverage_of, overall
 from osc2tx.campaigns.store import Store
+from osc2tx_classes import dataclass
 
 __all__ = ["FORMAT", "Failures", "Results", "failures_of", "results_of", "summary_of"]
 

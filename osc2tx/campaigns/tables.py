@@ -6,12 +6,12 @@ import csv
 import hashlib
 import io
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.sampling import row_seed
+from osc2tx_classes import dataclass
 from osc2tx_runtime.campaigns import Row
 
 __all__ = ["TableSampler"]
@@ -19,7 +19,7 @@ __all__ = ["TableSampler"]
 
 @dataclass(frozen=True, slots=True)
 class TableSampler:
-    """Rows of a CSV file: names of parameters in the first line, values in SI units below."""
+    """Rows of a CSV file: names of parameters in the first line, values as for `--set` below."""
 
     digest: str
     names: Sequence[str]

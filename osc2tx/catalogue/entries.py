@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 from osc2tx_rules import ModifierRules, Rule, Sort
 
 

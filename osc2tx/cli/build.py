@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,7 +20,7 @@ from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import PRODUCT_NAMES, ProductName
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 from osc2tx_text import complain, put, visible
 
 if TYPE_CHECKING:

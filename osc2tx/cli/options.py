@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from functools import wraps
 from pathlib import Path
 from typing import Any
@@ -21,6 +20,7 @@ from osc2tx.options import (
     XML_PROFILES,
     XML_VERSIONS,
 )
+from osc2tx_classes import replace
 
 _NAMES = {
     ".osc": re.compile(r"^scenario\s+([\w.]+)", re.MULTILINE),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -18,6 +17,7 @@ from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.support.real_paths import real_path
+from osc2tx_classes import replace
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.running.main import choose_scenario as choose

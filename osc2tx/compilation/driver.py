@@ -169,7 +169,8 @@ class Compilation:
         if self.options.target != "xosc":
             from osc2tx.backends.py_trees.support import check_support
 
-            check_support(self.ir, self.sink)
+            with room_for_trees():
+                check_support(self.ir, self.sink)
         self.is_complete = not self._failed()
         if self.options.target == "xosc":
             self._report_losses()

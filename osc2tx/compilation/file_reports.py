@@ -6,13 +6,12 @@ Nothing here loads a stage: a check whose result is remembered needs none.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Protocol
 
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.diagnostics.suppressions import Suppression, SuppressionResult, settle
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 
 class Reportable(Protocol):

@@ -10,9 +10,9 @@ from urllib.parse import unquote, urlsplit
 
 from osc2tx.compilation.module_search import module_place, places_text, similar_module
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.real_paths import real_path
 from osc2tx.syntax import ast, parse, read_source
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

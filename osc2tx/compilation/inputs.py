@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 from osc2tx_text import visible
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.output_names import (
     COVERAGE_MODEL,
     LOSS_REPORT,
@@ -14,6 +13,7 @@ from osc2tx.support.output_names import (
     SOURCE_MAP,
     XML,
 )
+from osc2tx_classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from osc2tx.diagnostics.explanations import Explanation, explanation_of
 from osc2tx.diagnostics.model import Severity
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 ERROR, WARNING = Severity.ERROR, Severity.WARNING
 

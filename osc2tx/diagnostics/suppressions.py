@@ -14,7 +14,7 @@ from osc2tx.diagnostics.code_lookup import find_code, meant_code
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.sink import DiagnosticSink, in_order
 from osc2tx.diagnostics.source import SourceFile, Span
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

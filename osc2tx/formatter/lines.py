@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from osc2tx.formatter.token_gaps import Comment, Gap, read_gap
 from osc2tx.syntax.comments import Between, share
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, NEWLINE, TokenTable
+from osc2tx_classes import dataclass
 
 _LAYOUT = frozenset({INDENT, DEDENT, NEWLINE, EOF})
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from osc2tx_classes import dataclass
 
 _ITEM = re.compile(
     r"(?P<comment>\#[^\r\n]*+|/\*.*?\*/)|(?P<join>\\)?(?P<end>\r\n|\r|\n)", re.DOTALL

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any
 
 from osc2tx.ir.behaviors import ModifierCall
 from osc2tx.ir.expressions import Argument, Expression, ParameterRef
 from osc2tx.ir.values import ExpressionBase
+from osc2tx_classes import replace
 
 
 def rewrite(

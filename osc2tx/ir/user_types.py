@@ -7,7 +7,7 @@ from osc2tx.ir.behaviors import ModifierCall
 from osc2tx.ir.declarations import Method, MethodParameter
 from osc2tx.ir.expressions import Expression
 from osc2tx.ir.values import ValueType, qualified
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TypedDict, assert_never
 
 from osc2tx import ir
@@ -20,6 +19,7 @@ from osc2tx.lowering.open_durations import with_open_duration
 from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.lowering.triggers import boundary_of, declares_event, lower_trigger, lower_until
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 # Life-cycle events that a scenario may emit, and whether it succeeds then.
 FINISHING = {"end": True, "fail": False}

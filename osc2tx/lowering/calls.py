@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -19,6 +18,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 CallNode: TypeAlias = ast.Call | ast.CallDirective
 

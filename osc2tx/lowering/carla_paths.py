@@ -7,15 +7,14 @@ A `Path` becomes one declared piece of road with everything that is asked of it,
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.modifiers import lower_modifier
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 TYPE = "Path"
 MAP_MODIFIER = "set_map"

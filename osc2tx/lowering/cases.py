@@ -14,8 +14,8 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.parameter_domains import all_values, as_type
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import types
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Op = ast.BinaryOperator
 

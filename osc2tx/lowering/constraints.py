@@ -8,7 +8,7 @@ that all this does not make true by itself is left over: it is checked before th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field, replace
+from dataclasses import field
 
 from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
@@ -26,8 +26,8 @@ from osc2tx.lowering.parameter_domains import DomainWriter, all_values, as_type,
 from osc2tx.lowering.parameter_settings import Instance, Setting, is_known_here, is_last
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(slots=True)

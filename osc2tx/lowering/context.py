@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from typing import TypeVar
 
 from osc2tx import ir
@@ -24,8 +24,8 @@ from osc2tx.semantics.symbols import (
     Symbol,
     TypeSymbol,
 )
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 Part = TypeVar("Part")
 

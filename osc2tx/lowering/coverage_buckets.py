@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import pairwise, product
 
 from osc2tx import ir
@@ -25,8 +24,8 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.coverage_items import Item
 from osc2tx.semantics.scope import supertypes
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 THIRDS = ("low", "mid", "high")
 FEW = 256  # whole numbers that have a bucket each: a byte

@@ -5,8 +5,6 @@ Defaults that it changed become arguments, and what it calls by another name get
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.context import LoweringContext
@@ -14,6 +12,7 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 # (modifier, parameter) -> its default in the standard, the parameters it gives meaning to, and
 # those that take its meaning away.

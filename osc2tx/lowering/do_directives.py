@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.lowering.behaviors import BehaviorLowering
 from osc2tx.lowering.composed_behaviors import Composed
@@ -12,6 +10,7 @@ from osc2tx.lowering.context import LoweringContext, present
 from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.lowering.triggers import boundary_of
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 def lower_body(

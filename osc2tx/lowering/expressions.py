@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
@@ -14,6 +13,7 @@ from osc2tx.lowering.references import lower_key, lower_member, lower_name
 from osc2tx.lowering.type_conversions import lower_cast, lower_type_test
 from osc2tx.lowering.value_types import lower_type, lower_unit
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.lowering.carla_paths import is_path, path_declarations, path_members
 from osc2tx.lowering.composed_behaviors import Composed, is_placeholder
@@ -16,6 +14,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 class GlobalLowering:

@@ -9,7 +9,7 @@ it has to hold by then.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 
 from osc2tx import ir
 from osc2tx.catalogue import catalogue
@@ -18,7 +18,7 @@ from osc2tx.lowering.carla_paths import START
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.open_start_speeds import open_start_speed
 from osc2tx.lowering.shape_arguments import first_value, says_start
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 # Of these an actor has one at the start, whoever gives it.
 _PLACES = frozenset({"lane", "position"})

@@ -10,7 +10,6 @@ at each place of application. Nor are constraints part of one: they belong to th
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.analysis.parameter_lookup import Place
@@ -23,6 +22,7 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 OF_THE_SCENARIO = (
     ir.FieldRef,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.lowering.arguments import lower_arguments
 from osc2tx.lowering.context import LoweringContext, statement_comments
@@ -13,6 +11,7 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 def lower_modifier(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import chain
 
 from osc2tx import ir
@@ -28,6 +27,7 @@ from osc2tx.lowering.user_fields import (
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx_classes import replace
 
 
 class ObjectLowering:

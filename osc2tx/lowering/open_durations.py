@@ -5,12 +5,12 @@ What ends by itself, or with an `until`, takes the time it takes; there a range 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.catalogue import catalogue
 from osc2tx.lowering.context import LoweringContext
+from osc2tx_classes import replace
 
 __all__ = ["is_open_ended", "with_open_duration"]
 

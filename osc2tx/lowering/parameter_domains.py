@@ -17,8 +17,8 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.value_types import lower_type, lower_unit, number_in
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Op = ast.BinaryOperator
 

@@ -8,8 +8,8 @@ from osc2tx import ir
 from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.operation_list import Key
 from osc2tx.semantics import symbols as sym
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Instance: TypeAlias = ast.Invocation | ast.Composition
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
 from osc2tx.diagnostics import Span
@@ -16,6 +14,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 def lower_name(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
@@ -49,6 +48,7 @@ from osc2tx.options import CompileOptions
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 def lower(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.value_types import SCENARIO
@@ -12,6 +10,7 @@ from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 PARAMETER = "shape"
 

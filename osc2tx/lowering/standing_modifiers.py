@@ -18,8 +18,8 @@ from osc2tx.lowering.user_modifiers import Applied, ModifierLowering
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.semantics.types import ActorType
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ declaration, whatever the default of the Python class.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.analysis.parameter_lookup import Place
@@ -17,6 +16,7 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 MOVEMENT = "action_for_movable_object"
 """Base of all actions of the library that modifiers of movement may be applied to."""

@@ -6,8 +6,6 @@ of its body then belong to the invocation like any others.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
 from osc2tx.analysis.parameter_lookup import Place
@@ -23,8 +21,8 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.modifiers import instead_of_scenario
 from osc2tx.semantics.scope import is_subtype
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 # Members by which a modifier changes something.
 EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 
 from osc2tx.stdlib import DOMAIN, TYPES, library_file, member_meanings
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 __all__ = ["Declaration", "Member", "declarations"]
 

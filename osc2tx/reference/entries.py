@@ -7,7 +7,7 @@ from functools import cache
 from osc2tx.catalogue import ActionEntry, ModifierEntry, catalogue
 from osc2tx.reference.declarations import Declaration, declarations
 from osc2tx.reference.shown import Shown, shown
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 __all__ = ["Entry", "entries", "find"]
 

@@ -10,7 +10,7 @@ import json
 from functools import cache
 from pathlib import Path
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 __all__ = ["NOTHING", "TABLE", "Shown", "shown"]
 

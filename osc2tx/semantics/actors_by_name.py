@@ -8,7 +8,6 @@ what an invocation leaves out of the actors is the caller's actor of that name.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -16,6 +15,7 @@ from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import FieldSymbol, ScenarioSymbol
 from osc2tx.semantics.types import ActorType
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 
 
 def actor_of_caller(r: Resolution, name: ast.Name, env: Environment) -> FieldSymbol | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import ChainMap
 from dataclasses import field
 
 from osc2tx.diagnostics import DiagnosticSink, Span
@@ -19,9 +18,9 @@ from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
 from osc2tx.semantics.type_names import tell_types_apart
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(slots=True, eq=False)
@@ -138,10 +137,10 @@ def _model(
         files=files,
         scenarios=scenarios,
         actions=actions,
-        types=ChainMap(r.types, below.types),
-        references=ChainMap(r.references, below.references),
-        bindings=ChainMap(r.bindings, below.bindings),
-        units=ChainMap(r.units, below.units),
+        types={**below.types, **r.types},
+        references={**below.references, **r.references},
+        bindings={**below.bindings, **r.bindings},
+        units={**below.units, **r.units},
         quantities=r.quantities,
         symbols=tuple(r.scope.declared),
         known_units=tuple(r.scope.all_units()),

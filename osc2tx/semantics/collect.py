@@ -32,8 +32,8 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import SI_BASES, Dimension, PhysicalType
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 LIBRARY_NAMESPACES = ("std", "stdtypes")
 

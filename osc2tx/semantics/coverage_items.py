@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import TypeSymbol
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 ARGUMENTS = (
     "name", "expression", "unit", "range", "every", "buckets", "event", "text", "items",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.semantics.symbols import UnitSymbol

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from osc2tx.catalogue import catalogue
 from osc2tx.semantics.resolution import Resolution
@@ -15,6 +14,7 @@ from osc2tx.semantics.symbols import (
     Symbol,
 )
 from osc2tx.syntax import ast
+from osc2tx_classes import replace
 from osc2tx_rules import Rule, violations
 
 

@@ -8,9 +8,9 @@ from pathlib import PurePosixPath
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.semantics.dialects import LIBRARY_FILES, RUNNER_FILE, Relaxations
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.support.real_paths import real_path
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 LoadFile = Callable[[ast.Import, SourceFile], ast.File | None]
 ImportHelp = Callable[[ast.Import], str | None]

@@ -14,7 +14,7 @@ from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
 from osc2tx.stdlib import DOMAIN, TYPES, library_file
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,8 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import ERROR, Type
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

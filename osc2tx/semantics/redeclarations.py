@@ -18,8 +18,8 @@ from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import ActorSymbol, PhysicalTypeSymbol, Symbol, UnitSymbol
 from osc2tx.semantics.types import Dimension, PhysicalType
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 CODE = "OSC616"
 SAME = 1e-9  # relative; the same number, but for the digits that people write

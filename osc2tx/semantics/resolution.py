@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from typing import Protocol
 
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
@@ -24,8 +24,8 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import Type
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

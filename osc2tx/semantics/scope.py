@@ -23,8 +23,8 @@ from osc2tx.semantics.symbols import (
     UnitSymbol,
 )
 from osc2tx.semantics.types import Dimension, PhysicalType
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 NULL = "null"
 
@@ -204,11 +204,9 @@ def supertypes(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
 
 def base_of(symbol: TypeSymbol) -> TypeSymbol | None:
     """Return the supertype of a type."""
-    match symbol:
-        case StructSymbol() | ActorSymbol() | ScenarioSymbol() | ActionSymbol():
-            return symbol.base
-        case _:
-            return None
+    if isinstance(symbol, (StructSymbol, ActorSymbol, ScenarioSymbol, ActionSymbol)):
+        return symbol.base  # a tuple: this is asked hundreds of times a line
+    return None
 
 
 def is_subtype(symbol: TypeSymbol, ancestor: TypeSymbol) -> bool:

@@ -21,8 +21,8 @@ from osc2tx.semantics.basic_types import (
     PrimitiveType,
     VoidType,
 )
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)

@@ -32,8 +32,8 @@ zipapp zipfile zipimport zlib zoneinfo
 
 # What the runtime imports, and what Python and pytest import by themselves where they find it.
 _OTHERS = """
-carla conftest lxml numpy osc2tx osc2tx_rules osc2tx_runtime osc2tx_text py_trees pydot pyparsing
-pytest sitecustomize usercustomize
+carla conftest lxml numpy osc2tx osc2tx_classes osc2tx_rules osc2tx_runtime osc2tx_text py_trees
+pydot pyparsing pytest sitecustomize usercustomize
 """
 
 _TAKEN = frozenset((_STANDARD + _OTHERS).split())

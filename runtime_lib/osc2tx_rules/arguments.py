@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal, Protocol
+
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

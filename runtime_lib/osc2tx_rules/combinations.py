@@ -7,9 +7,9 @@ thing than one along the road. Modifiers that speak of the same *topic* exclude 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Generic, Literal, Protocol, TypeVar
 
+from osc2tx_classes import dataclass
 from osc2tx_rules.arguments import Given, Rule, none_of, violations
 
 LATERAL_SPEED = "lateral speed"

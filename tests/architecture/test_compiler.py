@@ -19,16 +19,16 @@ MAY_IMPORT: dict[str, set[str]] = {
     "support": set(),
     "version": set(),
     "diagnostics": {"support"},
-    "options": {"support"},
+    "options": set(),
     # stages, in the order in which they run
     "syntax": {"diagnostics", "support"},
     "stdlib": {"diagnostics", "support", "syntax", "version"},
-    "catalogue": {"support"},
+    "catalogue": set(),
     "semantics": {"catalogue", "diagnostics", "stdlib", "support", "syntax.ast"},
-    "analysis": {"catalogue", "diagnostics", "options", "semantics", "support", "syntax.ast"},
-    "ir": {"diagnostics", "support"},
+    "analysis": {"catalogue", "diagnostics", "options", "semantics", "syntax.ast"},
+    "ir": {"diagnostics"},
     "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
-    | {"diagnostics", "options", "support"},
+    | {"diagnostics", "options"},
     "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support"},
     # what runs them
     "formatter": {"diagnostics", "syntax"},
@@ -37,7 +37,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"diagnostics", "formatter", "options", "support"},
     "building": {"compilation", "config"}
     | {"diagnostics", "options", "resources", "support", "version"},
-    "reference": {"catalogue", "stdlib", "support", "syntax"},
+    "reference": {"catalogue", "stdlib", "syntax"},
     "campaigns": {"version"},
     "cli": {"backends", "building", "campaigns", "compilation", "config", "reference"}
     | {"diagnostics", "options", "resources", "support", "version"},
@@ -51,7 +51,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "": {"api", "diagnostics", "version"},
 }
 
-# Part or folder -> packages of others that it imports, besides the standard library.
+# Part or folder -> packages of others that it imports, besides the standard library and our
+# own `dataclass`.
 OTHERS = {
     "syntax": {"antlr4"},
     "building": {"osc2tx_text"},
@@ -94,7 +95,7 @@ def imports_of(path: Path) -> tuple[set[str], set[str]]:
         first, _, rest = name.partition(".")
         if first == "osc2tx" and not is_below(rest, part_of(path)):
             inside.add(rest)
-        elif first != "osc2tx" and first not in sys.stdlib_module_names:
+        elif first not in {"osc2tx", "osc2tx_classes", *sys.stdlib_module_names}:
             outside.add(first)
     return inside, outside
 

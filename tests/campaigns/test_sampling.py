@@ -8,7 +8,6 @@ from itertools import combinations, islice, product
 from pathlib import Path
 
 import pytest
-from scipy.stats import kstest, qmc
 
 from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.designs import levels_of
@@ -50,12 +49,16 @@ def test_constraints_are_kept(sampler: str) -> None:
 @pytest.mark.parametrize("sampler", ["random", "sobol", "halton"])
 def test_points_fill_the_allowed_set_evenly(sampler: str) -> None:
     """Of the triangle a < b the larger side has the distribution x^2, the smaller 1 - (1 - x)^2."""
+    from scipy.stats import kstest  # takes seconds to load
+
     found = values(TRIANGLE, sampler, 600, seed=3).values()
     assert kstest([each["b"] / 10.0 for each in found], lambda x: x * x).pvalue > 0.01
     assert kstest([each["a"] / 10.0 for each in found], lambda x: 1 - (1 - x) ** 2).pvalue > 0.01
 
 
 def test_sequences_spread_better_than_chance() -> None:
+    from scipy.stats import qmc  # takes seconds to load
+
     def unevenness(sampler: str) -> float:
         found = values(MIXED, sampler, 256).values()
         return float(qmc.discrepancy([[(each["v"] - 10.0) / 10.0] for each in found]))
@@ -101,6 +104,15 @@ def test_a_table_says_the_values(tmp_path: Path) -> None:
     ended = run(plan_of(MIXED), place, f"table:{table}", None, Here())
     assert (ended.done, ended.failed) == (2, 1)  # 99 m/s is outside of its range: seen, not hidden
     assert parameters(place)[0] == {"v": 12.3, "n": 2, "colour": "amber", "wet": True}
+
+
+def test_values_of_a_table_have_units(tmp_path: Path) -> None:
+    """45 km/h are 12.5 m/s; a number alone is in SI units."""
+    table = tmp_path / "rows.csv"
+    table.write_text("v,n,colour,wet\n45kph,2,amber,true\n12.5,2,amber,true\n")
+    place = tmp_path / "store"
+    run(plan_of(MIXED), place, f"table:{table}", None, Here())
+    assert [each["v"] for each in parameters(place).values()] == [12.5, 12.5]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ stand inline, nested as they are in the source.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
@@ -35,6 +34,7 @@ from osc2tx.backends.py_trees.view import (
     StatementView,
     signature,
 )
+from osc2tx_classes import replace
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.

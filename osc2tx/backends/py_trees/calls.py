@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from itertools import groupby
 
 from osc2tx import ir
@@ -19,6 +18,7 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
+from osc2tx_classes import replace
 
 
 def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:

@@ -10,7 +10,7 @@ import keyword
 import math
 from decimal import Decimal
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 from osc2tx_text import visible
 
 LONGEST_DIGITS = 10  # a number that takes more characters is written with an exponent

@@ -8,7 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import GivenArguments, by_name, word
 from osc2tx.catalogue import Catalogue, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Label
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 from osc2tx_rules import Clash, Timing, clashes, is_across
 
 

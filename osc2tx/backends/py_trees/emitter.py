@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from osc2tx import ir
@@ -39,6 +38,7 @@ from osc2tx.backends.py_trees.view import (
     UserActionView,
     UserModifierView,
 )
+from osc2tx_classes import dataclass, replace
 
 DefinitionT = TypeVar("DefinitionT", TypeView, UserActionView, UserModifierView, ScenarioView)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from typing import assert_never
 
 from osc2tx import ir
@@ -20,6 +19,7 @@ from osc2tx.backends.py_trees.modifier_calls import parameter_name
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 from osc2tx.backends.py_trees.type_methods import TypeMethods
+from osc2tx_classes import replace
 
 COMPARISONS = {"==": "==", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 ARITHMETIC = {"+": Level.SUM, "-": Level.SUM, "*": Level.TERM, "/": Level.TERM, "%": Level.TERM}

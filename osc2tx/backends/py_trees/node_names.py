@@ -6,10 +6,10 @@ Numbers are the last resort. They go down the text, in whatever order members st
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.naming import identifier
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

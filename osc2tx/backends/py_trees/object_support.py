@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.runtime_api import (
@@ -16,7 +15,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 from osc2tx.backends.py_trees.type_table import ROOT
 from osc2tx.catalogue import ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import name_expression
@@ -17,6 +15,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 )
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
+from osc2tx_classes import replace
 
 
 class ObjectWriter:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
 from osc2tx.backends.py_trees.calls import CallWriter, code, comments
@@ -33,6 +31,7 @@ from osc2tx.backends.py_trees.view import (
     StatementView,
     signature,
 )
+from osc2tx_classes import replace
 
 
 class ScenarioWriter:

@@ -9,7 +9,7 @@ class of it, which is a copy of the importing module. So no declaration is two c
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyExpr
@@ -18,6 +18,7 @@ from osc2tx.backends.py_trees.own_names import Declared, declarations, is_own, k
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.uses import isort_key
 from osc2tx.backends.py_trees.view import ImportView
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

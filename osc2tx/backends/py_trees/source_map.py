@@ -7,9 +7,10 @@ one line of JSON with numbers only: it decides nothing, and nobody reviews it.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 
 from osc2tx.diagnostics import Span
+from osc2tx_classes import dataclass
 from osc2tx_text import in_json
 
 VERSION = 3

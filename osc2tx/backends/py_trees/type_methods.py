@@ -8,10 +8,10 @@ class itself, so the tests of the object that the IR has for that are left out.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.support import has_support
+from osc2tx_classes import replace
 
 OF_THE_SCENARIO = (ir.FieldRef, ir.InvokedValue, ir.EventArgument, ir.UserShape)
 

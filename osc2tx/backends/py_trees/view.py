@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,6 +17,15 @@ class ArgumentView:
     keyword: PyName | None = None
     comments: tuple[PyComment, ...] = ()
 
+    def room(self) -> float:
+        """How many columns it takes on one line, at least; none that black may write otherwise."""
+        length = len(f"{self.keyword}=") if self.keyword else 0
+        if self.call is not None:
+            callee = str(self.call.callee or "")
+            return length + len(callee) + 2 + self.call.room()
+        text = str(self.code)
+        return length + len(text) if text.isascii() and "**" not in text else 0
+
 
 @dataclass(frozen=True, slots=True)
 class CallView:
@@ -26,6 +35,22 @@ class CallView:
     arguments: tuple[ArgumentView, ...] = ()
     exploded: bool = False
     end_comments: tuple[PyComment, ...] = ()
+
+    @property
+    def has_lines(self) -> bool:
+        """Whether each argument has a line: black is told so where it would do that by itself.
+
+        What it need not find out costs no second pass, see `formatting`.
+        """
+        return self.exploded or (len(self.arguments) > 1 and self.room() > LEAST_ROOM)
+
+    def room(self) -> float:
+        """How many columns the arguments take on one line, at least."""
+        return sum(argument.room() for argument in self.arguments) + 2 * len(self.arguments) - 2
+
+
+LEAST_ROOM = 100 - 8
+"""Columns that no argument list has, of lines with the least indentation."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, serialize
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 for _module in iter_modules(actions.__path__):  # they register the forms that they write
     import_module(f"{actions.__name__}.{_module.name}")

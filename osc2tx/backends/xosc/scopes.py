@@ -8,7 +8,7 @@ in front of their names.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field
 from typing import NamedTuple
 
 from osc2tx import ir
@@ -18,6 +18,7 @@ from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.backends.xosc.values.user_types import UserTypes
 from osc2tx.backends.xosc.xml.names import Names
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(slots=True, eq=False)

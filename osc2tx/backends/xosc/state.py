@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx_classes import dataclass, replace
 
 LONGITUDINAL, LATERAL, WAY = "longitudinal", "lateral", "way"
 """Domains that actions control; `way` is the motion of those off the lanes, which just goes on."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from enum import Enum
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import Name, Statement
 from osc2tx.syntax.ast.expressions import Argument, Expression
 from osc2tx.syntax.ast.members import (
@@ -14,6 +13,7 @@ from osc2tx.syntax.ast.members import (
     ModifierApplication,
     RemoveDefault,
 )
+from osc2tx_classes import dataclass
 
 
 class CompositionOperator(Enum):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import BehaviorName, Name, Node, Statement
 from osc2tx.syntax.ast.behaviors import BehaviorSpecification
 from osc2tx.syntax.ast.expressions import BoolLiteral, EnumLiteral, NameExpression
 from osc2tx.syntax.ast.members import MethodDeclaration, ParameterDeclaration, StructMember
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from enum import Enum
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import Name, Node
 from osc2tx.syntax.ast.types import TypeName
+from osc2tx_classes import dataclass
 
 
 class BinaryOperator(Enum):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from enum import Enum
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import Name, Node, Statement
 from osc2tx.syntax.ast.expressions import Argument, Expression
 from osc2tx.syntax.ast.types import TypeName
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax.ast.base import BehaviorName, Node
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

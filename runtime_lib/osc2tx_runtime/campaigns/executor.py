@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 import math
 import time
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.routes.map_search import find_map
 from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, told

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Literal
+
+from osc2tx_classes import dataclass
 
 __all__ = ["Column", "LeftOut", "Point"]
 

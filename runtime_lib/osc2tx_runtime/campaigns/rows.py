@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.plain_numbers import to_float

@@ -5,10 +5,10 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from threading import Thread
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError, told
 
 from .executor import Executor

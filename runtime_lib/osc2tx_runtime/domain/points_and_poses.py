@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 
 __all__ = [
@@ -52,7 +52,7 @@ class Orientation:
     yaw: float = 0.0
 
 
-@dataclass(frozen=True, slots=True, init=False)
+@dataclass(frozen=True, slots=True)
 class Pose:
     """A point (m) with an orientation (rad); in paths a yaw of None is that of the way.
 

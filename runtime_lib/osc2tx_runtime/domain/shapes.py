@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS

@@ -6,3 +6,7 @@ nodes in `tree`; `registry` finds the class of an `action` by its `method`. All 
 and of modifiers is in `declared` and `modifier`; `source_map` says which line of the scenario is
 which.
 """
+
+from __future__ import annotations
+
+import osc2tx_runtime.language.light_py_trees  # noqa: F401 (before anything else of it is imported)

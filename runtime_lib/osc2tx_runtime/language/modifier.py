@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Any, ClassVar
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import Rule
 from osc2tx_runtime.language.argument_rules import check_arguments
 from osc2tx_runtime.language.modifier_facts import ModifierFacts

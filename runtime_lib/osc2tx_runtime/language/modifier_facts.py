@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import ModifierRules
 from osc2tx_runtime.world.features import Feature
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+from osc2tx_classes import dataclass
 
 __all__ = ["NodeRuns"]
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Wait
 from osc2tx_runtime.language.tree.events import describe

@@ -7,9 +7,9 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import (
     OwnCode,
     ScenarioError,

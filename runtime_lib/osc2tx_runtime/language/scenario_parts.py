@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
 from osc2tx_runtime.language.placement import Placement

@@ -6,10 +6,11 @@ import difflib
 import math
 import random
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.world.protocol import ControlMode
 

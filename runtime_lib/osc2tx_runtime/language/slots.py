@@ -8,11 +8,11 @@ are carried out within the instant, all that are wanted at a time together.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Protocol
 
 from py_trees.behaviour import Behaviour
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.commands import Command
 from osc2tx_runtime.world.protocol import World

@@ -8,10 +8,11 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, TypeGuard
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SourcePlace
 
 __all__ = ["SourceMap", "read_source_map"]

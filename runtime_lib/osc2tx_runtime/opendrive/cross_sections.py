@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Protocol
 
 from lxml import etree
+
+from osc2tx_classes import dataclass
 
 from .polynomials import ZERO, Piecewise, Row
 from .xml_reader import Attributes

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from lxml import etree
+
+from osc2tx_classes import dataclass
 
 from .errors import MapError
 from .model import Road, road_order

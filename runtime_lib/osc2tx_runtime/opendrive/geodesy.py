@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.plain_numbers import to_float
 
 __all__ = ["GeoReference", "GeoReferenceError", "TransverseMercator"]

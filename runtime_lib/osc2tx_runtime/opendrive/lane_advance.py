@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+from osc2tx_classes import dataclass
 
 from .lane_distances import Route
 from .lane_line import lane_line

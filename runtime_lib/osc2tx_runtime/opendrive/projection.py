@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+from osc2tx_classes import dataclass
 
 from .lane_advance import lane_heading, wrap
 from .model import Lane, LanePosition, Road

@@ -7,13 +7,14 @@ real maps carry junk there. `geoReference` is kept as it is until somebody asks 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 
 from lxml import etree
+
+from osc2tx_classes import dataclass
 
 from .cross_sections import read_cross_section
 from .crosswalks import Crosswalk, read_crosswalks

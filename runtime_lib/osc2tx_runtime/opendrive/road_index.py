@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
-import numpy as np
+from osc2tx_classes import dataclass
 
 from .model import LaneSection, Road
 
@@ -237,22 +236,27 @@ def _across(road: Road, s: float, beside: float, step: float) -> Iterator[tuple[
 
 def _runs(
     tile: _Cell, points: list[tuple[float, float]], owners: list[tuple[int, int]]
-) -> list[tuple[int, int, int, int, int]]:
+) -> Iterator[tuple[int, int, int, int, int]]:
     """Cell, road, first and last sample of each run of samples in a cell of the tile."""
-    corners = [(dx, dy) for dx in (-_REACH, _REACH) for dy in (-_REACH, _REACH)]
-    cells = np.concatenate([np.floor((np.array(points) + corner) / _CELL) for corner in corners])
-    rows = np.concatenate(
-        [cells.astype(np.int64), np.tile(np.array(owners), (len(corners), 1))], axis=1
-    )
-    rows = rows[np.all(rows[:, :2] // _TILE == tile, axis=1)]
-    rows = rows[np.lexsort((rows[:, 3], rows[:, 2], rows[:, 1], rows[:, 0]))]
-    same = np.all(rows[1:, :3] == rows[:-1, :3], axis=1)
-    new = np.append(True, ~(same & (rows[1:, 3] - rows[:-1, 3] <= 1)))[: len(rows)]
-    firsts = np.flatnonzero(new)
-    lasts = np.append(firsts[1:] - 1, len(rows) - 1)[: len(firsts)]
-    return [
-        (cx, cy, number, first, last)
-        for (cx, cy, number, first), last in zip(
-            rows[firsts].tolist(), rows[lasts, 3].tolist(), strict=True
-        )
-    ]
+    found: dict[tuple[int, int, int], set[int]] = {}
+    for (x, y), (number, i) in zip(points, owners, strict=True):
+        columns = _cells_of(x, tile[0])
+        for cy in _cells_of(y, tile[1]) if columns else ():
+            for cx in columns:
+                found.setdefault((cx, cy, number), set()).add(i)
+    for (cx, cy, number), samples in sorted(found.items()):
+        first = last = min(samples)
+        for i in sorted(samples):
+            if i > last + 1:
+                yield cx, cy, number, first, last
+                first = i
+            last = i
+        yield cx, cy, number, first, last
+
+
+def _cells_of(value: float, tile: int) -> set[int]:
+    """The cells of a tile, along one axis, that a point registers in."""
+    if not math.isfinite(value):
+        return set()  # the geometry of the map is absurd
+    low, high = math.floor((value - _REACH) / _CELL), math.floor((value + _REACH) / _CELL)
+    return {cell for cell in (low, high) if cell // _TILE == tile}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from osc2tx_classes import dataclass
 
 from .html import fill, resource
 from .json_values import Json, number, plain, text

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
+
+from osc2tx_classes import dataclass
 
 from .html import fill, resource
 from .json_values import Json

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from osc2tx_classes import dataclass
 
 from .action_log import ActionLog
 from .json_values import Json, is_flat, number, plain, short, text

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 from osc2tx_runtime.language.outline import outline

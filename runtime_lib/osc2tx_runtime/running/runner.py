@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.domain.routes.map_search import find_map
 from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
 from osc2tx_runtime.language.base_action import BaseAction

@@ -8,9 +8,9 @@ and wheelbases are not published there; they are typical shares of the length (`
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import cast
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import VehicleCategory
 
 __all__ = [

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import Pose, RoadMap
 
 from .acceleration import AssignedSpeed, ConstantAcceleration

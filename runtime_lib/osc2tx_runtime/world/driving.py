@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import LanePosition, Pose
 
 from .actor_dimensions import Limits, Shape

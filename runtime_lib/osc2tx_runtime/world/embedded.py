@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
+from osc2tx_classes import replace
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 

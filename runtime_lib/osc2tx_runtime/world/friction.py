@@ -16,8 +16,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Literal
+
+from osc2tx_classes import replace
 
 from .actor_dimensions import RATE_CAP, Limits
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.opendrive import LanePosition
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import DynamicProfile
 
 from .command import Command

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import LanePosition
 
 from .friction import RoadCondition

@@ -18,9 +18,9 @@ value is exact and the step size has no influence.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Protocol, get_args
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import DynamicProfile
 
 __all__ = [

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
 
 from .actor_dimensions import Limits, Shape

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+
+from osc2tx_classes import dataclass
 
 __all__ = ["Sky"]
 

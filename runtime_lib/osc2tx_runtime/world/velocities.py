@@ -7,8 +7,8 @@ them, so a nose that sinks has a positive pitch rate.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.world.measured import Measured
 
 __all__ = [

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SettingsError
 
 __all__ = ["Option", "parse_pair", "parse_seconds"]

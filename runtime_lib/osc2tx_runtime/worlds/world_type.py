@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.world.protocol import ControlMode, World

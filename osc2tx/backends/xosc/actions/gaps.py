@@ -7,8 +7,6 @@ there is, which the XML cannot ask for: it has to be known from what stands befo
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.gap_elements import SIDES, Gap, reach
@@ -17,6 +15,7 @@ from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.flattening.adjacent_members import predecessor
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_classes import replace
 
 OPPOSITE = {"ahead": "behind", "behind": "ahead", "left": "right", "right": "left"}
 

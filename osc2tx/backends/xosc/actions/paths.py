@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
@@ -30,6 +29,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 
 @action("follow_path", "replay_path", "follow_trajectory", "replay_trajectory")

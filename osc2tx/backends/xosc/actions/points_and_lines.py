@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from osc2tx.backends.xosc.actions.xml_positions import (
     UNKNOWN,
@@ -28,6 +27,7 @@ from osc2tx.backends.xosc.facts.map_search import (
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
+from osc2tx_classes import dataclass
 
 STRAIGHT = 0.01
 """Metres beside the straight line through its neighbours within which a point is left out."""

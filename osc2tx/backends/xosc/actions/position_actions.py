@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
@@ -25,6 +24,7 @@ from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 
 @action("assign_position", takes=(LATERAL,))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
@@ -11,6 +10,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
+from osc2tx_classes import dataclass
 
 REACHED = 1.0
 """Metres from a place that count as being there where it cannot be said more exactly."""

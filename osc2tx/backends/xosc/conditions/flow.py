@@ -6,12 +6,11 @@ latched. Only a latched flow can be waited on for a time, or be joined with othe
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import product
 from typing import Literal, TypeAlias
 
 from osc2tx.backends.xosc.xml.tree import Element, element
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 ElementKind: TypeAlias = Literal["act", "action", "event", "maneuver", "maneuverGroup", "story"]
 Edge: TypeAlias = Literal["none", "rising", "falling"]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_orientations import note_turn
@@ -17,6 +15,7 @@ from osc2tx.backends.xosc.entities.start_statements import (
 from osc2tx.backends.xosc.entities.towing import towing
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import replace
 
 OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})
 """Modifiers that say nothing about the start, and are written down with their invocation."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments
 from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
@@ -14,6 +12,7 @@ from osc2tx.backends.xosc.entities.towing import towing
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
 from osc2tx.diagnostics import Span
+from osc2tx_classes import dataclass
 
 
 @dataclass(slots=True)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.behavioral_models import no_model
 from osc2tx.backends.xosc.actions.user_actions import command_of
@@ -14,6 +12,7 @@ from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_classes import replace
 
 VERDICT = "verdict"
 """Name of the monitor that says whether the scenario has succeeded."""

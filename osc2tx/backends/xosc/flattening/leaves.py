@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 
 from osc2tx import ir
@@ -23,6 +22,7 @@ from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import replace
 
 
 def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:

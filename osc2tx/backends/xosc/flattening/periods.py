@@ -6,13 +6,12 @@ would not do, for tools differ in what a delay does to a condition that stays tr
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import Flow, Test, single
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import replace
 
 MANY_TIMES = 1000000
 """Executions of an event that may start again for as long as its act runs."""

@@ -10,13 +10,14 @@ are unique, for conditions refer to them; the others only have to differ from th
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Group, Test
 from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
+from osc2tx_classes import dataclass
 
 ACTION = "action"
 """Name of an action in its event. Readers may look for what is referred to among all elements: no

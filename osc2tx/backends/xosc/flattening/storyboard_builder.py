@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import construct_of_action
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
@@ -17,6 +15,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import replace
 
 RUN_START = single(run_start())
 

@@ -8,7 +8,6 @@ stands in every row of the table beside those of the parameters that it follows 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TypeAlias
 
 from osc2tx.backends.xosc.logical.comparison import SAID_BESIDE, Place, story_of
@@ -17,7 +16,7 @@ from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, element_type
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.options import XmlVersion
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 MOST_COLUMNS = 60
 """Attributes that follow from parameters; a table with more is no help to anyone."""

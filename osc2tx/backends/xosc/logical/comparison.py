@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from math import isclose
 from typing import NamedTuple, TypeAlias
 
 from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import replace
 
 Shown: TypeAlias = Mapping[str, float]
 """Values of the parameters of a document, by their names there."""

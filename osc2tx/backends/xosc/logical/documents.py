@@ -10,7 +10,7 @@ value, and the report says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -29,7 +29,7 @@ from osc2tx.backends.xosc.logical.parameters import (
 from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
 from osc2tx.backends.xosc.xml.tree import Element
 from osc2tx.options import XmlVersion
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass, replace
 
 Write: TypeAlias = Callable[[Choosing], tuple[Context, Element | None]]
 """Writes the scenario down with a choice of its open parameters."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,13 +8,13 @@ of their own: it starts when it is time to look, and sets a mark that others wai
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from osc2tx.backends.xosc.conditions.flow import Flow, Group, Test, at_time, single, state_of
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.storyboard import Act, Event
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import replace
 
 GENERIC = Remedy(profile="generic")
 

@@ -26,7 +26,7 @@ from osc2tx.backends.xosc.xml.schema import (
 )
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion
-from osc2tx.support.light_dataclass import dataclass
+from osc2tx_classes import dataclass
 from osc2tx_text import in_xml
 
 Value: TypeAlias = str | int | float | bool

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.signals.traffic_light_cycles import check_cycle, moment_of, time_of
 from osc2tx_runtime.domain.signals.traffic_lights import declared_cycles, states_of

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import Clash, Timing, clashes, is_across
 from osc2tx_runtime.domain.modifiers import MODIFIERS, Modifier, Speed
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
 from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
@@ -67,10 +67,10 @@ class ChangeSpeed(RatedChange):
         if self.duration is None or self.rate_profile == "asap" or change.rate_peak is not None:
             return change
         if not isinstance(self.duration, tuple):
-            return dataclasses.replace(change, duration=self.fixed_duration())
+            return replace(change, duration=self.fixed_duration())
         low, high = self.duration
         own = speed_profile(change, self.here.v, self.limits).duration
-        return dataclasses.replace(change, duration=min(max(own, low), high))
+        return replace(change, duration=min(max(own, low), high))
 
     def _contradiction(self, change: SpeedChange) -> str | None:
         if change.rate_peak is None or self.rate_profile == "asap":
@@ -121,8 +121,7 @@ class RemainStationary(ModifiableAction):
         self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
     ) -> None:
         at_start = (
-            dataclasses.replace(each, at="start") if isinstance(each, PLACES) else each
-            for each in modifiers
+            replace(each, at="start") if isinstance(each, PLACES) else each for each in modifiers
         )
         super().__init__(actor, *at_start, **options)
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Unpack
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.methods import VehicleMethods
 from osc2tx_runtime.domain.objects.part_defaults import (
     default_axles,

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Literal
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.world.measured import Measured
 
 __all__ = [

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError

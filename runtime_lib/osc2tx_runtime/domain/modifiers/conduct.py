@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import Sort
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
 from osc2tx_runtime.enums import MovementOptions

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import Sort, at_least, at_least_one, at_most_one
 from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
 from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight

@@ -7,9 +7,10 @@ order. `MapSolver` chooses among them before the start.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import ClassVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import ClassVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.crossing_lines import laid
 from osc2tx_runtime.domain.routes.crossings import Crossing
 from osc2tx_runtime.domain.routes.map_segments import MapSegment

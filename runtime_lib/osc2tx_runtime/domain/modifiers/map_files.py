@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 
 from .map_base import Known, MapModifier, Row

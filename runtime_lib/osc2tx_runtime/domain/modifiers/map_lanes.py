@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import ClassVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.lane_types import kind_of_lane
 from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph

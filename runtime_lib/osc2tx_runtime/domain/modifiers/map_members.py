@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart

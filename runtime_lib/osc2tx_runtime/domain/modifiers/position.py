@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import Sort, at_least_one, at_most_one, none_of
 from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
 from osc2tx_runtime.language.modifier_facts import COURSE

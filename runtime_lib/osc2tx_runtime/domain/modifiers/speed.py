@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import dataclass
 from osc2tx_rules import LATERAL_SPEED, Sort, at_least_one, at_most_one
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields
 from typing import Protocol, TypeVar
 
+from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import UnsupportedError

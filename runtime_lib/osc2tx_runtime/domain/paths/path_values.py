@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import ClassVar, Literal, Protocol
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.paths.path_curves import path_curve, trajectory_curve
 from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,

@@ -8,8 +8,8 @@ their declaration, each limited by the modifiers that speak of parts chosen alre
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.modifiers.map_base import MapModifier
 from osc2tx_runtime.domain.modifiers.map_crossings import implied
 from osc2tx_runtime.domain.modifiers.map_members import listed_members

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
     Along,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.modifiers import ChangeLane, Lane, Lateral, MovementModifier
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.modifiers import (
     Acceleration,
     AlongTrajectory,
@@ -152,7 +152,7 @@ def _following(action: ModifiedMotion, speed: Speed, reference: str, other: floa
         check_peak(peak, "m/s^2")
         in_time = speed.at == "end" and profile != "asap" and peak is None
         least = min(limits.acceleration, limits.deceleration)
-        even = dataclasses.replace(limits, acceleration=least, deceleration=least)
+        even = replace(limits, acceleration=least, deceleration=least)
         change = SpeedChange(
             min(max(here, low), high), profile, peak, action.time_left() if in_time else None
         )

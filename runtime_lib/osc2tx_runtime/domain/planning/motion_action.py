@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.modifiers import MovementModifier, PhysicalMovement
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
+from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import NetworkPath, Path
 from osc2tx_runtime.domain.points_and_poses import NetworkPoint, Pose

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple
 
+from osc2tx_classes import replace
 from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
 from osc2tx_runtime.domain.routes.map_segments import CrossingLine, MapSegment
 from osc2tx_runtime.opendrive import Crosswalk, LanePosition, Pose

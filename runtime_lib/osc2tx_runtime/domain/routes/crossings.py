@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.map_segments import CrossingLine, MapSegment
 from osc2tx_runtime.domain.routes.number_constraints import Wish, fulfils, said
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph

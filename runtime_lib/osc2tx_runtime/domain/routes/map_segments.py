@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Literal
+
+from osc2tx_classes import dataclass
 
 __all__ = ["CrossingLine", "MapSegment", "PartKind"]
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.signals.lamp_states import Bulbs, Shown, TrafficLightBulb, states_of

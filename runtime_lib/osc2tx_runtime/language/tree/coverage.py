@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, Literal, TypedDict
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch

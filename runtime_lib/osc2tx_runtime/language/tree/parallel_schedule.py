@@ -16,8 +16,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal
+
+from osc2tx_classes import dataclass
 
 __all__ = ["Overlap", "Part", "Schedule", "Span", "Unplannable", "make_schedule", "spans_of"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.tree.walks import Draws
 from osc2tx_runtime.language.tree.written_units import Unit, read_value, shown_value

@@ -5,9 +5,9 @@ from __future__ import annotations
 import difflib
 import math
 import re
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime import units
 from osc2tx_runtime.errors import SettingsError
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import MODELS
 from osc2tx_runtime.world.measurement import Measurement

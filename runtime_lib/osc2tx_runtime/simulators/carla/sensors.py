@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import InputError, SettingsError
 
 from .cast import CastMember

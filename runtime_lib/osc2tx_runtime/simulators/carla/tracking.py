@@ -8,9 +8,9 @@ pure pursuit: towards a point ahead on the path, on a circle from the rear axle 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from osc2tx_classes import dataclass
 from osc2tx_runtime.world.measurement import Measurement
 from osc2tx_runtime.world.scene import Setpoint
 

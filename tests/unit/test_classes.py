@@ -5,11 +5,13 @@ import dataclasses
 import pickle
 from collections.abc import Callable
 from dataclasses import FrozenInstanceError, field, fields, replace
+from inspect import signature
 from typing import Any
 
 import pytest
 
-from osc2tx.support.light_dataclass import dataclass as light
+from osc2tx_classes import dataclass as light
+from osc2tx_classes import replace as quick_replace
 
 Decorator = Callable[..., Any]
 
@@ -53,6 +55,7 @@ def test_like_the_standard_library(frozen: bool, slots: bool, eq: bool) -> None:
         kind = family(dataclass, frozen, slots, eq)
         one = kind(1, "x", [2], 9, named=4)
         found = [
+            list(signature(kind).parameters),
             [(f.name, getattr(one, f.name)) for f in fields(one)],
             kind.__match_args__,
             [(f.name, getattr(kind(first=5), f.name)) for f in fields(one)],
@@ -132,3 +135,77 @@ def test_patterns() -> None:
 def test_what_is_not_supported_is_refused() -> None:
     with pytest.raises(TypeError):
         light(order=True)
+
+
+KINDS = (dataclasses.dataclass, light)
+
+
+@pytest.mark.parametrize("base_frozen", [True, False])
+@pytest.mark.parametrize("frozen", [True, False])
+@pytest.mark.parametrize("outer", KINDS)
+@pytest.mark.parametrize("inner", KINDS)
+def test_one_kind_inherits_from_the_other(
+    inner: Decorator, outer: Decorator, frozen: bool, base_frozen: bool
+) -> None:
+    """As within the standard library: frozen classes inherit from frozen ones only."""
+
+    @inner(frozen=base_frozen, slots=True)
+    class Base:
+        x: int
+
+    def derive() -> Any:
+        @outer(frozen=frozen, slots=True)
+        class Derived(Base):
+            y: int = 2
+
+        return Derived
+
+    if frozen != base_frozen:
+        with pytest.raises(TypeError, match="cannot inherit"):
+            derive()
+        return
+    made = derive()(1)
+    assert made == type(made)(1, 2) and (made.x, made.y) == (1, 2)
+    changed = outcome(lambda: setattr(made, "x", 5))
+    assert changed is (FrozenInstanceError if frozen else None)
+    assert Base.__dataclass_params__.frozen is base_frozen  # type: ignore[attr-defined]
+
+
+def test_signatures_before_anything_is_constructed() -> None:
+    @light(frozen=True, slots=True)
+    class Base:
+        x: int
+        y: int = 0
+
+    @light(frozen=True, slots=True)
+    class Derived(Base):
+        z: int = 1
+
+    class Written(Base):
+        def __init__(self, whole: int) -> None:
+            super().__init__(whole, whole)
+
+    assert [list(signature(each).parameters) for each in (Derived, Base, Written)] == [
+        ["x", "y", "z"],
+        ["x", "y"],
+        ["whole"],
+    ]
+    assert (Derived(1), Base(2), Written(3).y) == (Derived(1, 0, 1), Base(2), 3)
+
+
+def test_replace_is_that_of_the_standard_library() -> None:
+    made = Place(1, 2, "here")
+    assert quick_replace(made, x=5) == replace(made, x=5) == Place(5, 2, "here")
+    with pytest.raises(TypeError):
+        quick_replace(made, unknown=1)
+
+
+def test_replace_makes_anew_what_the_constructor_does_not_take() -> None:
+    @light
+    class Made:
+        x: int
+        y: list[int] = field(default_factory=list, init=False)
+
+    made = Made(1)
+    made.y.append(1)
+    assert quick_replace(made, x=2).y == replace(made, x=2).y == []
