@@ -17,8 +17,8 @@ from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.builtins import OVERRIDE
-from osc2tx.support.light_dataclass import dataclass
 from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
 
 Op = ast.CompositionOperator
 
