@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.building import write as writing
+from osc2tx.building.manifest import MANIFEST_NAME
+from osc2tx.building.write import RECORDS
 from tests.unit.building.test_interrupted_builds import prepared
 
 
@@ -29,12 +30,12 @@ def test_texts_are_on_the_disk_before_they_are_in_place(
             placed.append(path.relative_to(project.out).as_posix())
         replace(staged, path)
 
-    monkeypatch.setattr(writing.os, "fsync", sync)
-    monkeypatch.setattr(writing.os, "replace", put)
+    monkeypatch.setattr(os, "fsync", sync)
+    monkeypatch.setattr(os, "replace", put)
     assert project.build(prune=True).remaining() == ()
     folders = {os.stat((project.out / each).parent).st_ino for each in placed}
     assert folders <= {inode for inode, _ in synced}
-    assert {"a.py", "sub/new.py", writing.MANIFEST_NAME} <= set(placed)
+    assert {"a.py", "sub/new.py", MANIFEST_NAME} <= set(placed)
     # Announced before the first output changes, and said to be done after the last one.
-    assert placed.index(writing.MANIFEST_NAME) < placed.index("sub/new.py")
-    assert placed[-1] in writing.RECORDS
+    assert placed.index(MANIFEST_NAME) < placed.index("sub/new.py")
+    assert placed[-1] in RECORDS
