@@ -9,6 +9,7 @@ from osc2tx.analysis.levels import ScenarioLevel, find_levels
 from osc2tx.analysis.liveness import report_liveness
 from osc2tx.analysis.recursive_scenarios import report_recursion
 from osc2tx.analysis.report_constraints import report_constraints
+from osc2tx.analysis.shared_slots import report_shared_slots
 from osc2tx.analysis.termination import find_endings
 from osc2tx.analysis.time_lints import report_times
 from osc2tx.analysis.usage import find_usage, report_usage
@@ -57,4 +58,5 @@ def analyse(
     report_usage(model, usage, sink)
     report_conditions(model, usage, sink)
     report_times(model, sink)
+    report_shared_slots(model, sink, one_of)
     return Analysis(constraints, find_levels(model, constraints, endings, one_of))

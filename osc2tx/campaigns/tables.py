@@ -19,7 +19,7 @@ __all__ = ["TableSampler"]
 
 @dataclass(frozen=True, slots=True)
 class TableSampler:
-    """Rows of a CSV file: names of parameters in the first line, values in SI units below."""
+    """Rows of a CSV file: names of parameters in the first line, values as for `--set` below."""
 
     digest: str
     names: Sequence[str]

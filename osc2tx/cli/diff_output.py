@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import click
 
 from osc2tx.building.diff import diff_lines
-from osc2tx_text import is_watched, put, visible
+from osc2tx.cli.terminal import wants_color
+from osc2tx_text import put, visible
 
 _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
 
 def print_diff(path: str, old: str | None, new: str | None) -> None:
     """Print how an output changes."""
-    color = is_watched(err=False) and "NO_COLOR" not in os.environ
+    color = wants_color()
     for line in diff_lines(visible(path), old, new):
         put(_painted(line) if color else line, colored=color)
 

@@ -7,6 +7,7 @@ import json
 import click
 from click.shell_completion import CompletionItem
 
+from osc2tx.cli.terminal import columns, wants_color
 from osc2tx.diagnostics import CODES, Code
 from osc2tx.diagnostics.code_lookup import find_code, meant_code
 from osc2tx.diagnostics.render import explanation_data, render_explanation
@@ -41,7 +42,14 @@ def explain(code: str | None, everything: bool, as_json: bool) -> None:
     elif code is None and not everything:
         put("\n".join(f"{entry.code}  {entry.slug:28}  {entry.summary}" for entry in entries))
     else:
-        put("\n\n\n".join(map(render_explanation, entries)))
+        put_explanations(entries)
+
+
+def put_explanations(entries: list[Code]) -> None:
+    """Print what there is to say of codes, as the terminal has it."""
+    color, width = wants_color(), columns()
+    texts = [render_explanation(entry, width=width, color=color) for entry in entries]
+    put("\n\n\n".join(texts), colored=color)
 
 
 def _find(code: str) -> Code:

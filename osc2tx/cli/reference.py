@@ -7,8 +7,9 @@ import json
 import click
 from click.shell_completion import CompletionItem
 
+from osc2tx.cli.explain import put_explanations
 from osc2tx.diagnostics.code_lookup import find_code
-from osc2tx.diagnostics.render import explanation_data, render_explanation
+from osc2tx.diagnostics.render import explanation_data
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.reference import as_data, as_text, entries, find
 from osc2tx_text import in_json, put
@@ -32,8 +33,10 @@ def reference(name: str | None, as_json: bool) -> None:
     """
     code = None if name is None else find_code(name)
     if code is not None:
-        data = in_json(json.dumps([explanation_data(code)], indent=2)) + "\n"
-        put(data if as_json else render_explanation(code) + "\n")
+        if as_json:
+            put(in_json(json.dumps([explanation_data(code)], indent=2)))
+        else:
+            put_explanations([code])
         return
     if name is None:
         found = list(entries())

@@ -6,7 +6,6 @@ goes to stdout, and all else to stderr.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import wraps
@@ -15,12 +14,13 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
+from osc2tx.cli.terminal import wants_color
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics import Severity
 from osc2tx.diagnostics.report import Report, make_report
 from osc2tx.version import __version__
 from osc2tx_classes import dataclass, replace
-from osc2tx_text import complain, is_watched, put, put_document, say
+from osc2tx_text import complain, put, put_document, say
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)
@@ -237,7 +237,7 @@ def _print_text(report: Report) -> None:
         return
     from osc2tx.diagnostics.render import render_all  # mostly there is nothing to render
 
-    color = is_watched() and "NO_COLOR" not in os.environ
+    color = wants_color(err=True)
     text = render_all(report.diagnostics, color=color, folder=report.folder)
     put(f"{text}\n", err=True, colored=color)
     for file, count in report.hidden.items():

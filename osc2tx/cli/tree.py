@@ -11,19 +11,20 @@ from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.cli.run import choose_scenario
+from osc2tx.cli.terminal import columns, wants_color
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.report.tree_pictures import tree_svg, tree_text
 from osc2tx_text import complain, put
 
-_FORMS = {"text": tree_text, "svg": tree_svg}
+_FORMS = ("text", "svg")
 
 
 @click.command()
 @click.argument("file", metavar="FILE", type=click.Path(path_type=Path, dir_okay=False))
 @scenario_option("draw")
-@click.option("--form", type=click.Choice(list(_FORMS)), default="text", help="What to print.")
+@click.option("--form", type=click.Choice(_FORMS), default="text", help="What to print.")
 @compile_options
 @report_options
 def tree(
@@ -39,14 +40,18 @@ def tree(
         return code
     if compilation.module is None:
         raise click.UsageError(f"{file} declares no scenario")
-    place = str(file)
+    place, color = str(file), form == "text" and wants_color()
     try:
         with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
             chosen = choose_scenario(scenarios, scenario, file)
             place = chosen.source
-            drawn = _FORMS[form](chosen().create_tree())
+            root = chosen().create_tree()
+            if form == "svg":
+                drawn = tree_svg(root)
+            else:
+                drawn = tree_text(root, columns=columns(), color=color)
     except ScenarioError as error:
         complain(error.report(place, str(file)))
         return Exit(error.exit_code)
-    put(drawn)
+    put(drawn, colored=color)
     return code

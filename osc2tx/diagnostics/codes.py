@@ -163,6 +163,7 @@ CODES = _table(
     Code("OSC439", "contradictory-until", ERROR, "`until` and duration disagree.", "7.6.2.5.4"),
     Code("OSC440", "shorter-than-a-step", WARNING, "A wait is shorter than a step.", "7.3.10"),
     Code("OSC441", "reacts-at-every-instant", WARNING, "`on` reacts again and again.", "7.3.10"),
+    Code("OSC442", "two-masters-at-once", WARNING, "Members control one thing.", "7.3.13"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),

@@ -106,6 +106,15 @@ def test_a_table_says_the_values(tmp_path: Path) -> None:
     assert parameters(place)[0] == {"v": 12.3, "n": 2, "colour": "amber", "wet": True}
 
 
+def test_values_of_a_table_have_units(tmp_path: Path) -> None:
+    """45 km/h are 12.5 m/s; a number alone is in SI units."""
+    table = tmp_path / "rows.csv"
+    table.write_text("v,n,colour,wet\n45kph,2,amber,true\n12.5,2,amber,true\n")
+    place = tmp_path / "store"
+    run(plan_of(MIXED), place, f"table:{table}", None, Here())
+    assert [each["v"] for each in parameters(place).values()] == [12.5, 12.5]
+
+
 @pytest.mark.parametrize(
     ("sampler", "samples", "message"),
     [

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.cli import main
-from osc2tx.testing import assert_build_fresh, run_scenario
+from osc2tx.testing import Run, assert_build_fresh, run_scenario
 
 pytest_plugins = ["pytester"]
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
@@ -104,3 +104,9 @@ def test_pytest_finds_the_plugin(pytester: pytest.Pytester, project: Path) -> No
     assert pytester.runpytest().ret == 1
     assert pytester.runpytest("--update-generated").ret == 0
     assert pytester.runpytest().ret == 0
+
+
+def test_a_run_is_one_line_in_messages() -> None:
+    lines = tuple({"kind": "state", "t": float(step)} for step in range(1000))
+    run = Run("failure", "too close", 12.5, lines, ("a warning",))
+    assert repr(run) == "<Run: failure after 12.50 s: too close>"

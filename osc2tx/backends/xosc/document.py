@@ -6,6 +6,7 @@ from pathlib import PurePosixPath
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.environment import initial_environment
+from osc2tx.backends.xosc.conditions.early_triggers import triggers_of
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects
@@ -24,7 +25,7 @@ DATE = "2000-01-01T00:00:00"
 AUTHOR = "osc2tx"
 
 MOST_TIME = 300.0
-"""Seconds after which a scenario without end is over, as with `osc2tx run`."""
+"""Seconds after which a run is over that nothing ends before, as with `osc2tx run`."""
 
 
 def make_document(ctx: Context) -> Element:
@@ -68,11 +69,22 @@ def make_document(ctx: Context) -> Element:
 
 
 def _end(ctx: Context, end: Flow) -> Flow:
+    """Return when a run is over: what waits for something may wait for ever."""
     if not end.is_never:
-        return end
+        return end | single(at_time(MOST_TIME)) if _waits(ctx) else end
     note = f"it ends after {MOST_TIME:g} s, as with `osc2tx run`"
     ctx.report.exact("a scenario without end", ctx.scenario.span, note)
     return single(at_time(MOST_TIME))
+
+
+def _waits(ctx: Context) -> bool:
+    """Whether the end may depend on something that never happens."""
+    bodies = (scope.scenario.body for scope in ctx.scope.all())
+    nodes = (node for body in bodies for node in ir.walk_behaviors(body))
+    triggers = (each for n in nodes if not isinstance(n, ir.On) for each in triggers_of(n))
+    return any(
+        each.event is not None or not isinstance(each.condition, ir.Elapsed) for each in triggers
+    )
 
 
 def _monitors(ctx: Context) -> Element | None:
@@ -103,6 +115,12 @@ def _road_network(ctx: Context) -> Element:
     roads = ctx.roads
     if roads is not None and any(roads.map.geo_reference.offset) and ctx.profile.moves_maps:
         ctx.report.exact("map with an offset", ctx.scenario.span, ctx.profile.moves_maps)
+    if roads is not None and any(road.reversed for road in roads.map.roads.values()):
+        ctx.report.cannot(
+            "map with reversed lanes",
+            ctx.scenario.span,
+            "places and directions in XML go by the side of a lane, not by its `direction`",
+        )
     signals = element("TrafficSignals", *ctx.controllers) if ctx.controllers else None
     return element("RoadNetwork", element("LogicFile", filepath=_map_file(ctx)), signals)
 

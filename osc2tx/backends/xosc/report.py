@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from enum import Enum
+from math import ceil, floor, inf, log10
 
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
@@ -29,10 +30,12 @@ class Remedy:
     Attributes:
         version: The lowest version of OpenSCENARIO XML that could.
         profile: A profile of a tool that could.
+        instead: What else to write in the scenario, which the XML says exactly; a clause.
     """
 
     version: str | None = None
     profile: str | None = None
+    instead: str = ""
 
     def __str__(self) -> str:
         parts = []
@@ -63,6 +66,33 @@ class Inexpressible(Exception):
         self.remedy = remedy
 
 
+@dataclass(frozen=True, slots=True)
+class Metres:
+    """How far an actor is from its place, at most.
+
+    Attributes:
+        most: Metres.
+        where: When that is, or what it depends on; empty if it is always so.
+    """
+
+    most: float
+    where: str = ""
+
+    def __str__(self) -> str:
+        return " ".join(filter(None, (f"at most {self.rounded:g} m", self.where)))
+
+    @property
+    def rounded(self) -> float:
+        """Metres with two digits, never less than they are."""
+        if self.most <= 0.0:
+            return 0.0
+        digit = 10.0 ** (floor(log10(self.most)) - 1)
+        return round(ceil(self.most / digit - ROUNDING) * digit, 6)
+
+
+ROUNDING = 1e-6
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Entry:
     """What became of one construct.
@@ -72,7 +102,7 @@ class Entry:
         span: Where it stands.
         grade: What became of it.
         reason: Why it is not exact, or what is worth knowing about an exact one.
-        bound: How far an approximation is from the original.
+        bound: How far an approximation is from the original: metres, or in words what differs.
         remedy: What could express it.
     """
 
@@ -80,7 +110,7 @@ class Entry:
     span: Span
     grade: Grade
     reason: str = ""
-    bound: str = ""
+    bound: Metres | str = ""
     remedy: Remedy = NOTHING
 
     @property
@@ -97,11 +127,14 @@ class Entry:
     @property
     def help(self) -> str | None:
         """What to do about it, if there is something to do."""
-        better = f"{self.remedy} can say this" if self.remedy != NOTHING else None
-        if self.grade is Grade.APPROXIMATED:
-            accept = "`--allow-approx` accepts this"
-            return f"{accept}; {better} exactly" if better else accept
-        return better
+        is_approximated = self.grade is Grade.APPROXIMATED
+        better = f"{self.remedy} can say this" if str(self.remedy) else ""
+        parts = (
+            "`--allow-approx` accepts this" if is_approximated else "",
+            f"{better} exactly" if better and is_approximated else better,
+            self.remedy.instead,
+        )
+        return "; ".join(filter(None, parts)) or None
 
 
 class LossReport:
@@ -117,7 +150,12 @@ class LossReport:
         self._add(Entry(construct=construct, span=span, grade=Grade.EXACT, reason=note))
 
     def approximate(
-        self, construct: str, span: Span, reason: str, bound: str, remedy: Remedy = NOTHING
+        self,
+        construct: str,
+        span: Span,
+        reason: str,
+        bound: Metres | str,
+        remedy: Remedy = NOTHING,
     ) -> None:
         """Note that a construct means nearly the same in the XML."""
         grade = Grade.APPROXIMATED
@@ -159,6 +197,11 @@ class LossReport:
         return tuple(sorted(found, key=lambda e: (e.span.source.name, e.span.start)))
 
     @property
+    def losses(self) -> tuple[Entry, ...]:
+        """Those that are not exact, the worst first: what cannot be said, then the farthest off."""
+        return tuple(sorted((e for e in self.entries if e.grade is not Grade.EXACT), key=_goodness))
+
+    @property
     def obstacles(self) -> tuple[Entry, ...]:
         """Those for which there is no XML."""
         accepted = {Grade.EXACT}
@@ -179,3 +222,9 @@ class LossReport:
         if self.options.profile != "generic":
             asked += f" for {self.options.profile}"
         return f"{asked if self.is_expressible else f'no {asked}'}: {told or 'nothing to say'}"
+
+
+def _goodness(entry: Entry) -> tuple[bool, float]:
+    """Return what sorts entries, the worst first; words say of no end how far off it is."""
+    metres = entry.bound.most if isinstance(entry.bound, Metres) else inf
+    return entry.grade is Grade.APPROXIMATED, -metres

@@ -7,7 +7,7 @@ labels to a construct and its text. Diagnostics of the same constructs have line
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Entry, Grade, LossReport
@@ -15,7 +15,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.source_text import one_line
 from osc2tx_text import in_json
 
-FORMAT = 3
+FORMAT = 4
 
 
 def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) -> str | None:
@@ -27,7 +27,7 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
         module: Where it stands.
     """
     exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
-    lost = [entry for entry in report.entries if entry.grade is not Grade.EXACT]
+    lost = [_entry_data(entry, module) for entry in report.losses]
     notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)
     if not lost and not notes:
         return None
@@ -42,11 +42,23 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
     }
     lists: dict[str, Sequence[object]] = {
         "notes": list(notes),
-        "losses": [_entry_data(entry, module) for entry in lost],
+        "losses": list(_merged(lost)),
     }
     lines = [f"  {_text(key)}: {_text(value)}" for key, value in head.items()]
     lines += [f"  {_text(key)}: {_list(values)}" for key, values in lists.items()]
     return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _merged(losses: Sequence[dict[str, object]]) -> Iterator[dict[str, object]]:
+    """Yield losses, one for all constructs that differ in their text only."""
+    texts: dict[str, list[object]] = {}
+    for loss in losses:
+        same = _text({**loss, "text": ""})
+        texts.setdefault(same, []).append(loss["text"])
+    for loss in losses:
+        first, *others = texts.pop(_text({**loss, "text": ""}), (None,))
+        if first is not None:
+            yield {**loss, "also": others} if others else loss
 
 
 def _list(values: Sequence[object]) -> str:
@@ -68,7 +80,9 @@ def _entry_data(entry: Entry, module: ir.Module) -> dict[str, object]:
     if entry.reason:
         data["reason"] = entry.reason
     if entry.bound:
-        data["bound"] = entry.bound
+        data["bound"] = str(entry.bound)
+    if entry.remedy.instead:
+        data["instead"] = entry.remedy.instead
     if entry.remedy.version is not None:
         data["expressible_in_version"] = entry.remedy.version
     if entry.remedy.profile is not None:

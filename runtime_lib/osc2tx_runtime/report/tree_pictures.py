@@ -25,19 +25,38 @@ COLORS = {
     "emit": "#c2255c",
 }
 OTHER_COLOR = "#5c6470"
+BOLD, FAINT, RESET = "\x1b[1m", "\x1b[2m", "\x1b[0m"
+LEAST_TEXT = 20  # columns for the nodes, however narrow the terminal
 
 
-def tree_text(root: Behaviour) -> str:
+def tree_text(root: Behaviour, *, columns: int | None = None, color: bool = False) -> str:
     """Return the tree as lines of text, with the lines of the scenario in a column of their own.
 
     Args:
         root: What `create_root` of a generated module returns.
+        columns: What the lines keep to, by cutting long texts of nodes; None if nothing is cut.
+        color: Whether to use the colors of a terminal.
     """
     rows = _rows(root)
     lines = [f"{_branches(row.last)}{_words(row)}" for row in rows]
+    if columns is not None:
+        room = max(columns - 2 - max(len(row.source) for row in rows), LEAST_TEXT)
+        lines = [line if len(line) <= room else f"{line[: room - 1]}\u2026" for line in lines]
     width = max(map(len, lines))
-    numbered = zip(lines, rows, strict=True)
-    return "".join(f"{line:<{width}}  {row.source}".rstrip() + "\n" for line, row in numbered)
+    texts = []
+    for line, row in zip(lines, rows, strict=True):
+        gap = " " * (width - len(line) + 2) if row.source else ""
+        place = f"{FAINT}{row.source}{RESET}" if color and row.source else row.source
+        texts.append(f"{_painted(line, row) if color else line}{gap}{place}".rstrip() + "\n")
+    return "".join(texts)
+
+
+def _painted(line: str, row: OutlineNode) -> str:
+    """The line with the kind of a node, where it says one, in bold."""
+    branches = _branches(row.last)
+    kind = "" if row.kind == "action" else row.kind
+    begins = kind and line.startswith(branches + kind)
+    return f"{branches}{BOLD}{kind}{RESET}{line[len(branches + kind):]}" if begins else line
 
 
 def tree_svg(root: Behaviour) -> str:

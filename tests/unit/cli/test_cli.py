@@ -110,3 +110,39 @@ def test_sources_of_the_settings(
     quiet = shell("check", "--quiet")
     assert (quiet.code, quiet.out) == (3, "")
     assert "0 of 1 file formatted" in shell("fmt").out
+
+
+def test_explanations_keep_to_the_terminal(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Prose is folded, sources are not; in a pipe neither is."""
+    whole = shell("explain", "--all").out
+    monkeypatch.setattr("osc2tx.cli.explain.columns", lambda: 60)
+    folded = shell("explain", "--all").out
+    assert folded.split() == whole.split()
+    too_long = [line for line in folded.splitlines() if len(line) > 60 and line[0] != " "]
+    heads = tuple(f"{code} " for code in CODES)
+    assert [line for line in too_long if not line.startswith((*heads, "Faulty"))] == []
+    assert any(len(line) > 60 and line[0] != " " for line in whole.splitlines() if line)
+
+
+@pytest.mark.parametrize(
+    ("variables", "colored"),
+    [
+        ({}, False),
+        ({"FORCE_COLOR": "1"}, True),
+        ({"FORCE_COLOR": ""}, False),
+        ({"FORCE_COLOR": "1", "NO_COLOR": "1"}, False),
+        ({"FORCE_COLOR": "1", "NO_COLOR": ""}, True),
+    ],
+)
+def test_colors_follow_the_variables(
+    shell: Shell, monkeypatch: pytest.MonkeyPatch, variables: dict[str, str], colored: bool
+) -> None:
+    """In a pipe; as no-color.org and force-color.org say."""
+    for name in ("NO_COLOR", "FORCE_COLOR"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    wrong = shell.write("wrong.osc", "scenario a:\n  b: nothing\n")
+    assert ("\x1b[" in shell("check", wrong).err) is colored
+    assert ("\x1b[1mOSC302" in shell("explain", "302").out) is colored
+    assert ("\x1b[" in shell("reference", "OSC302").out) is colored

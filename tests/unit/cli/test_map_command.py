@@ -50,10 +50,10 @@ def test_a_run_says_once_what_is_wrong_with_its_map(shell: Shell) -> None:
     )
     path.write_text(text)
     listed = shell("map", "step.xodr").out
-    assert "`road` 1 is 120 m long, its geometry 100 m" in listed
+    assert "`road` 1 has no geometry from s = 100 m to 120 m: it goes straight on" in listed
     assert "  lane -1 of road 1 at s = 4.00 m: 0.250 m, 0.0°" in listed
     ended = shell("run", "a.osc", "--map-path", ".")
     assert ended.code == 0, ended.err
     assert ended.out.count("warning: map step: ") == 2
-    assert ended.out.count("is 120 m long") == 1
+    assert ended.out.count("has no geometry from") == 1
     assert "lanes do not fit together at 2 places, worst lane -1 of road 1" in ended.out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,31 @@ def test_text(source: Path) -> None:
         "│  └─ rest: ego drive                             two_steps.osc:13\n"
         "└─ emit ready                                     two_steps.osc:14\n"
     )
+
+
+def test_a_narrow_terminal_cuts_texts_and_keeps_places(source: Path, monkeypatch) -> None:
+    monkeypatch.setattr("osc2tx.cli.tree.columns", lambda: 50)
+    lines = tree(source).output.splitlines()
+    assert max(map(len, lines)) <= 50
+    assert lines[2] == "│  ├─ ego.drive(speed(10 * mps)…  two_steps.osc:10"
+    assert [line.split()[-1] for line in lines] == [
+        f"two_steps.osc:{number}" for number in (8, 9, 10, 12, 13, 14)
+    ]
+
+
+def test_colors_are_those_that_are_asked_for(source: Path, monkeypatch) -> None:
+    """Nothing but the colors is different; pictures have none."""
+    plain = tree(source).output
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    painted = CliRunner().invoke(
+        cli, ["tree", str(source)], standalone_mode=False, obj=Session(), color=True
+    )
+    assert "\x1b[1mparallel\x1b[0m two_steps" in painted.output
+    assert "\x1b[2mtwo_steps.osc:9\x1b[0m" in painted.output
+    assert re.sub(r"\x1b\[\d+m", "", painted.output) == plain
+    assert "\x1b" not in tree(source, "--form", "svg").output
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert tree(source).output == plain
 
 
 def test_picture(source: Path) -> None:

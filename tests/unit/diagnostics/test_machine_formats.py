@@ -206,3 +206,16 @@ def test_no_text_begins_a_further_command(message: str, help: str) -> None:
     assert "\r" not in command
     properties = command.removeprefix("::warning ").partition("::")[0]
     assert len(properties.split(",")) == 6
+
+
+def fingerprint_of(text: str, folder: Path) -> str:
+    log = json.loads(render_sarif(report_on(text, "vehicel", folder), version="1"))
+    (result,) = log["runs"][0]["results"]
+    return str(result["partialFingerprints"]["osc2tx/v1"])
+
+
+def test_sarif_knows_a_message_again(tmp_path: Path) -> None:
+    """Lines that come above it change nothing; another text of its line does."""
+    known = fingerprint_of(TEXT, tmp_path)
+    assert known == fingerprint_of(f"# new\n\n{TEXT}", tmp_path)
+    assert known != fingerprint_of(TEXT.replace("é", "other"), tmp_path)

@@ -14,9 +14,15 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performan
 from osc2tx.backends.xosc.actions.registry import action, modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
 from osc2tx.backends.xosc.actions.user_shapes import acceleration_by, user_shape
-from osc2tx.backends.xosc.facts.actors import TOP_SPEED, Linear, Quintic, course_of_acceleration
+from osc2tx.backends.xosc.facts.actors import (
+    TOP_SPEED,
+    Linear,
+    Quintic,
+    course_of_acceleration,
+    way_between,
+)
 from osc2tx.backends.xosc.flattening.adjacent_members import follower
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.backends.xosc.xml.tree import Element
@@ -185,14 +191,12 @@ def _ramp(leaf: Leaf, course: Linear | Quintic, duration: float) -> Change:
 def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> Element:
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return through_points(ramp)
-    start, end = points[0], points[-1]
-    even = [start + (end - start) * index / 20 for index in range(21)]
-    off = max(abs(a - b) for a, b in zip(points, even, strict=True))
+    even = Linear(points[0], points[-1], ramp.duration)
     leaf.ctx.report.approximate(
         leaf.construct,
         leaf.node.span,
         "a change of the acceleration needs SpeedProfileAction; the speed changes evenly instead",
-        f"the speed is off by at most {off:.2g} m/s on the way, at both ends it is exact",
+        Metres(way_between(ramp, even), "ahead or behind; the speed at its end is exact"),
         Remedy(version="1.2") if leaf.ctx.version < "1.2" else Remedy(profile="generic"),
     )
-    return speed_action(end, "linear", "time", ramp.duration)
+    return speed_action(even.end, "linear", "time", ramp.duration)

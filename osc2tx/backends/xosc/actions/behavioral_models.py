@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.diagnostics import Span
 
 # Holds the speed and keeps the lane, as the default controller of the XML does.
@@ -20,4 +20,5 @@ def check_model(ctx: Context, member: CastMember) -> None:
 
 def no_model(what: str, span: Span) -> Inexpressible:
     """Return why a behavioral model cannot be written."""
-    return Inexpressible(f"{what} is up to the controllers of a tool; the XML cannot say it", span)
+    reason = f"{what} is up to the controllers of a tool; the XML cannot say it"
+    return Inexpressible(reason, span, Remedy(instead="actions that say speed and lane are exact"))

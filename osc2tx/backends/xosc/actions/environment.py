@@ -263,8 +263,9 @@ def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> Element | None:
     if adhesion is None and ctx.version > "1.0" and "was_slippery" not in ctx.weather:
         return None
     if adhesion is not None:
-        ctx.weather["was_slippery"] = 1.0
-        if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+        is_new = ctx.weather.get("was_slippery") != adhesion
+        ctx.weather["was_slippery"] = adhesion
+        if is_new and isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
             _report_lost_grip(ctx, source, adhesion)
     return element("RoadCondition", frictionScaleFactor=1.0 if adhesion is None else adhesion)
 

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.flattening.adjacent_members import predecessor
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import dataclass, replace
@@ -55,6 +55,12 @@ class Gap:
     def is_lateral(self) -> bool:
         """Whether it counts across the road."""
         return self.side in ("left", "right")
+
+
+ARRIVING = Remedy(
+    instead="`drive(duration: …)` with `position(…, at: end)`, while the other one keeps its speed,"
+    " is exact"
+)
 
 
 def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) -> Change:
@@ -150,12 +156,10 @@ def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bo
                 "none while it does not",
             )
         return True
-    bound = (
-        "until it is there, at most by what was missing at its start"
-        if missing is None
-        else f"until it is there, at most {missing:.2g} m"
-    )
-    leaf.ctx.report.approximate(leaf.construct, leaf.node.span, HOW, bound)
+    bound: Metres | str = "until it is there, at most by what was missing at its start"
+    if missing is not None:
+        bound = Metres(missing, "until it is there")
+    leaf.ctx.report.approximate(leaf.construct, leaf.node.span, HOW, bound, ARRIVING)
     return False
 
 

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_shift, fastest
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import replace
@@ -151,7 +151,7 @@ def _note_drift(
         leaf.construct,
         leaf.node.span,
         "it takes over the lateral speed of the change before; one of the XML begins without any",
-        f"at most {off:.2g} m beside, while it changes",
+        Metres(off, "beside, while it changes"),
     )
 
 

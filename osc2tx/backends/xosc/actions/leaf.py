@@ -7,12 +7,12 @@ domain (longitudinal, lateral) that it controls.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, Protocol, TypeAlias
+from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import Limits, held_by, road_condition
+from osc2tx.backends.xosc.facts.actors import Course, Limits, held_by, road_condition
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
@@ -64,17 +64,6 @@ class Performance:
     ends: Ending
     lasts: float | None = None
     reached: tuple[Element, ...] = ()
-
-
-class Course(Protocol):
-    """A speed that changes for some time."""
-
-    @property
-    def duration(self) -> float:
-        """Seconds."""
-
-    def value(self, t: float) -> float:
-        """Return the speed (m/s) after some seconds."""
 
 
 class Arguments:

@@ -12,11 +12,17 @@ from osc2tx.backends.xosc.facts.actors import CRUISE
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.followers import off_the_line
 from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.report import Metres, Remedy
 
 NEAR = 0.05
 """Metres beside its line that count as on it."""
 
-REMEDY = "`replay_path` or `physical_movement(prefer_non_physical)` is on the line exactly"
+ON_THE_LINE = Remedy(
+    instead="`replay_path`, or `physical_movement(prefer_non_physical)`, is on the line exactly"
+)
+JUMPING = Remedy(
+    instead="`replay_trajectory`, or `physical_movement(prefer_non_physical)`, jumps like the XML"
+)
 
 
 def note_steering(
@@ -52,8 +58,9 @@ def note_steering(
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
-            f"it steers along the way as physics allows, the line of the XML has corners; {REMEDY}",
-            f"at most {off:.2g} m off at {speed:.3g} m/s",
+            "it steers along the way as physics allows, the line of the XML has corners",
+            Metres(off, f"at {speed:.3g} m/s"),
+            ON_THE_LINE,
         )
 
 
@@ -98,6 +105,7 @@ def note_schedule(leaf: Leaf, corners: Sequence[Waypoint]) -> None:
             leaf.construct,
             leaf.node.span,
             "the speed of the trajectory jumps; the line of the XML does so, the actor within its"
-            " limits; `replay_trajectory` or `physical_movement(prefer_non_physical)` jumps, too",
-            f"at most {off:.2g} m late",
+            " limits",
+            Metres(off, "late"),
+            JUMPING,
         )

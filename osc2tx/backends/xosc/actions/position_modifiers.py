@@ -8,10 +8,11 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
+from osc2tx.backends.xosc.actions.speed_notes import NEAR
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.xml_positions import at_place
-from osc2tx.backends.xosc.facts.actors import Linear
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.facts.actors import Linear, way_between
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.xml.tree import element
 from osc2tx_classes import dataclass, replace
@@ -140,8 +141,27 @@ def _in_time(leaf: Leaf, call: ir.ModifierCall, gap: Gap) -> Change:
         raise Inexpressible("it would have to go backwards", call.span)
     after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
     during = replace(after, speed=speed.over(known(end)))
-    leaf.course = arrival if can_draw else Linear(speed.low, end, time)
+    even = Linear(speed.low, end, time)
+    leaf.course = arrival if can_draw else even
+    if not can_draw:
+        _note_even_arrival(leaf, call, arrival, even)
     action = (
         through_points(arrival) if can_draw else speed_action(round(end, 9), "linear", "time", time)
     )
     return Change(LONGITUDINAL, (action,), time, during, after)
+
+
+def _note_even_arrival(leaf: Leaf, call: ir.ModifierCall, arrival: Arrival, even: Linear) -> None:
+    """Report that an even change leads to the same place in time, with another speed there."""
+    apart = way_between(arrival, even)
+    if apart <= NEAR:
+        return
+    faster = even.end - arrival.value(arrival.duration)
+    leaf.ctx.report.approximate(
+        f"modifier {call.name}",
+        call.span,
+        "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead",
+        f"{Metres(apart, 'on the way')}; it arrives {abs(faster):.2g} m/s too"
+        f" {'fast' if faster > 0.0 else 'slow'}",
+        Remedy(version="1.2") if leaf.ctx.version < "1.2" else Remedy(profile="generic"),
+    )

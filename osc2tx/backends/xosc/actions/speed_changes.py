@@ -1,20 +1,23 @@
 """Changes of the speed as `SpeedAction` or `SpeedProfileAction`.
 
 A course that a `SpeedAction` draws exactly becomes one. Others become a `SpeedProfileAction` (1.2),
-which has the limits of acceleration and jerk, or any course through points. Before 1.2, and where
-the course is up to the tool anyway, a `SpeedAction` of the same length stands for it.
+which has the limits of acceleration and jerk, or any course through points. Before 1.2 a
+`SpeedAction` of the same length stands for it, which is not the same.
 """
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.leaf import Change, Course, Leaf
-from osc2tx.backends.xosc.actions.speed_notes import GENERIC, note_acceleration
+from collections.abc import Iterator
+
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.speed_notes import GENERIC, note_acceleration, note_even_change
 from osc2tx.backends.xosc.facts.actors import (
     COMFORT,
     COSINE_PEAK,
     GENTLE,
     TOP_SPEED,
     Cosine,
+    Course,
     Limits,
     Linear,
     Profile,
@@ -97,6 +100,9 @@ def _from_known(
     note_acceleration(leaf, target, profile, peak)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, profile, peak)
+    even = Linear(course.value(0.0), target, course.duration)
+    if leaf.ctx.profile.has_shapes:  # others are reported for all changes
+        note_even_change(leaf, [(course, even)])
     return speed_action(target, "linear", "time", course.duration)
 
 
@@ -128,8 +134,19 @@ def _from_unknown(
     rate = round(share * limit, 6) if peak is None else peak
     shape = "sinusoidal" if profile == "smooth" else "linear"
     if leaf.ctx.can(RATE, "1.0"):
+        if profile in ("none", "asap"):
+            note_even_change(leaf, _even_courses(leaf, target, profile, peak, rate))
         return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
     return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
+
+
+def _even_courses(
+    leaf: Leaf, target: float, profile: str, peak: float | None, rate: float
+) -> Iterator[tuple[Profile, Linear]]:
+    """Yield the courses of a change from the speeds that it may begin with, and the even ones."""
+    for speed in leaf.state.speed or (0.0, TOP_SPEED):
+        even = Linear(speed, target, abs(target - speed) / rate)
+        yield course_of_speed(speed, target, profile, peak, None, leaf.limits), even
 
 
 def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:

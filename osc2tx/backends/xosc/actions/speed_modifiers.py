@@ -6,7 +6,7 @@ from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.acceleration import shape_of
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Course, Leaf
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed_changes import (
     change_speed,
@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.actions.speed_changes import (
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import COMFORT
+from osc2tx.backends.xosc.facts.actors import COMFORT, Course
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import Bounds
@@ -52,6 +52,7 @@ def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
             "the XML cannot ask for caution; only controllers of the tool may have it",
             "speed and place are those of the other modifiers, without braking for others or for"
             " red lights",
+            Remedy(instead="`change_speed` at a condition says when it brakes, and how, exactly"),
         )
     return ()
 
@@ -73,7 +74,9 @@ def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> t
 @modifier("speed")
 def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if arguments.member("direction", "longitudinal") != "longitudinal":
-        raise Inexpressible("there is no action on a speed across the road", call.span)
+        instead = "`change_lane` or `lateral(…)` with a duration moves across the road exactly"
+        remedy = Remedy(instead=instead)
+        raise Inexpressible("there is no action on a speed across the road", call.span, remedy)
     own = user_shape(arguments)
     if own is not None and call.at == "all":
         return (speed_by(leaf, own),)
@@ -192,6 +195,7 @@ def _rate_towards(
         f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
         " the XML, and another one for braking in the world",
         bound,
+        Remedy(instead="`speed` with the speed itself is exact"),
     )
     return min(faster, slower)
 

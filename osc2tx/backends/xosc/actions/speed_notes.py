@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from osc2tx.backends.xosc.actions.leaf import Leaf
-from osc2tx.backends.xosc.facts.actors import way_by_acceleration
-from osc2tx.backends.xosc.report import Remedy
+from osc2tx.backends.xosc.facts.actors import Course, Linear, way_between, way_by_acceleration
+from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
 
 GENERIC = Remedy(profile="generic")
+
+NEAR = 0.05
+"""Metres along the road that count as the same place."""
 
 
 def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | None) -> None:
@@ -18,10 +23,10 @@ def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | Non
         return
     if speed is None:
         time = max(map(abs, rates)) / limits.jerk
-        bound = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
+        bound: Metres | str = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
     else:
         ways = [way_by_acceleration(v, target, profile, peak, rates, limits) for v in speed]
-        bound = f"at most {max(ways):.2g} m ahead or behind"
+        bound = Metres(max(ways), "ahead or behind")
     leaf.ctx.report.approximate(
         leaf.construct,
         leaf.node.span,
@@ -29,3 +34,22 @@ def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | Non
         bound,
         Remedy(profile="esmini"),
     )
+
+
+def note_even_change(leaf: Leaf, courses: Iterable[tuple[Course, Linear]]) -> None:
+    """Report that a change with limited jerk is an even one in the XML.
+
+    Args:
+        leaf: The invocation.
+        courses: The courses of the speed that the world may drive, with those of the XML.
+    """
+    apart = max(way_between(world, even) for world, even in courses)
+    if apart > NEAR:
+        version = leaf.ctx.version
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            f"OpenSCENARIO XML {version} has no limits of the jerk: the speed changes evenly",
+            Metres(apart, "ahead or behind"),
+            Remedy(version="1.2"),
+        )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf
 from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.actors import TOP_SPEED
+from osc2tx.backends.xosc.report import Remedy
 from osc2tx.catalogue import catalogue
 
 _BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
@@ -14,17 +16,21 @@ _BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
 def note_open_speed(leaf: Leaf) -> None:
     """Report that a driver who is told no speed slows down for bends, which no XML says."""
     roads, speed = leaf.ctx.roads, leaf.state.speed
-    if roads is None or speed is None or leaf.member.walks:
+    if roads is None or leaf.member.walks:
         return
     if any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers):
         return
-    if speed.low**2 * roads.sharpest_bend > leaf.limits.lateral:
+    fastest = TOP_SPEED if speed is None else max(map(abs, speed))
+    if fastest**2 * roads.sharpest_bend > leaf.limits.lateral:
+        bound = f"{fastest:.4g} m/s are too fast for the sharpest bend of the map"
+        if speed is None:
+            bound = "none where its speed, which only the run shows, suits the bends of the map"
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
-            "no speed is said, so in the world it slows down for bends, and in the XML it does not;"
-            " `keep_speed()` holds it in both",
-            f"{speed.low:.4g} m/s are too fast for the sharpest bend of the map",
+            "no speed is said, so in the world it slows down for bends, and in the XML it does not",
+            bound,
+            Remedy(instead="`keep_speed()` holds the speed in both"),
         )
 
 

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.actions.leaf import (
     construct_of_action,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import WAY, ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element, text_of
@@ -37,9 +37,9 @@ def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Element:
     ctx.require_support("CustomCommandAction", node.span)
     if node.duration is None and not node.until:
         raise Inexpressible(
-            "tools do not tell when a command of their own is over: give it a duration or an"
-            " `until`",
+            "tools do not tell when a command of their own is over",
             node.span,
+            Remedy(instead="with a duration or an `until` it is exact"),
         )
     if node.modifiers:
         raise Inexpressible("modifiers of an action that only the tool knows", node.span)

@@ -12,7 +12,7 @@ from math import inf
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, through_points
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx_classes import dataclass, replace
 
@@ -92,7 +92,7 @@ def _change(leaf: Leaf, course: Computed) -> Change:
             leaf.construct,
             leaf.node.span,
             f"a course of the speed goes through {count} points, in straight lines",
-            f"the speed is off by at most {off:.2g} m/s",
+            Metres(off * course.duration, "ahead or behind"),
         )
     after = replace(state.finished(LONGITUDINAL), speed=known(end))
     during = replace(after, speed=Interval(min(samples), max(samples)))

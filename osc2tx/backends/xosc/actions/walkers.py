@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.speed_changes import jump_to
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import WAY, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import replace
@@ -64,12 +64,14 @@ def stand(leaf: Leaf) -> Change:
     if state.pose is None or state.speed is None or not state.speed.is_known:
         change = jump_to(leaf, 0.0)
         fastest = 3.0 if state.speed is None else state.speed.high
-        way = fastest * fastest / (2.0 * leaf.limits.deceleration)
+        course = course_of_speed(fastest, 0.0, "asap", None, None, leaf.limits)
         leaf.ctx.report.approximate(
             f"action {leaf.node.action}",
             leaf.node.span,
             "where it stops is only known during the run, so it stops at once",
-            f"it stands at most {way:.2g} m before the place where it would have stopped",
+            Metres(
+                _covered(course, course.duration), "before the place where it would have stopped"
+            ),
         )
         return change
     course = course_of_speed(state.speed.low, 0.0, "asap", None, None, leaf.limits)

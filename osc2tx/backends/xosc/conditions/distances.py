@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Gr
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.stationary_actors import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 
@@ -223,7 +223,7 @@ def note_facing(ctx: Context, c: Comparison, freespace: bool, system: str) -> No
         c.name,
         c.source.span,
         f"{c.reference()} may look another way than {c.actor}, so that another end of it faces it",
-        f"at most {off:.2g} m",
+        Metres(off),
     )
 
 

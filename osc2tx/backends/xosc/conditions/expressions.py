@@ -125,7 +125,9 @@ def _comparison(ctx: Context, expression: ir.Binary, operator: str, edge: Edge) 
         groups = relative_speed(ctx, actor, other, rule, difference)
     elif ir.is_live(right):
         raise Inexpressible(
-            "a condition compares one measure with a constant, not two measures", expression.span
+            "a condition compares one measure with a constant, not two measures",
+            expression.span,
+            Remedy(instead="two speeds compare exactly as in `a.speed > b.speed + 2mps`"),
         )
     else:
         groups = _measured(ctx, left, rule, ctx.values.number(right), edge)
@@ -203,7 +205,8 @@ def _measured(ctx: Context, measure: ir.Expression, rule: str, value: float, edg
         name = path
     found = MEASURES.get(name)
     if found is None or not isinstance(actor, Named) or actor.name not in ctx.cast:
-        raise Inexpressible(f"there is no condition on `{owner}.{name}`", measure.span)
+        waiting = Remedy(instead="a wait for the event or time at which it changes is exact")
+        raise Inexpressible(f"there is no condition on `{owner}.{name}`", measure.span, waiting)
     comparison = Comparison(
         actor=ctx.cast[actor.name].name,
         owner=owner,

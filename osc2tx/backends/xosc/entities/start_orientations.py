@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start
 from osc2tx.backends.xosc.facts.actors import Linear, apart, course_of_shift
 from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -89,5 +89,5 @@ def note_turn(ctx: Context, start: Start, state: ActorState) -> None:
             "orientation at the start",
             given.source.span,
             "it comes into the direction of its lane in a curve; a tool may turn it at once",
-            f"at most {off:.2g} m beside its lane",
+            Metres(off, "beside its lane"),
         )

@@ -7,6 +7,7 @@ set of formulas for profiles and one reader of OpenDRIVE.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Protocol
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.enums import DynamicProfile
@@ -42,6 +43,7 @@ __all__ = [
     "SIDEWAYS",
     "TOP_SPEED",
     "Cosine",
+    "Course",
     "Limits",
     "Linear",
     "Profile",
@@ -58,6 +60,7 @@ __all__ = [
     "limits_of",
     "road_condition",
     "shape_of",
+    "way_between",
     "way_by_acceleration",
 ]
 
@@ -67,6 +70,17 @@ STEPS = 200
 
 CRUISE = SPEEDS_AT_START["person"]
 """Speed (m/s) at which walkers set out."""
+
+
+class Course(Protocol):
+    """A speed that changes for some time."""
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+
+    def value(self, t: float) -> float:
+        """Return the speed (m/s) after some seconds, the last one from `duration` on."""
 
 
 def automatic_light(weather: Mapping[str, float]) -> str:
@@ -109,15 +123,17 @@ def way_by_acceleration(
     """
     change = SpeedChange(target, _known(profile), peak)
     at_rest = speed_profile(change, speed, limits)
-    farthest = 0.0
-    for rate in rates:
-        course = speed_profile(change, speed, limits, rate)
-        step = max(course.duration, at_rest.duration) / STEPS
-        apart = 0.0
-        for index in range(STEPS):
-            middle = (index + 0.5) * step
-            apart += step * (course.value(middle) - at_rest.value(middle))
-            farthest = max(farthest, abs(apart))
+    return max(way_between(speed_profile(change, speed, limits, rate), at_rest) for rate in rates)
+
+
+def way_between(one: Course, other: Course) -> float:
+    """Return how far (m) two courses of the speed are from each other at most, on the way."""
+    step = max(one.duration, other.duration) / STEPS
+    apart = farthest = 0.0
+    for index in range(STEPS):
+        middle = (index + 0.5) * step
+        apart += step * (one.value(middle) - other.value(middle))
+        farthest = max(farthest, abs(apart))
     return farthest
 
 

@@ -13,6 +13,7 @@ from osc2tx.backends.xosc.actions.speed_changes import hold_speed
 from osc2tx.backends.xosc.conditions.flow import Flow
 from osc2tx.backends.xosc.facts.actors import apart, course_of_shift
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
+from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import replace
@@ -110,9 +111,10 @@ def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Beha
         f"it returns to the centre of the lane that it is in within {BACK_TO_CENTRE:g} s, and"
         " without the lateral speed that it has"
     )
-    bound = f"at most {_beside(builder, actor):.2g} m beside, while it returns"
+    bound = Metres(_beside(builder, actor), "beside, while it returns")
     construct = "a change of lane that is cut short"
-    builder.ctx.report.approximate(construct, member.span, reason, bound)
+    finishing = Remedy(instead="a change of lane that nothing cuts short is exact")
+    builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
     return element(
         "PrivateAction",
         element(

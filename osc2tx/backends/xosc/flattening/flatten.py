@@ -20,6 +20,7 @@ from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.leaves import invoke
 from osc2tx.backends.xosc.flattening.overridden_members import unless_active
 from osc2tx.backends.xosc.flattening.parallel_overlaps import starts_of
+from osc2tx.backends.xosc.flattening.slot_conflicts import report_conflicts
 from osc2tx.backends.xosc.flattening.storyboard import Act
 from osc2tx.backends.xosc.flattening.storyboard_builder import (
     RUN_START,
@@ -117,6 +118,7 @@ class Flattener:
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
         if len(node.members) > 1:
             start = self._builder.latched(start, self._builder.name_of(node))
+        report_conflicts(self._ctx, node)
         ends: list[tuple[ir.Behavior, Flow]] = []
         mark_actor = self._builder.mark_actor
         for member, offset in zip(node.members, starts_of(self._ctx, node), strict=True):

@@ -76,11 +76,11 @@ CARS = """\
 {declare}
     do serial:
         start: parallel:
-            ego.change_speed(target: 20mps) with:
+            ego.change_speed(target: 20mps, rate_profile: constant) with:
                 lane(2, at: start)
                 position(100m, at: start)
                 speed(18mps, at: start)
-            other.change_speed(target: 20mps) with:
+            other.change_speed(target: 20mps, rate_profile: constant) with:
                 lane(same_as: ego, at: start)
                 position(40m, ahead_of: ego, at: start)
                 speed(18mps, at: start)
@@ -122,7 +122,7 @@ TOWN = """\
 DRIVE = """\
 {declare}
     do serial:
-        ego.change_speed(target: 10mps) with:
+        ego.change_speed(target: 10mps, rate_profile: constant) with:
             lane(1, at: start)
             position(20m, at: start)
             speed(8mps, at: start)

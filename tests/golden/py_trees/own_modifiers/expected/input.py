@@ -42,6 +42,8 @@ def gentle(*, top: Speed = 8 * mps) -> list[Modifier]:
 def calm(*, top: Speed) -> list[Modifier]:
     """Modifier `calm`."""
     return [
+        # as it was
+        keep_lane(),
         speed(top),
     ]
 
@@ -49,10 +51,9 @@ def calm(*, top: Speed) -> list[Modifier]:
 def easy(*, top: Speed = 8 * mps, side: int) -> list[Modifier]:
     """Modifier `easy`."""
     return [
-        # as it was
-        keep_lane(),
+        # in the end
+        lane(side, at="end"),
         speed(top + 1 * mps),
-        lane(side, at="start"),
     ]
 
 
