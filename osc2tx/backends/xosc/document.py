@@ -115,6 +115,12 @@ def _road_network(ctx: Context) -> Element:
     roads = ctx.roads
     if roads is not None and any(roads.map.geo_reference.offset) and ctx.profile.moves_maps:
         ctx.report.exact("map with an offset", ctx.scenario.span, ctx.profile.moves_maps)
+    if roads is not None and any(road.reversed for road in roads.map.roads.values()):
+        ctx.report.cannot(
+            "map with reversed lanes",
+            ctx.scenario.span,
+            "places and directions in XML go by the side of a lane, not by its `direction`",
+        )
     signals = element("TrafficSignals", *ctx.controllers) if ctx.controllers else None
     return element("RoadNetwork", element("LogicFile", filepath=_map_file(ctx)), signals)
 

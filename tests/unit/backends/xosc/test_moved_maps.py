@@ -1,4 +1,4 @@
-"""Maps whose header moves them on the globe, and what a tool makes of positions on them."""
+"""Maps that tools read unlike the world: moved on the globe, or with reversed lanes."""
 
 from pathlib import Path
 
@@ -43,3 +43,16 @@ def test_a_tool_that_moves_maps(
     (made,) = documents(compilation, XmlOptions(profile=profile))
     assert made.xml is not None
     assert ("--ignore_odr_offset" in (made.report_json or "")) == is_told
+
+
+def test_lanes_that_are_driven_against_their_side(tmp_path: Path) -> None:
+    text = MAP.read_text(encoding="utf-8")
+    lane = '<lane id="-1" '
+    assert lane in text
+    reversed_ = text.replace(lane, f'{lane}direction="reversed" ')
+    (tmp_path / "moved.xodr").write_text(reversed_, encoding="utf-8")
+    (tmp_path / "top.osc").write_text(TEXT, encoding="utf-8")
+    compilation = compiled(tmp_path / "top.osc", CompileOptions())
+    (made,) = documents(compilation, XmlOptions(allow_approx=True))
+    assert made.xml is None
+    assert "map with reversed lanes" in (made.report_json or "")
