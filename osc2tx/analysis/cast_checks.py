@@ -8,6 +8,7 @@ from dataclasses import field
 from osc2tx.analysis.applied_modifiers import library_modifiers
 from osc2tx.analysis.constraints import ConstraintAnalysis, State, analyse_global
 from osc2tx.analysis.library_facts import entry_of, is_library_actor
+from osc2tx.analysis.same_actors import same_actors
 from osc2tx.analysis.tree_walk import do_directives, do_members
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
@@ -46,6 +47,10 @@ def openings_of_cast(
     if scenario.actor is not None:
         yield f"the {scenario.actor.name} that does it", scenario.node.name.span
     cast = _find_cast(model, scenario)
+    same = same_actors(constraints.types[scenario])
+    for actor, is_ in same.items():
+        if actor in cast.parts and is_.other in cast.parts:
+            cast.parts[actor] = cast.parts[is_.other]
     for ancestor in supertypes(scenario):
         for statement in ancestor.statements:
             if isinstance(statement, ast.ModifierApplication):
@@ -58,6 +63,8 @@ def openings_of_cast(
     if cast.parts and not any(_has_file(model, scenario, m, constraints) for m in cast.maps):
         yield "map file", scenario.node.name.span
     for actor, part in cast.parts.items():
+        if actor in same:
+            continue
         if not part.has_place and not _has_pose(scenario, actor, constraints):
             yield f"place of {actor.name}", actor.span
         if not part.has_pace and part.is_settled:

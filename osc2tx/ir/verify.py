@@ -73,7 +73,11 @@ class _ScenarioVerifier:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.fields = {d.name for d in scenario.declarations}
-        self.actors = {d.name for d in scenario.declarations if isinstance(d, Actor)}
+        self.actors = {
+            d.name
+            for d in scenario.declarations
+            if isinstance(d, Actor) or (isinstance(d, Parameter) and d.type.kind is Kind.ACTOR)
+        }
         self.events = {d.name for d in scenario.declarations if isinstance(d, Event)}
         self.labels: list[str] = []
 

@@ -50,7 +50,8 @@ class ConstraintLowering:
     def of_scenario(cls, ctx: LoweringContext, scenario: Composed) -> ConstraintLowering:
         """Take the constraints of a scenario."""
         found = ctx.analysis.types[scenario]
-        return cls(ctx, found, dict(found.domains_to_set()))
+        same = {each.constraint for f, each in ctx.same_actors.items() if f not in ctx.handed_in}
+        return cls(ctx, found, dict(found.domains_to_set()), _used=same)
 
     @classmethod
     def of_global(cls, ctx: LoweringContext, parameter: sym.FieldSymbol) -> ConstraintLowering:

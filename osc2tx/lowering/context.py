@@ -10,6 +10,7 @@ from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.analysis.operation_list import Key
 from osc2tx.analysis.parameter_lookup import Place
+from osc2tx.analysis.same_actors import SameActor
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.lowering.authored_units import authored_unit
 from osc2tx.semantics import SemanticModel
@@ -70,6 +71,7 @@ class LoweringContext:
         mentioned: The fields that some expression of the program speaks of, and in which files.
         handed_in: Parameters of invoked scenarios that some invocation gives a value.
         computed: Those of them that some invocation gives no plain name.
+        same_actors: The actors of the scenario that are others.
         object_types: The types of which the program may have objects.
     """
 
@@ -99,6 +101,7 @@ class LoweringContext:
     mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)
     handed_in: frozenset[Symbol] = frozenset()
     computed: frozenset[Symbol] = frozenset()
+    same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
     object_types: tuple[TypeSymbol, ...] = ()
 
     def lower(self, node: ast.Expression) -> ir.Expression | None:
@@ -108,11 +111,14 @@ class LoweringContext:
         """
         return self.lower_with(self, node)
 
-    def of_scenario(self, own_names: frozenset[str]) -> LoweringContext:
+    def of_scenario(
+        self, own_names: frozenset[str], same: Mapping[FieldSymbol, SameActor]
+    ) -> LoweringContext:
         """Return the context for another scenario of the same program, with such members."""
         return replace(
             self,
             own_names=own_names,
+            same_actors=same,
             globals={},
             event_fields={},
             invoked=[],

@@ -13,6 +13,7 @@ from osc2tx.lowering.list_constraints import lower_list
 from osc2tx.lowering.map_fields import reads_map
 from osc2tx.lowering.objects import ObjectLowering
 from osc2tx.lowering.parameter_domains import all_values
+from osc2tx.lowering.references import other_actor
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -45,8 +46,8 @@ class FieldLowering:
         """
         # A variable without initial value has one all the same (§7.3.6.1.2): from outside.
         match symbol.type:
-            case types.ActorType() if isinstance(symbol.default, ast.NameExpression):
-                return self._other_actor(symbol, symbol.default, span, comments)
+            case types.ActorType() if (other := other_actor(self._ctx, symbol)) is not None:
+                return self._other_actor(symbol, other, span, comments)
             case types.ActorType():
                 actor = self._objects.types_of(symbol)
                 add_types(self._ctx, actor, span)

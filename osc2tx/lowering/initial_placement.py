@@ -216,7 +216,10 @@ def report_twice(ctx: LoweringContext, first: ir.ModifierCall, second: ir.Modifi
 def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
     """Return one placement for each actor, where it first stands; those of maps stay apart."""
     by_actor: dict[str, ir.Placement] = {}
+    same = {field.name: each.other.name for field, each in ctx.same_actors.items()}
     for number, placement in enumerate(placements):
+        while placement.actor in same:  # another name of an actor that has its own place here
+            placement = replace(placement, actor=same[placement.actor])
         if placement.of_map:
             by_actor[f"{placement.actor} {number}"] = placement
             continue

@@ -59,10 +59,17 @@ def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | N
     """
     if isinstance(field.default, ast.StringLiteral):
         return ctx.model.quantities.get(field.default)
-    is_actor = isinstance(field.type, types.ActorType) and field not in ctx.handed_in
-    if is_actor and isinstance(field.default, ast.NameExpression):
+    return None if field in ctx.handed_in else other_actor(ctx, field)
+
+
+def other_actor(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.NameExpression | None:
+    """Return the actor that is the default of one, or that a constraint says it is."""
+    if not isinstance(field.type, types.ActorType):
+        return None
+    if isinstance(field.default, ast.NameExpression):
         return field.default
-    return None
+    same = ctx.same_actors.get(field)
+    return None if same is None else same.name
 
 
 def lower_member(

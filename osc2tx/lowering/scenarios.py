@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
+from osc2tx.analysis.same_actors import same_actors
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.lowering.carla_paths import is_path_member
 from osc2tx.lowering.combined_types import lineage
@@ -95,7 +96,8 @@ def lower(
         if id(scenario) in lowered:
             continue
         ctx = program.of_scenario(
-            frozenset(name for each in lineage_of(scenario) for name in each.members)
+            frozenset(name for each in lineage_of(scenario) for name in each.members),
+            same_actors(analysis.types[scenario]),
         )
         is_imported = scenario not in model.scenarios
         lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)

@@ -210,7 +210,7 @@ def instead_of_scenario(invoked: Symbol | None, name: str, written: str) -> str 
     """
     if not isinstance(invoked, ScenarioSymbol):
         return None
-    inside = "apply it in the `with` of the actions in it"
+    inside = "apply it in the `with` of the actions in it (§8.9.1)"
     if invoked.actor is None:
         return inside
     member = written[max(written.find(f"{name}("), 0) :]

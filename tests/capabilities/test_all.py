@@ -17,7 +17,7 @@ from tests.end_to_end.harness import (
     permuted_module,
     run,
 )
-from tests.runtime.world.motion_scan import scan_lines
+from tests.runtime.world.motion_scan import impossible
 
 NAMES = sorted(path.stem for path in CAPABILITIES.glob("*.osc"))
 MODULES = sorted((REPOSITORY / "generated" / "capabilities").glob("*.py"))
@@ -64,16 +64,9 @@ ASKED_FOR: dict[str, tuple[set[str], str]] = {
 }
 
 
-def found_in(run: Performance) -> set[str]:
-    """Kinds of impossible motion in a run."""
-    limits = {"jump": 0.05, "course": math.radians(3.0), "across": 9.0, "along": 12.0}
-    worst = scan_lines(run.lines, smoothing=0.0).values()
-    return {kind for kind, most in limits.items() if any(getattr(w, kind) > most for w in worst)}
-
-
 @pytest.mark.parametrize("name", RUNNING)
 def test_motion_is_possible_or_asked_for(perform: Perform, name: str) -> None:
-    assert found_in(perform(name)) == ASKED_FOR.get(name, (set(), ""))[0]
+    assert impossible(perform(name).lines, smoothing=0.0) == ASKED_FOR.get(name, (set(), ""))[0]
 
 
 @pytest.mark.slow

@@ -21,6 +21,7 @@ from tests.end_to_end.harness import (
     permuted_module,
     run,
 )
+from tests.runtime.world.motion_scan import impossible, scan_lines
 
 FILE = SCENARIOS / "hello_world.osc"
 Load = Callable[[GeneratedModule], type[Scenario]]
@@ -51,6 +52,13 @@ def gap(trace: Trace, t: float) -> float:
 
 def test_the_file_is_the_published_one(test_data: Path) -> None:
     assert FILE.read_bytes() == (test_data / "seed" / "hello_world.osc").read_bytes()
+
+
+def test_what_cannot_be_driven_is_named(trace: Trace) -> None:
+    """The speeds are the scenario's; who would skid or tip over at them is in the warnings."""
+    assert impossible(trace.lines) == {"across"}
+    beyond = {who for who, worst in scan_lines(trace.lines).items() if worst.across > 9.0}
+    assert {each.split()[0] for each in trace.warnings if "cannot be driven so" in each} >= beyond
 
 
 def test_phases_in_the_order_of_the_paper(trace: Trace) -> None:

@@ -16,6 +16,7 @@ from tests.end_to_end.harness import (
     permuted_module,
     run,
 )
+from tests.runtime.world.motion_scan import impossible
 
 Load = Callable[[GeneratedModule], type[Scenario]]
 OWN = ["cut_in", "cut_in_and_evade", "follow_leader", "pedestrian_crossing"]
@@ -42,6 +43,7 @@ def test_it_succeeds_without_collision(run_named: Callable[..., Trace], name: st
     trace = run_named(name)
     assert trace.status == "success"
     assert trace.of_kind("collision") == []
+    assert impossible(trace.lines, smoothing=0.0) == set()
     assert read_run(trace.text.splitlines()).skipped == 0  # the report knows every line
 
 

@@ -7,11 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-__all__ = ["SMOOTHING", "Instant", "Worst", "scan", "scan_lines"]
+__all__ = ["SMOOTHING", "Instant", "Worst", "impossible", "scan", "scan_lines"]
 
 _CREEP = 0.02  # m of a step from which on it has a course
 SMOOTHING = 0.1
 """Seconds over which yaw rates are looked at: maps have small kinks where roads join."""
+
+LIMITS = {"jump": 0.05, "course": math.radians(3.0), "across": 9.0, "along": 12.0}
+"""What no vehicle does: beyond dry grip, sideways or with a jump (m, rad, m/s^2, m/s^2)."""
 
 
 class Worst(NamedTuple):
@@ -77,6 +80,12 @@ def scan_lines(
             instant = Instant(*(line[name] for name in Instant._fields))
             histories.setdefault(line["actor"], []).append(instant)
     return {actor: scan(history, smoothing) for actor, history in histories.items()}
+
+
+def impossible(lines: Iterable[Mapping[str, Any]], smoothing: float = SMOOTHING) -> set[str]:
+    """Kinds of motion in a trace that cannot be."""
+    worst = scan_lines(lines, smoothing).values()
+    return {kind for kind, most in LIMITS.items() if any(getattr(w, kind) > most for w in worst)}
 
 
 def _turn(before: float, after: float) -> float:

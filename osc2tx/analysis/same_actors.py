@@ -1,0 +1,67 @@
+"""Actors that a constraint says to be another actor (§7.3.11): two names of one."""
+
+from __future__ import annotations
+
+from osc2tx.analysis.collect import Constraint
+from osc2tx.analysis.constraints import TypeConstraints
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.semantics.scope import is_subtype
+from osc2tx.syntax import ast
+from osc2tx_classes import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class SameActor:
+    """What an actor is.
+
+    Attributes:
+        other: The actor that it is.
+        name: Its name in the constraint.
+        constraint: The constraint that says so.
+    """
+
+    other: sym.FieldSymbol
+    name: ast.NameExpression
+    constraint: Constraint
+
+
+def same_actors(found: TypeConstraints) -> dict[sym.FieldSymbol, SameActor]:
+    """Return the actors of a scenario that are others, which are declared above them."""
+    same: dict[sym.FieldSymbol, SameActor] = {}
+    for constraint in found.in_force.constraints:
+        node = constraint.node
+        if not isinstance(node, ast.KeepConstraint) or constraint.is_default:
+            continue
+        if constraint.place.prefix:
+            continue  # it is about what an object or an invoked scenario has
+        match node.expression:
+            case ast.Binary(operator=ast.BinaryOperator.EQUAL, left=left, right=right):
+                for one, other in ((left, right), (right, left)):
+                    symbol, target = _actor(constraint, one), _actor(constraint, other)
+                    if symbol is None or target is None or symbol in same:
+                        continue
+                    if isinstance(other, ast.NameExpression) and _may_be(target, symbol):
+                        same[symbol] = SameActor(target, other, constraint)
+            case _:
+                continue
+    return same
+
+
+def _actor(constraint: Constraint, expression: ast.Expression) -> sym.FieldSymbol | None:
+    """Return the actor of the scenario that an expression names."""
+    key = constraint.place.locate(expression)
+    if key is None or len(key) != 1:
+        return None
+    (found,) = key
+    is_actor = isinstance(found, sym.FieldSymbol) and isinstance(found.type, types.ActorType)
+    return found if isinstance(found, sym.FieldSymbol) and is_actor else None
+
+
+def _may_be(target: sym.FieldSymbol, symbol: sym.FieldSymbol) -> bool:
+    """Whether an actor stands above another one, and has its type."""
+    one, other = target.type, symbol.type
+    if not isinstance(one, types.ActorType) or not isinstance(other, types.ActorType):
+        return False
+    is_above = target.span.source == symbol.span.source and target.span.start < symbol.span.start
+    return is_above and target.owner is not None and is_subtype(one.symbol, other.symbol)
