@@ -298,6 +298,52 @@ def test_bars_have_the_labels_of_the_scenario(tmp_path: Path) -> None:
     assert found == {"ready": "true", "bars": "evade: change_lane,drive"}
 
 
+EXPORTS = """<script>
+const files = [];
+saveBlob = (name, blob) => files.push([name, blob]);
+["states-csv", "motion-csv", "log-csv", "motion-png", "view-png"].forEach((id) => byId(id).click());
+const look = async () => {
+  if (files.length < 5) return setTimeout(look, 50);  // pictures take a while
+  const out = document.documentElement.dataset;
+  const text = async (what) => files.find(([name]) => name === what)[1].text();
+  out.names = files.map(([name]) => name).sort().join();
+  out.motion = (await text("exports-run-report-speed.csv")).split("\\r\\n").slice(0, 3).join("|");
+  out.states = (await text("exports-run-report-states.csv")).split("\\r\\n").length;
+  const pictures = files.filter(([name]) => name.endsWith(".png"));
+  out.pictures = pictures.map(([, blob]) => `${blob.type}:${blob.size > 1000}`).join();
+  byId("loop").click();
+  clock.set(clock.end - 0.01);
+  player.running = true; player.last = 0;
+  advance(50);  // 0.05 s later: beyond the end
+  out.loop = `${clock.now},${player.running}`;
+  byId("loop").click();
+  clock.set(clock.end - 0.01);
+  player.last = 0;
+  advance(50);
+  out.stop = `${clock.now === clock.end},${player.running}`;
+};
+look();
+</script>"""
+
+
+def test_exports_and_the_loop(tmp_path: Path) -> None:
+    """Numbers and pictures are files; playing begins again at the end only if it is asked to."""
+    made = TraceMaker("exports")
+    made.car("rear", lambda t: (20 * t, 0.0, 0.0, 20.0, 0.0), 4.0, 2.0)
+    made.car("front", lambda t: (64 + 10 * t, 0.0, 0.0, 10.0, 0.0), 4.0, 2.0)
+    found = looked_at(tmp_path, [Trace(made.text(40))], EXPORTS)
+    names = ["log.csv", "speed.csv", "speed.png", "states.csv", "view.png"]
+    assert found == {
+        "ready": "true",
+        "names": ",".join(f"exports-run-report-{name}" for name in names),
+        "motion": "time (s),rear (km/h),front (km/h)|0,72,36|0.05,72,36",
+        "states": str(1 + 2 * 41 + 1),  # a head, two cars at 41 times, the end of the last line
+        "pictures": "image/png:true,image/png:true",
+        "loop": "0,true",
+        "stop": "true,false",
+    }
+
+
 def test_two_runs_over_each_other(tmp_path: Path, overtaking) -> None:
     driver = """<script>
     const out = document.documentElement.dataset;
