@@ -6,6 +6,7 @@ goes to stdout, and all else to stderr.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import wraps
@@ -65,6 +66,7 @@ class Reporter:
         most_shown: How many diagnostics of one file are shown, 0 for all; `None` leaves it to
             the form: readers are spared an avalanche, programs are not.
         is_quiet: Whether people are told of errors alone.
+        docs_url: Where the documentation is published, for programs that link to it.
     """
 
     session: Session
@@ -72,6 +74,7 @@ class Reporter:
     is_strict: bool = False
     most_shown: int | None = None
     is_quiet: bool = False
+    docs_url: str | None = None
 
     def report(
         self, compilations: Sequence[Reportable], bugs: Sequence[str] = ()
@@ -138,7 +141,7 @@ class Reporter:
             return  # a second document would spoil the first, as in the rounds of --watch
         else:
             self.session.has_document = True
-            put_document(_document(report, self.form, failed=failed))
+            put_document(_document(report, self.form, failed=failed, docs_url=self.docs_url))
 
     def _exit_code(
         self, compilations: Sequence[Reportable], report: Report, bugs: Sequence[str]
@@ -152,6 +155,12 @@ class Reporter:
         return Exit.WARNINGS if self.is_strict and report.warnings else Exit.OK
 
 
+def _address(context: click.Context, parameter: click.Parameter, value: str | None) -> str | None:
+    if value is not None and not re.fullmatch(r"https?://[!-~]+", value):
+        raise click.BadParameter("is no address that begins with `https://`")
+    return value
+
+
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that say how to report; the command gets a `reporter`."""
 
@@ -162,10 +171,11 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
         strict: bool,
         max_diagnostics: int | None,
         quiet: bool,
+        docs_url: str | None,
         **more: Any,
     ) -> Any:
         session = click.get_current_context().find_object(Session) or Session()
-        reporter = Reporter(session, output_format, strict, max_diagnostics, quiet)
+        reporter = Reporter(session, output_format, strict, max_diagnostics, quiet, docs_url)
         return command(*args, reporter=reporter, **more)
 
     options = (
@@ -182,6 +192,12 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
             type=click.IntRange(min=0),
             metavar="N",
             help=f"Show at most N of one file, 0 for all.  [default: {MOST_SHOWN}; json, sarif: 0]",
+        ),
+        click.option(
+            "--docs-url",
+            metavar="URL",
+            callback=_address,
+            help="Where your copy of this documentation is published: SARIF links to its pages.",
         ),
     )
     for option in reversed(options):
@@ -213,14 +229,18 @@ def _form_asked_for(arguments: Sequence[str]) -> OutputFormat:
     return form
 
 
-def _document(report: Report, form: OutputFormat, *, failed: bool) -> str:
+def _document(
+    report: Report, form: OutputFormat, *, failed: bool, docs_url: str | None = None
+) -> str:
     from osc2tx.diagnostics import render
 
     match form:
         case "json":
             return render.render_json(report, version=__version__)
         case "sarif":
-            return render.render_sarif(report, version=__version__, failed=failed)
+            return render.render_sarif(
+                report, version=__version__, failed=failed, docs_url=docs_url
+            )
         case "github":
             return render.render_github(report)
         case "text":

@@ -28,19 +28,22 @@ SCHEMA = (
 )
 
 
-def render_sarif(report: Report, *, version: str, failed: bool = False) -> str:
+def render_sarif(
+    report: Report, *, version: str, failed: bool = False, docs_url: str | None = None
+) -> str:
     """Return the report as a SARIF log with one run.
 
     Args:
         report: What to render.
         version: The version of osc2tx.
         failed: Whether osc2tx itself failed on some file.
+        docs_url: Where the documentation is published; each rule links to its page there.
     """
     codes = sorted({diagnostic.code for diagnostic in report.diagnostics})
     driver = {
         "name": "osc2tx",
         "version": version,
-        "rules": [_rule(CODES[code]) for code in codes],
+        "rules": [_rule(CODES[code], docs_url) for code in codes],
     }
     results = [
         {
@@ -82,14 +85,21 @@ def _line_of(span: Span) -> str:
     return text[start:].partition("\n")[0].strip()
 
 
-def _rule(entry: Code) -> dict[str, Any]:
+def _rule(entry: Code, docs_url: str | None) -> dict[str, Any]:
+    page = {} if docs_url is None else {"helpUri": page_of(entry.code, docs_url)}
     return {
         "id": entry.code,
         "name": "".join(part.capitalize() for part in entry.slug.split("-")),
         "shortDescription": {"text": _escape(entry.summary)},
+        **page,
         "help": {"text": _escape(_help(entry)), "markdown": _markdown_help(entry)},
         "defaultConfiguration": {"level": entry.severity.value},
     }
+
+
+def page_of(code: str, docs_url: str) -> str:
+    """Return the address of the page of a code in a published documentation."""
+    return f"{docs_url.rstrip('/')}/diagnostics/{code.lower()}.html"
 
 
 def _help(entry: Code) -> str:

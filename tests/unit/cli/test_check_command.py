@@ -98,3 +98,15 @@ def test_wrong_usage(shell: Shell, arguments: list[str]) -> None:
     ended = shell(*arguments)
     assert ended.code == 2
     assert ended.err
+
+
+def test_sarif_links_only_to_addresses(shell: Shell) -> None:
+    shell.write("a.osc", "scenario top:\n  hero: vehicel\n")
+    sarif = ("check", "a.osc", "--output-format", "sarif", "--docs-url")
+    assert '"helpUri": "https://a.example/diagnostics/osc202.html"' in (
+        shell(*sarif, "https://a.example").out
+    )
+    for address in ("javascript:alert(1)", "https://a\nb", "docs"):
+        ended = shell(*sarif, address)
+        assert ended.code == 2
+        assert "no address" in ended.err

@@ -219,3 +219,14 @@ def test_sarif_knows_a_message_again(tmp_path: Path) -> None:
     known = fingerprint_of(TEXT, tmp_path)
     assert known == fingerprint_of(f"# new\n\n{TEXT}", tmp_path)
     assert known != fingerprint_of(TEXT.replace("é", "other"), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "address", ["https://docs.example.org/osc", "https://docs.example.org/osc/"]
+)
+def test_sarif_links_to_documentation_that_is_published(tmp_path: Path, address: str) -> None:
+    report = report_on(TEXT, "vehicel", tmp_path)
+    rules = json.loads(render_sarif(report, version="1", docs_url=address))["runs"][0]["tool"]
+    links = {rule["id"]: rule["helpUri"] for rule in rules["driver"]["rules"]}
+    assert links == {"OSC202": "https://docs.example.org/osc/diagnostics/osc202.html"}
+    assert "helpUri" not in render_sarif(report, version="1")
