@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla compiled test test-carla test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla compiled test test-carla test-cluster test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -32,12 +32,20 @@ test-slow: $(STAMP)
 test-carla: $(VENV)/.carla
 	$(PYTEST) tests/carla
 
+# Campaigns over a cluster of Dask, which the tests start on this machine.
+test-cluster: $(VENV)/.dask
+	$(PYTEST) -m slow tests/campaigns/test_cluster.py
+
 # The case study in CARLA, without a server: reports in out/.
 demo-carla: $(VENV)/.carla
 	$(BIN)/python -m tests.carla.demo
 
 $(VENV)/.carla: $(STAMP)
 	$(INSTALL) -e ".[carla-test]"
+	touch $@
+
+$(VENV)/.dask: $(STAMP)
+	$(INSTALL) -e ".[dask]"
 	touch $@
 
 # The wheel of the runtime with its hot paths compiled, in dist/, and its traces beside those of the

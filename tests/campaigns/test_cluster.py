@@ -31,7 +31,7 @@ from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.campaigns.kit import TRIANGLE, Here, digest, plan_of, run
 from tests.campaigns.test_workers import lethal, rows
 
-distributed: Any = pytest.importorskip("distributed", reason="distributed is not installed")
+distributed: Any = pytest.importorskip("distributed", reason="make test-cluster installs it")
 pytestmark = pytest.mark.slow
 
 
