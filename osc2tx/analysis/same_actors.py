@@ -50,12 +50,11 @@ def same_actors(found: TypeConstraints) -> dict[sym.FieldSymbol, SameActor]:
 
 def _actor(constraint: Constraint, expression: ast.Expression) -> sym.FieldSymbol | None:
     """Return the actor of the scenario that an expression names."""
-    key = constraint.place.locate(expression)
-    if key is None or len(key) != 1:
-        return None
-    (found,) = key
-    is_actor = isinstance(found, sym.FieldSymbol) and isinstance(found.type, types.ActorType)
-    return found if isinstance(found, sym.FieldSymbol) and is_actor else None
+    match constraint.place.locate(expression):
+        case (sym.FieldSymbol(type=types.ActorType()) as found,):
+            return found
+        case _:
+            return None
 
 
 def _may_be(target: sym.FieldSymbol, symbol: sym.FieldSymbol) -> bool:

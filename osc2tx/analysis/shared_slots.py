@@ -5,8 +5,7 @@ Only what is certain is reported: actions of the library that begin in the same 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import combinations
+from collections.abc import Iterable, Iterator
 
 from osc2tx.analysis.applied_modifiers import library_modifiers
 from osc2tx.analysis.library_facts import entry_of, is_instant
@@ -52,7 +51,7 @@ def report_shared_slots(
         return  # it ends one of them by its label, from anywhere
     for node in nodes:
         if isinstance(node, ast.Composition) and starts.are_together(node):
-            _report(node, [list(starts.of(member)) for member in node.members], sink)
+            _report(node, map(starts.of, node.members), sink)
 
 
 def _overrides(model: SemanticModel, node: ast.ModifierApplication) -> bool:
@@ -60,24 +59,28 @@ def _overrides(model: SemanticModel, node: ast.ModifierApplication) -> bool:
     return binding is not None and binding.callee is OVERRIDE
 
 
-def _report(node: ast.Composition, starts: Sequence[list[_Claim]], sink: DiagnosticSink) -> None:
+def _report(
+    node: ast.Composition, starts: Iterable[Iterable[_Claim]], sink: DiagnosticSink
+) -> None:
+    """Report what two members claim, once for each slot of an actor."""
+    holders: dict[tuple[sym.Symbol | None, str], tuple[int, _Claim]] = {}
     told = set()
-    for former, latter in combinations(starts, 2):
-        for one in former:
-            for other in latter:
-                same = (one.actor, one.slot) == (other.actor, other.slot)
-                if not same or (one.actor, one.slot) in told:
-                    continue
-                told.add((one.actor, one.slot))
-                who = "the actor" if one.actor is None else f"`{one.actor.name}`"
-                sink.report(
-                    "OSC442",
-                    other.node.behavior.span,
-                    f"two members of `{node.operator.value}` control the {one.slot} motion of"
-                    f" {who} from the same instant on: every run ends there",
-                    labels=[Label(one.node.behavior.span, "the other one")],
-                    help=CHOOSE if node.operator is Op.ONE_OF else APART,
-                )
+    for number, claims in enumerate(starts):
+        for claim in claims:
+            what = (claim.actor, claim.slot)
+            holder, former = holders.setdefault(what, (number, claim))
+            if holder == number or what in told:
+                continue
+            told.add(what)
+            who = "the actor" if claim.actor is None else f"`{claim.actor.name}`"
+            sink.report(
+                "OSC442",
+                claim.node.behavior.span,
+                f"two members of `{node.operator.value}` control the {claim.slot} motion of"
+                f" {who} from the same instant on: every run ends there",
+                labels=[Label(former.node.behavior.span, "the other one")],
+                help=CHOOSE if node.operator is Op.ONE_OF else APART,
+            )
 
 
 @dataclass(frozen=True, slots=True)

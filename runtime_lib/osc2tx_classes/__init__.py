@@ -25,12 +25,8 @@ if TYPE_CHECKING:
     from dataclasses import dataclass, replace
 else:
 
-    def dataclass(
-        cls=None, /, *, frozen=False, slots=False, kw_only=False, eq=True, order=False, repr=True
-    ):
+    def dataclass(cls=None, /, *, frozen=False, slots=False, kw_only=False, eq=True, repr=True):
         """Return a class decorator, or the decorated class."""
-        if order:
-            raise TypeError("no ordered dataclasses here")
 
         def decorate(cls):
             if cls.__doc__ is None:

@@ -10,11 +10,11 @@ import hashlib
 import json
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from threading import Lock
 
+from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.errors import ScenarioError, told
 
 from .executor import Executor

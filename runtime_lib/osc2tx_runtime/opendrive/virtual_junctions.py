@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import copy
-from dataclasses import replace
 from itertools import pairwise
+
+from osc2tx_classes import replace
 
 from .model import Lane, LaneSection, Road
 

@@ -13,6 +13,7 @@ from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
+from osc2tx.backends.xosc.actions.speed_notes import with_profiles
 from osc2tx.backends.xosc.actions.user_shapes import acceleration_by, user_shape
 from osc2tx.backends.xosc.facts.actors import (
     TOP_SPEED,
@@ -22,7 +23,7 @@ from osc2tx.backends.xosc.facts.actors import (
     way_between,
 )
 from osc2tx.backends.xosc.flattening.adjacent_members import follower
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.backends.xosc.xml.tree import Element
@@ -197,6 +198,6 @@ def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> Element:
         leaf.node.span,
         "a change of the acceleration needs SpeedProfileAction; the speed changes evenly instead",
         Metres(way_between(ramp, even), "ahead or behind; the speed at its end is exact"),
-        Remedy(version="1.2") if leaf.ctx.version < "1.2" else Remedy(profile="generic"),
+        with_profiles(leaf.ctx),
     )
     return speed_action(even.end, "linear", "time", ramp.duration)

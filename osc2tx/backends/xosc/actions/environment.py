@@ -260,11 +260,11 @@ def _environment(ctx: Context, name: str, *parts: Element | None) -> Element:
 def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> Element | None:
     """Return how slippery roads are: the DSL leaves that to the world, tools have to be told."""
     adhesion = ADHESION.get(road_condition(ctx.weather))
-    if adhesion is None and ctx.version > "1.0" and "was_slippery" not in ctx.weather:
+    if adhesion is None and ctx.version > "1.0" and "adhesion" not in ctx.weather:
         return None
     if adhesion is not None:
-        is_new = ctx.weather.get("was_slippery") != adhesion
-        ctx.weather["was_slippery"] = adhesion
+        is_new = ctx.weather.get("adhesion") != adhesion
+        ctx.weather["adhesion"] = adhesion
         if is_new and isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
             _report_lost_grip(ctx, source, adhesion)
     return element("RoadCondition", frictionScaleFactor=1.0 if adhesion is None else adhesion)

@@ -8,11 +8,11 @@ from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
-from osc2tx.backends.xosc.actions.speed_notes import NEAR
+from osc2tx.backends.xosc.actions.speed_notes import NEAR, with_profiles
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.xml_positions import at_place
 from osc2tx.backends.xosc.facts.actors import Linear, way_between
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.xml.tree import element
 from osc2tx_classes import dataclass, replace
@@ -163,5 +163,5 @@ def _note_even_arrival(leaf: Leaf, call: ir.ModifierCall, arrival: Arrival, even
         "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead",
         f"{Metres(apart, 'on the way')}; it arrives {abs(faster):.2g} m/s too"
         f" {'fast' if faster > 0.0 else 'slow'}",
-        Remedy(version="1.2") if leaf.ctx.version < "1.2" else Remedy(profile="generic"),
+        with_profiles(leaf.ctx),
     )

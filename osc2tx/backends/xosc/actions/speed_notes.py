@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx.backends.xosc.actions.leaf import Leaf
+from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import Course, Linear, way_between, way_by_acceleration
 from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
 
 GENERIC = Remedy(profile="generic")
+SINCE_PROFILES = Remedy(version="1.2")
 
 NEAR = 0.05
 """Metres along the road that count as the same place."""
+
+
+def with_profiles(ctx: Context) -> Remedy:
+    """Return what has `SpeedProfileAction`, where a document may not use it."""
+    return SINCE_PROFILES if ctx.version < "1.2" else GENERIC
 
 
 def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | None) -> None:
@@ -51,5 +58,5 @@ def note_even_change(leaf: Leaf, courses: Iterable[tuple[Course, Linear]]) -> No
             leaf.node.span,
             f"OpenSCENARIO XML {version} has no limits of the jerk: the speed changes evenly",
             Metres(apart, "ahead or behind"),
-            Remedy(version="1.2"),
+            SINCE_PROFILES,
         )

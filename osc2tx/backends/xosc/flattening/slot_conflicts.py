@@ -6,29 +6,57 @@ In the XML one of them would just take over from the other.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.parallel_overlaps import is_open
 from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of
 from osc2tx.backends.xosc.report import Remedy
-from osc2tx_classes import replace
+from osc2tx_classes import dataclass, replace
+
+
+@dataclass(frozen=True, slots=True)
+class _Claimant:
+    """An action that controls something.
+
+    Attributes:
+        member: The number of the member that it is in.
+        node: The action.
+        at_once: Whether it begins when the composition does.
+        lasts: Whether it then goes on for as long as the composition.
+    """
+
+    member: int
+    node: ir.Invoke
+    at_once: bool
+    lasts: bool
 
 
 def report_conflicts(ctx: Context, node: ir.Parallel) -> None:
     """Report actions that control what another one surely controls at the same time."""
     overridden = {override.overridden for override in ctx.scope.scenario.overrides}
-    for index, member in enumerate(node.members):
-        holders = [each for each in _from_the_start(member) if each.label not in overridden]
-        for other in (*node.members[:index], *node.members[index + 1 :]):
-            for rival in _actions(other):
-                if rival.label in overridden:
-                    continue
-                at_once = rival in _from_the_start(other) and _starts_together(node)
-                for holder in holders:
-                    lasts = holder is member and is_open(holder)
-                    if (lasts or at_once) and _controls(holder) & _controls(rival):
-                        _report(ctx, holder, rival)
+    claimants: dict[tuple[str, str], list[_Claimant]] = {}
+    for number, member in enumerate(node.members):
+        first = list(map(id, _from_the_start(member)))
+        for action in _actions(member):
+            if action.label in overridden:
+                continue
+            begins = id(action) in first
+            lasts = action is member and begins and is_open(action)
+            at_once = begins and _starts_together(node)
+            for what in _controls(action):
+                found = _Claimant(number, action, at_once, lasts)
+                claimants.setdefault(what, []).append(found)
+    told = set()
+    for rivals in claimants.values():
+        holders = [each for each in rivals if each.lasts or each.at_once]
+        for holder, rival in product(holders, rivals):
+            meet = holder.lasts or rival.at_once
+            pair = (id(holder.node), id(rival.node))
+            if meet and holder.member != rival.member and pair not in told:
+                told.add(pair)
+                _report(ctx, holder.node, rival.node)
 
 
 def _report(ctx: Context, holder: ir.Invoke, rival: ir.Invoke) -> None:
