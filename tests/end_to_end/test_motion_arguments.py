@@ -12,12 +12,25 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
-from tests.end_to_end.motion_arguments import CAST, PREAMBLE, REFUSED, ROWS
 
 Load = Callable[[GeneratedModule], type[Scenario]]
 MOTION = ("movable_object.", "vehicle.", "person.walk")
 WITHOUT_MOTION = {"connect_trailer", "disconnect_trailer", "set_lights"}
 OPTIONS = CompileOptions(standard="2.2")
+
+
+def texts_of(name: str) -> str:
+    return (Path(__file__).parent / "motion" / f"{name}.txt").read_text(encoding="utf-8")
+
+
+TYPES, CAST = texts_of("types"), texts_of("scenario")
+TABLE = [
+    [column.strip() for column in line.split("|")]
+    for line in texts_of("arguments").splitlines()
+    if line and not line.startswith("#")
+]
+ROWS = [row for row in TABLE if len(row) == 3]
+REFUSED = [row for row in TABLE if len(row) == 4]
 
 
 def scenario(name: str, statement: str) -> str:
@@ -39,7 +52,7 @@ def modules(folder: Path) -> Compilation:
     """One file with the scenarios of all rows."""
     path = folder / "motion.osc"
     texts = (scenario(f"row_{i}", statement) for i, (_, _, statement) in enumerate(ROWS))
-    path.write_text(PREAMBLE + "".join(texts), encoding="utf-8")
+    path.write_text(TYPES + "".join(texts), encoding="utf-8")
     return Compilation(path, path.name, OPTIONS)
 
 
@@ -66,9 +79,9 @@ def test_it_is_carried_out(row: int, classes: dict[str, type[Scenario]]) -> None
 
 
 @pytest.mark.parametrize("row", REFUSED, ids=lambda row: row[0])
-def test_it_is_refused(row: tuple[str, str, str, str], tmp_path: Path) -> None:
+def test_it_is_refused(row: list[str], tmp_path: Path) -> None:
     path = tmp_path / "case.osc"
-    path.write_text(PREAMBLE + scenario("row", row[2]), encoding="utf-8")
+    path.write_text(TYPES + scenario("row", row[2]), encoding="utf-8")
     compilation = Compilation(path, path.name, OPTIONS)
     assert compilation.module is None
     codes = [d.code for d in compilation.diagnostics if d.severity is Severity.ERROR]
@@ -90,9 +103,7 @@ def test_every_argument_has_a_row() -> None:
         for argument in library.modifiers[name].parameters
         if (name, argument) not in DIALECT
     }
-    tried = {
-        (name, each) for name, arguments, *_ in (*ROWS, *REFUSED) for each in arguments.split()
-    }
+    tried = {(name, each) for name, arguments, *_ in TABLE for each in arguments.split()}
     assert not {pair for pair in wanted - tried if pair[0] not in WITHOUT_MOTION}
 
 
