@@ -87,7 +87,7 @@ from osc2tx.ir.expressions import (
     Unary,
     UserShape,
 )
-from osc2tx.ir.lineages import lineage, merged
+from osc2tx.ir.lineages import lineage, lineages, merged
 from osc2tx.ir.nodes import (
     Module,
     Override,
@@ -200,6 +200,7 @@ __all__ = [
     "dump_ir",
     "is_live",
     "lineage",
+    "lineages",
     "means_same",
     "merged",
     "qualified",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from osc2tx.ir.user_types import UserType
 
@@ -19,7 +19,17 @@ def lineage(type_: str, own: Mapping[str, UserType]) -> tuple[str, ...]:
     return (type_, *merged([lineage(base, own) for base in own[type_].bases]))
 
 
-def merged(lineages: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+def lineages(own: Iterable[UserType]) -> dict[str, tuple[str, ...]]:
+    """Return the lineages of types that are declared bases first: each made from those before."""
+    found: dict[str, tuple[str, ...]] = {}
+    for each in own:
+        found[each.name] = (each.name, *merged([found.get(b, (b,)) for b in each.bases]))
+    return found
+
+
+def merged(several: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
     """Return several lineages as one: what they share comes behind what only some of them have."""
-    backwards = (name for each in reversed(lineages) for name in reversed(each))
+    if len(several) == 1:
+        return several[0]
+    backwards = (name for each in reversed(several) for name in reversed(each))
     return tuple(reversed(dict.fromkeys(backwards)))

@@ -54,6 +54,7 @@ class TypeTable:
         """See the class."""
         self._imported = imported
         self._own = {each.name: each for each in own}
+        self._lineages = ir.lineages(own)
         self._classes = classes
         self._uses = uses
         self._taken = {each.name: self._members_taken(each) for each in own}
@@ -108,7 +109,7 @@ class TypeTable:
             return (own.name,), next(iter(bases), None)
         lineages = [self.lineage(base) for base in own.bases]
         above = next(name for name in lineages[0] if all(name in each for each in lineages))
-        names = ir.lineage(own.name, self._own)
+        names = self.lineage(own.name)
         return names[: names.index(above)], self.class_or_object(above)
 
     def member(self, owner: str, name: str) -> PyName:
@@ -175,7 +176,7 @@ class TypeTable:
 
     def lineage(self, type_: str) -> tuple[str, ...]:
         """Return a type and its bases, up to the first one of the library."""
-        return ir.lineage(type_, self._own)
+        return self._lineages.get(type_, (type_,))
 
 
 def _seen_by_class(own: ir.UserType) -> frozenset[str]:
