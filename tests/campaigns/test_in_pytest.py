@@ -32,6 +32,7 @@ def scenario(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_campaign_as_a_whole(scenario: Path) -> None:
     campaign = run_campaign(scenario, samples=12, sampler="halton", kpi=["max_deceleration"])
     assert len(campaign.rows) == 12

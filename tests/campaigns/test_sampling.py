@@ -28,6 +28,7 @@ def values(text: str, sampler: str, samples: int | None, seed: int = 0) -> dict[
         return {row.number: executor.values_of(row)[0] for row in planner.rows()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", ["random", "sobol", "halton"])
 def test_a_row_does_not_depend_on_how_many_there_are(sampler: str) -> None:
     few, many = values(TRIANGLE, sampler, 20), values(TRIANGLE, sampler, 60)
@@ -46,6 +47,7 @@ def test_constraints_are_kept(sampler: str) -> None:
     assert all(0.0 <= each["a"] < each["b"] <= 10.0 for each in found.values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampler", ["random", "sobol", "halton"])
 def test_points_fill_the_allowed_set_evenly(sampler: str) -> None:
     """Of the triangle a < b the larger side has the distribution x^2, the smaller 1 - (1 - x)^2."""
@@ -56,6 +58,7 @@ def test_points_fill_the_allowed_set_evenly(sampler: str) -> None:
     assert kstest([each["a"] / 10.0 for each in found], lambda x: 1 - (1 - x) ** 2).pvalue > 0.01
 
 
+@pytest.mark.slow
 def test_sequences_spread_better_than_chance() -> None:
     from scipy.stats import qmc  # takes seconds to load
 

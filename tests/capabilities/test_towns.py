@@ -123,6 +123,7 @@ def impossible(done: Performance) -> list[str]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "key"), ROWS)
 def test_a_capability_in_a_town(
     name: str, key: str, town: Town, perform: Perform, load: Load, tmp_path: Path

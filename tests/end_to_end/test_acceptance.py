@@ -118,6 +118,7 @@ def chosen(scenario: type[Scenario], seed: int) -> list[str]:
     return [line["name"] for line in trace.lines if line["kind"] == "event"]
 
 
+@pytest.mark.slow
 def test_a_seeded_choice_is_one_alternative_and_each_has_its_seeds(
     load: Load, tmp_path: Path
 ) -> None:

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 REPOSITORY = Path(__file__).parents[2]
 COPIED = ("grammar", "osc2tx", "runtime_lib", "templates", "tools")
 LINKED = ("generated", "pyproject.toml", "scenarios", "tests")

@@ -100,12 +100,14 @@ def ordered(count: int) -> str:
     return parameters(*names, type_="length", values="[0m..300m]") + "".join(after)
 
 
+@pytest.mark.slow
 def test_eight_values_in_order(drawn: Drawn) -> None:
     """One of 40,320 draws would have them so."""
     for each in drawn(ordered(8), 6):
         assert list(each.values()) == sorted(each.values())
 
 
+@pytest.mark.slow
 def test_a_thin_set_beside_other_demands(drawn: Drawn) -> None:
     members = parameters("a", "b", "c", type_="length", values="[0m..100m]")
     members += "    keep(a - b < 1cm)\n    keep(b - a < 1cm)\n    keep(b + c > 30m)\n"

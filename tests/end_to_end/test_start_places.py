@@ -98,6 +98,7 @@ def test_who_is_open_makes_room(play: Callable[..., Trace], seed: int, third: in
     assert found["c"]["s"] > 0.0
 
 
+@pytest.mark.slow
 def test_no_room_anywhere(play: Callable[..., Trace]) -> None:
     with pytest.raises(PlacementError, match="c: the lane does not reach 3000"):
         play(BEHIND.format(third=3000))

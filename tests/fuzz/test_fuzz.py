@@ -27,6 +27,7 @@ def assert_sound(text: str, options: CompileOptions) -> None:
         pytest.fail(f"{options}\n{text}\n{finding.report}")
 
 
+@pytest.mark.slow
 @BOUNDED
 @given(st.randoms(use_true_random=False), OPTIONS)
 def test_programs(random: Random, options: CompileOptions) -> None:
@@ -39,6 +40,7 @@ def test_mutated_scenarios(random: Random, options: CompileOptions) -> None:
     assert_sound(mutate(random, SEEDS), options)
 
 
+@pytest.mark.slow
 @BOUNDED
 @given(st.randoms(use_true_random=False), OPTIONS)
 def test_texts_of_the_grammar(random: Random, options: CompileOptions) -> None:

@@ -93,6 +93,7 @@ def test_the_document(case: Path, golden: Golden) -> None:
         golden(text, case / "expected" / file)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=name)
 def test_which_version_can_say_it(case: Path, golden: Golden) -> None:
     lines = [f"{version}  {verdict(case, version)}\n" for version in XML_VERSIONS]
@@ -109,6 +110,7 @@ def test_what_is_exact_stays_so_where_approximations_are_allowed(case: Path) -> 
         assert (allowed.xml, allowed.parameters) == (found.xml, found.parameters)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=name)
 def test_documents_are_valid_and_can_end(case: Path) -> None:
     for version in XML_VERSIONS:

@@ -186,13 +186,8 @@ CHAINS = {
 }
 
 
-LONG_CHAINS = [
-    *((chain, 150) for chain in CHAINS),
-    *((chain, 3000) for chain in CHAINS),
-]
-
-
-@pytest.mark.parametrize(("chain", "length"), LONG_CHAINS)
+@pytest.mark.parametrize("length", [150, pytest.param(3000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("chain", CHAINS)
 def test_long_chains(tmp_path: Path, chain: str, length: int) -> None:
     ended = build(tmp_path, DRIVE + CHAINS[chain](length))
     if ended.code == 0:
@@ -242,14 +237,11 @@ def chained_events(number: int) -> str:
     return DRIVE.replace("    car: vehicle", f"{events}    event e{number}\n    car: vehicle")
 
 
-LONG = [
-    (make, n)
-    for make in (fields_after_use, fields_before_use, deep_inheritance, chained_events)
-    for n in (3, 1000)
-]
+LONG = [fields_after_use, fields_before_use, deep_inheritance, chained_events]
 
 
-@pytest.mark.parametrize(("make", "number"), LONG)
+@pytest.mark.parametrize("number", [3, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("make", LONG)
 def test_long_dependencies(tmp_path: Path, make, number: int) -> None:  # type: ignore[no-untyped-def]
     ended = build(tmp_path, make(number))
     assert ended.code in (0, ERRORS), ended.err

@@ -44,6 +44,7 @@ def test_the_rounding_of_widths_is_none() -> None:
     assert road_map(a="-0.001", b="0.03")
 
 
+@pytest.mark.slow
 def test_the_work_for_a_long_spiral_is_bounded() -> None:
     def drive(length: str) -> int:
         made = road_map(length=length, shape=SPIRAL)

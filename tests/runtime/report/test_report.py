@@ -211,6 +211,7 @@ def test_without_map_and_without_result(overtaking) -> None:
     assert data["runs"][0]["result"] is None
 
 
+@pytest.mark.slow
 def test_a_minute_of_fifty_actors_is_below_two_megabytes() -> None:
     """Nobody moves steadily: speeds wander, lanes are not kept exactly."""
     maker = TraceMaker("many")

@@ -97,13 +97,16 @@ def outcome(seed: int, shuffle: random.Random | None) -> list[str]:
     return whatever_the_order(result.trace_lines)
 
 
-@pytest.mark.parametrize("seed", range(80))
+@pytest.mark.parametrize(
+    "seed", [*range(16), *(pytest.param(n, marks=pytest.mark.slow) for n in range(16, 80))]
+)
 def test_the_order_of_members_changes_nothing(seed: int) -> None:
     first = outcome(seed, None)
     assert outcome(seed, random.Random(seed)) == first
     assert outcome(seed, None) == first
 
 
+@pytest.mark.slow
 def test_most_of_the_drawn_trees_run() -> None:
     lengths = [len(outcome(seed, None)) for seed in range(80)]
     assert sum(length > 30 for length in lengths) >= 30

@@ -9,7 +9,10 @@ import pytest
 from tests.unit.building.projects import drive
 
 OSC2TX = f"{sys.executable} -m osc2tx"
-COMMANDS = ["check a.osc --output-format json", "run a.osc"]
+COMMANDS = [
+    "check a.osc --output-format json",
+    pytest.param("run a.osc", marks=pytest.mark.slow),
+]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -32,6 +35,7 @@ def test_help_for_nobody(tmp_path: Path, words: str) -> None:
     assert silent.stderr == "error: standard output cannot be written: it is closed\n"
 
 
+@pytest.mark.slow
 def test_a_module_without_streams(tmp_path: Path) -> None:
     drive(tmp_path / "a.osc")
     assert _bash(tmp_path, f"{OSC2TX} build a.osc -o out").returncode == 0

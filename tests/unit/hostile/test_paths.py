@@ -71,6 +71,7 @@ def written_each(folder: Path, places: Mapping[str, str]) -> list[tuple[Path, st
     return found
 
 
+@pytest.mark.slow
 def test_file_names(tmp_path: Path, harmless: str) -> None:
     stems = written_each(tmp_path, {stem: f"{stem}.osc" for stem in STEMS})
     result = made(tmp_path)
@@ -85,6 +86,7 @@ def test_file_names(tmp_path: Path, harmless: str) -> None:
         assert strings(text) == known
 
 
+@pytest.mark.slow
 def test_folder_names(tmp_path: Path, harmless: str) -> None:
     names = written_each(tmp_path, {name: f"{name}/harmless.osc" for name in FOLDERS})
     result = made(tmp_path)

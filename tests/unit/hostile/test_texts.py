@@ -78,6 +78,7 @@ def assert_only_the_strings_differ(folder: Path, texts: Sequence[str], known: st
     assert strings(made) == [replaced.get(text, text) for text in expected]
 
 
+@pytest.mark.slow
 def test_strings(tmp_path: Path, known: Callable[..., str]) -> None:
     assert_only_the_strings_differ(tmp_path, ALL_TEXTS, known(len(ALL_TEXTS)))
 
@@ -103,16 +104,16 @@ def without_names_of_events(python: str) -> str:
     return ast.unparse(tree)
 
 
-@pytest.mark.parametrize(
-    "shift", [0, *(pytest.param(each, marks=pytest.mark.slow) for each in range(1, len(KINDS)))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("shift", range(len(KINDS)))
 def test_names(tmp_path: Path, known: Callable[..., str], shift: int) -> None:
-    """Each as the name of something; of all else in the slow tests."""
+    """Each as the name of something, and of all else."""
     kinds = [KINDS[(number + shift) % len(KINDS)] for number in range(len(NAMES))]
     made = module(tmp_path, [{kind: name} for kind, name in zip(kinds, NAMES, strict=True)])
     assert skeleton(without_names_of_events(made)) == skeleton(known(len(NAMES)))
 
 
+@pytest.mark.slow
 def test_comments(tmp_path: Path, known: Callable[..., str]) -> None:
     made = module(tmp_path, [{"comment": text} for text in COMMENTS])
     assert skeleton(made) == skeleton(known(len(COMMENTS), comments=True))

@@ -79,6 +79,7 @@ def test_long_paths() -> None:
     assert model.types
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.data())
 def test_mutated_programs(data: st.DataObject) -> None:
@@ -95,6 +96,7 @@ def test_mutated_programs(data: st.DataObject) -> None:
     dump_model(model)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(st.data())
 def test_dropped_lines(data: st.DataObject) -> None:

@@ -94,7 +94,7 @@ def modelled(path: Path, dialect: str) -> tuple[str, list[str]]:
     ]
 
 
-@pytest.mark.parametrize("dialect", ["asam", "carla"])
+@pytest.mark.parametrize("dialect", ["asam", pytest.param("carla", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     "first",
     [
@@ -271,6 +271,7 @@ def test_writers_at_the_same_time_leave_one_whole_snapshot(cache: Path) -> None:
     assert the_file(cache).is_file()
 
 
+@pytest.mark.slow
 def test_processes_at_the_same_time(tmp_path: Path) -> None:
     code = "from osc2tx.stdlib import *; print(len(library_file('domain.osc', '2.2').statements))"
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(ROOT)}

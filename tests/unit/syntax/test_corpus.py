@@ -3,6 +3,8 @@
 import csv
 from pathlib import Path
 
+import pytest
+
 from osc2tx.diagnostics import DiagnosticSink, Severity
 from osc2tx.syntax import parse, read_source
 
@@ -19,6 +21,7 @@ DEVIATIONS = {
 }
 
 
+@pytest.mark.slow
 def test_corpus(test_data: Path) -> None:
     corpus = test_data / "corpus"
     silent = 0

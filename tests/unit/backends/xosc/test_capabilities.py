@@ -110,6 +110,7 @@ def assert_sound(path: Path, versions: Iterable[XmlVersion]) -> None:
                 assert story_problems(each.xml) == [], version
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SCENARIOS, ids=stem)
 def test_documents_are_sound(path: Path) -> None:
     assert_sound(path, edges(path))

@@ -308,6 +308,7 @@ def in_scenario_runner(id_: str, row: Row, anywhere: str) -> str:
     return max((anywhere, *found), key=GRADES.index)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id_", ROWS)
 def test_what_tools_can_do_of_it(id_: str) -> None:
     row = ROWS[id_]
@@ -334,6 +335,7 @@ GENERIC: XmlProfile = "generic"
 TOOLS: Mapping[XmlVersion, XmlProfile] = {"1.3": "esmini", "1.0": "scenario_runner"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("id_", "versions"), VERSIONS)
 def test_the_documents_are_valid_and_lead_back_to_the_source(
     id_: str, versions: list[XmlVersion]
