@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from osc2tx_classes import dataclass
 
@@ -37,17 +37,16 @@ class NodeRuns:
         if runs:
             runs[-1].end, runs[-1].how = time, _LEFT[status]
 
-    def to_json(self, nodes: Iterable[tuple[object, int, str, str, str]]) -> str:
+    def to_json(self, nodes: Iterable[tuple[object, Mapping[str, int | str]]]) -> str:
         """Return the nodes of a tree as a JSON array.
 
         Args:
-            nodes: Node, depth, kind, text and place in the scenario, parents before members.
+            nodes: Each node and what `OutlineNode` says of it, parents before members.
         """
         found = []
-        for node, depth, kind, text, source in nodes:
+        for node, words in nodes:
             runs = [[round(run.start, 6), _rounded(run.end), run.how] for run in self._of(node)]
-            words = {"depth": depth, "kind": kind, "text": text, "source": source, "runs": runs}
-            found.append(words)
+            found.append({**words, "runs": runs})
         return json.dumps(found, separators=(",", ":"))
 
     def _of(self, node: object) -> Iterable[_Run]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from osc2tx_classes import dataclass
 from osc2tx_runtime.language.base_action import BaseAction
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Wait
+from osc2tx_runtime.language.tree.compositions import Composition
 from osc2tx_runtime.language.tree.events import describe
 
 __all__ = ["OutlineNode", "outline"]
@@ -21,6 +22,8 @@ class OutlineNode:
         last: For each level from the root down, whether the branch ends there.
         kind: `serial`, `action`, `wait`, …
         text: What the node is called or does.
+        label: The label of an action or a directive, which `text` begins with; empty without one.
+            What a composition is called is its text.
         source: Where the scenario says so, `file:line`; empty if nothing is known.
     """
 
@@ -28,7 +31,17 @@ class OutlineNode:
     last: tuple[bool, ...]
     kind: str
     text: str
+    label: str
     source: str
+
+    def words(self) -> dict[str, int | str]:
+        """Return what the trace says of the node: a label only if it has one."""
+        words: dict[str, int | str] = {"depth": len(self.last), "kind": self.kind}
+        words["text"] = self.text
+        if self.label:
+            words["label"] = self.label
+        words["source"] = self.source
+        return words
 
 
 def outline(root: Behaviour) -> Iterator[OutlineNode]:
@@ -36,7 +49,8 @@ def outline(root: Behaviour) -> Iterator[OutlineNode]:
     pending: list[tuple[Behaviour, tuple[bool, ...]]] = [(root, ())]
     while pending:
         node, last = pending.pop()
-        yield OutlineNode(node, last, _kind(node), _text(node), getattr(node, "source", ""))
+        source = getattr(node, "source", "")
+        yield OutlineNode(node, last, _kind(node), _text(node), _label(node), source)
         children = list(node.children)
         shown = [(child, (*last, child is children[-1])) for child in children]
         pending += reversed(shown)
@@ -49,13 +63,16 @@ def _kind(node: Behaviour) -> str:
     return "action" if isinstance(node, BaseAction) else type(node).__name__.lower()
 
 
+def _label(node: Behaviour) -> str:
+    return "" if isinstance(node, Composition) else getattr(node, "label", None) or ""
+
+
 def _text(node: Behaviour) -> str:
     """The name, without what the kind says already; a label with what is done under it."""
-    kind = _kind(node)
-    label = getattr(node, "label", None)
-    if isinstance(node, BaseAction) and label is not None:
+    kind, label = _kind(node), _label(node)
+    if isinstance(node, BaseAction) and label:
         return f"{label}: {node.action_name}"
-    if isinstance(node, Wait) and label is not None:
+    if isinstance(node, Wait) and label:
         return f"{label}: {describe(node.trigger, node.condition)}"
     name = node.name.removeprefix(kind).lstrip(" ,")
     return "" if name == kind else name

@@ -253,7 +253,7 @@ class TraceWriter:
         self._actions.clear()
         self._others.clear()
 
-    def tree(self, nodes: Iterable[tuple[object, int, str, str, str]]) -> None:
+    def tree(self, nodes: Iterable[tuple[object, Mapping[str, int | str]]]) -> None:
         """Write when each node of the tree ran, see `NodeRuns`; after the last instant."""
         if self.enabled:
             self.lines.append(f'{{"kind":"tree","nodes":{self._runs.to_json(nodes)}}}')

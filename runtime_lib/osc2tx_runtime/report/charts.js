@@ -181,13 +181,14 @@ const allPairs = () => MOVABLE.filter(isShown).flatMap((a, i, all) =>
 const pairsOf = (actor) =>
   MOVABLE.filter((other) => other !== actor && other.run === actor.run && isShown(other)).map((other) => [actor, other]);
 
-/** How near two actors come, at some twenty times. */
+/** Where the actors are at some twenty times: enough to find the pairs that come near. */
+const SPOTS = new Map(MOVABLE.map((actor) => (
+  [actor, Array.from({ length: 21 }, (_, i) => poseAt(actor, (clock.end * i) / 20))])));
+
+/** How near two actors come. */
 function nearest([a, b]) {
-  const times = Array.from({ length: 21 }, (_, i) => (clock.end * i) / 20);
-  return Math.min(...times.map((time) => {
-    const p = poseAt(a, time), q = poseAt(b, time);
-    return Math.hypot(p.x - q.x, p.y - q.y);
-  }));
+  const others = SPOTS.get(b);
+  return Math.min(...SPOTS.get(a).map((p, i) => Math.hypot(p.x - others[i].x, p.y - others[i].y)));
 }
 
 function pairSeries([a, b], of, hue) {

@@ -34,15 +34,14 @@ function unpackColumn(packed, digits) {
   if (!packed) return null;
   const values = [], scale = 10 ** digits;
   let last = 0, slope = 0;
-  const add = (difference) => {
-    if (difference === null) { values.push(null); return; }
-    slope += difference;
-    last += slope;
-    values.push(last / scale);
-  };
   for (const part of packed) {
-    if (Array.isArray(part)) for (let i = 0; i < part[1]; i += 1) add(part[0]);
-    else add(part);
+    if (part === null) { values.push(null); continue; }
+    const [difference, count] = typeof part === "number" ? [part, 1] : part;
+    for (let i = 0; i < count; i += 1) {
+      slope += difference;
+      last += slope;
+      values.push(last / scale);
+    }
   }
   return values;
 }
@@ -175,7 +174,7 @@ function scrub(host, timeOf) {
   });
 }
 
-/** Draw now and again whenever the width of an element changes. */
+/** Draw again whenever the width of an element changes. */
 function drawOnResize(host, draw) {
   let width = host.clientWidth;
   const redraw = () => {
@@ -185,7 +184,6 @@ function drawOnResize(host, draw) {
   };
   // Drawing may change the height, which an observer must not do while it is told of a change.
   new ResizeObserver(() => requestAnimationFrame(redraw)).observe(host);
-  draw();
 }
 
 // ---- axes --------------------------------------------------------------------------------------

@@ -37,5 +37,7 @@ function startLog() {
   });
   byId("log-csv").addEventListener("click", () =>
     saveCsv("log", [["time (s)", "kind", "actor", "name", "source", "status"], ...entries.map((entry) => entry.slice(0, 6))]));
-  clock.listeners.push((time) => rows.forEach(({ row, time: at }) => row.classList.toggle("past", at <= time)));
+  const update = (time) => rows.forEach(({ row, time: at }) => row.classList.toggle("past", at <= time));
+  clock.listeners.push(update);
+  update(clock.now);
 }

@@ -14,7 +14,7 @@ def node_list(value: object) -> list[Json]:
 
 
 def _node(value: Json) -> Json:
-    words = {key: text(value.get(key)) for key in ("kind", "text", "source")}
+    words = {key: text(value.get(key)) for key in ("kind", "text", "label", "source")}
     runs = value.get("runs")
     spans = [_span(run) for run in runs if _is_span(run)] if isinstance(runs, list) else []
     return {"depth": int(number(value.get("depth")) or 0), **words, "runs": spans}

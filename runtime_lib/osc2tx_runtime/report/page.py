@@ -23,6 +23,7 @@ _VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
 _SCRIPTS = (
     "base.js",
     "core.js",
+    "later.js",
     "export.js",
     "roads.js",
     "surroundings.js",

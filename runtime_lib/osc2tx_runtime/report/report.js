@@ -12,7 +12,7 @@ function listenToTheme() {
   const refresh = () => { readTheme(); drawView(); redrawCharts(); };
   const setPrint = (print) => { document.documentElement.toggleAttribute("data-print", print); refresh(); };
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", refresh);
-  window.addEventListener("beforeprint", () => setPrint(true));
+  window.addEventListener("beforeprint", () => { drawWaiting(); setPrint(true); });
   window.addEventListener("afterprint", () => setPrint(false));
 }
 
@@ -31,14 +31,9 @@ function start() {
   startWeather();
   startView(options.fit);
   startStates();
-  startMotionChart();
-  startGapChart();
-  startTimeline();
-  startTree();
-  startLog();
   fillFooter();
   listenToTheme();
   clock.set(options.time);
-  document.documentElement.dataset.ready = "true";
+  drawLater(startMotionChart, startGapChart, startTimeline, startTree, startLog);
 }
 start();

@@ -45,10 +45,9 @@ function waitRows(run) {
 
 const TIMELINE_ROWS = buildTimelineRows();
 
-/** Labels of actions by run and place: the tree names a node by its label, as `cut_in: npc change_lane`. */
+/** Labels of actions by run and place. */
 const ACTION_LABELS = new Map(RUNS.map((run) => [run, new Map(run.nodes
-  .filter((node) => node.kind === "action" && /^\w+(: |$)/.test(node.text))
-  .map((node) => [node.source, node.text.match(/^\w+/)[0]]))]));
+  .filter((node) => node.kind === "action" && node.label).map((node) => [node.source, node.label]))]));
 
 /** Without the actor's name in front, which the row already says. */
 const shortName = (action) =>
@@ -203,4 +202,5 @@ function startTimeline() {
   span.listeners.push(drawTimeline);
   shown.listeners.push(drawTimeline);
   drawOnResize(timeline.host, drawTimeline);
+  drawTimeline();
 }

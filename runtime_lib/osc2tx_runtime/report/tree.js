@@ -50,4 +50,5 @@ function startTree() {
   };
   only.addEventListener("change", () => update(clock.now));
   clock.listeners.push(update);
+  update(clock.now);
 }

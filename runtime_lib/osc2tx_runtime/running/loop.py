@@ -116,9 +116,7 @@ def overloads(context: ExecutionContext) -> tuple[str, ...]:
 def write_tree(root: Behaviour, context: ExecutionContext) -> None:
     """Write when each node of the tree ran."""
     if context.trace.enabled:
-        context.trace.tree(
-            (each.node, len(each.last), each.kind, each.text, each.source) for each in outline(root)
-        )
+        context.trace.tree((each.node, each.words()) for each in outline(root))
 
 
 def loop(

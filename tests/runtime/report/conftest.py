@@ -106,11 +106,16 @@ class TraceMaker:
     nodes: list[Json] = field(default_factory=list)
 
     def node(
-        self, depth: int, kind: str, text: str, *runs: tuple[float, float | None, str]
+        self,
+        depth: int,
+        kind: str,
+        text: str,
+        *runs: tuple[float, float | None, str],
+        **more: str,
     ) -> None:
         source = f"{self.scenario}.osc:1"
         words = {"depth": depth, "kind": kind, "text": text, "source": source}
-        self.nodes.append({**words, "runs": list(runs)})
+        self.nodes.append({**words, **more, "runs": list(runs)})
 
     def car(self, name: str, motion: Motion, length: float = 4.7, width: float = 1.9) -> None:
         self.actors[name] = {

@@ -35,6 +35,9 @@ pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed"),
 ]
 
+# What is drawn after the first frame is drawn at once, for a script that looks at all of it.
+COMPLETE = "<script>drawWaiting()</script>"
+
 # Uses every control once; what it finds is left in attributes of the document.
 DRIVER = """
 <script>
@@ -119,7 +122,8 @@ def open_report(tmp_path: Path) -> Callable[..., dict[str, str]]:
             page = path.read_text(encoding="utf-8")
             # The policy allows only the report's own script: lifted for the test's script.
             page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
-            path.write_text(page.replace("</body>", driver + "</body>"), encoding="utf-8")
+            page = page.replace("</body>", COMPLETE + driver + "</body>")
+            path.write_text(page, encoding="utf-8")
         return attributes_of(path, tmp_path / "profile", fragment)
 
     return run
@@ -247,6 +251,36 @@ def test_fifty_actors_on_a_phone(tmp_path: Path) -> None:
     assert found == {"ready": "true", "apart": "true", "colors": "50", "wide": "false"}
 
 
+# Counts the points of all lines; before the first frame, and when the page is complete.
+COUNTING = """<body><script>
+let points = 0;
+const { lineTo } = Path2D.prototype;
+Path2D.prototype.lineTo = function (x, y) { points += 1; lineTo.call(this, x, y); };
+</script>"""
+COUNTED = """<script>
+const out = document.documentElement.dataset;
+const drawn = () => [charts.filter((chart) => chart.plot).length,
+  document.querySelectorAll("#timeline .bar, #tree li, #log tbody tr").length].join();
+out.first = points; out.parts = drawn();
+window.dispatchEvent(new Event("beforeprint")); window.dispatchEvent(new Event("afterprint"));
+queueMicrotask(() => { out.printed = `${drawn()},${points > 2 * out.first}`; });
+</script>"""
+
+
+def test_a_page_answers_before_it_is_complete(tmp_path: Path) -> None:
+    """First the paths alone: charts, timeline, tree and log come after the first frame."""
+    made = TraceMaker("many")
+    for number in range(50):
+        made.car(f"car{number}", wandering(number))
+        made.action(f"car{number}", "drive", 0.0, 5.0)
+    made.node(0, "parallel", "many", (0.0, 5.0, "success"))
+    page = render_runs([Trace(made.text(100))]).replace("<body>", COUNTING)
+    found = shown_page(tmp_path, page, COUNTED)
+    assert int(found.pop("first")) <= 50 * (101 + 2)  # each sample once, the part driven once
+    whole = f"2,{50 + 1 + 2 * 50},true"  # bars and nodes, starts and ends
+    assert found == {"ready": "true", "parts": "0,0", "printed": whole}
+
+
 # Two cars in one lane, 50 m between their bumpers, closing at 10 m/s; one far beside them.
 MEASURED = """
 <script>
@@ -287,9 +321,9 @@ def test_bars_have_the_labels_of_the_scenario(tmp_path: Path) -> None:
     made.car("hero", wandering(1))
     made.action("hero", "change_lane", 0.5, 1.0, line=1)
     made.action("hero", "drive", 1.0, 2.0, line=2)
-    made.node(0, "action", "evade: hero change_lane", (0.5, 1.0, "success"))
-    made.node(0, "action", "hero.drive(speed(v))", (1.0, 2.0, "success"))
-    made.nodes[1]["source"] = "labels.osc:2"
+    words = "evade: hero change_lane"
+    made.node(0, "action", words, (0.5, 1.0, "success"), label="evade")
+    made.node(0, "action", "hero: drive", (1.0, 2.0, "success"), source="labels.osc:2")
     driver = """<script>
     const bars = [...byId("timeline").querySelectorAll(".bar text")].map((bar) => bar.textContent);
     document.documentElement.dataset.bars = bars.slice(0, 2).join();
@@ -378,7 +412,7 @@ def test_index_of_runs(tmp_path: Path, overtaking, hostile) -> None:
 def looked_at(
     folder: Path, traces: Sequence[Trace], driver: str, flags: Sequence[str] = ()
 ) -> dict[str, str]:
-    return shown_page(folder, render_runs(traces), driver, flags)
+    return shown_page(folder, render_runs(traces), COMPLETE + driver, flags)
 
 
 def shown_page(folder: Path, page: str, driver: str, flags: Sequence[str] = ()) -> dict[str, str]:

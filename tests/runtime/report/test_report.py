@@ -232,7 +232,7 @@ def test_nodes_of_the_tree_keep_their_times() -> None:
     runs = [[0.5, 3.0, "success"], [4, None, "running"]]
     line = {"kind": "tree", "nodes": [{**node, "runs": runs}]}
     (found,) = run_of([json.dumps(line)])["nodes"]
-    assert found == {**node, "runs": runs}
+    assert found == {**node, "label": "", "runs": runs}
 
 
 def test_broken_nodes_are_left_out() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from osc2tx_runtime.domain.objects.parts import HitchReceiver
 from osc2tx_runtime.language.trace import TraceWriter, number, to_json
-from osc2tx_runtime.language.tree import Emit, Parallel
+from osc2tx_runtime.language.tree import Emit, Parallel, Serial, Wait, elapsed
 from osc2tx_runtime.world.velocities import OrientationRate, Velocity
 from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
 
@@ -67,6 +67,23 @@ def test_state_line_and_result_line() -> None:
         '"road":null,"lane":null,"s":null,"offset":null}'
     )
     assert run.lines[-1] == '{"kind":"result","status":"success","reason":"","steps":0}'
+
+
+def test_labels_in_the_tree_are_those_of_the_scenario() -> None:
+    """Not the names of compositions, nor words of a text that look like a label."""
+    plain = Task(HERO, 0)
+    plain.action_name = plain.name = "hero: task"
+    labelled = Task(HERO, 0, label="evade")
+    tree = Serial("whole", plain, labelled, Wait("pause", elapsed(0.1)), Wait(elapsed(0.1)))
+    lines = [json.loads(line) for line in Run(tree).go().lines]
+    (nodes,) = (line["nodes"] for line in lines if line["kind"] == "tree")
+    assert [(node["text"], node.get("label")) for node in nodes] == [
+        ("whole", None),
+        ("hero: task", None),
+        ("evade: hero task", "evade"),
+        ("pause: elapsed 0.1 s", "pause"),
+        ("elapsed 0.1 s", None),
+    ]
 
 
 def test_names_are_escaped() -> None:
