@@ -1,18 +1,20 @@
 """How fast the front end is, and whether time and memory grow linearly.
 
-    python benchmarks/frontend.py [--huge] [--no-start] [lines ...]
+    python benchmarks/frontend.py [--no-start] [lines ...]
 
-Prints, for generated files of 1,000, 10,000 and 100,000 lines (`--huge`: 200,000 too):
+Prints, for generated files of 6,000, 30,000 and 150,000 lines:
 
-- lines per second of lexing, parsing, AST and model, and of all from text to AST;
+- lines per second of lexing, parsing, AST and model, of all from text to AST, of the stages of a
+  check behind the model, and of the whole check;
+- what a check takes as a multiple of what it takes from text to model;
 - the growth exponent of each stage, 1.00 being linear;
-- the highest memory of a process that parses the text, in KB a line.
+- the highest memory of a process that checks the text, in KB a line.
 
 Then what it costs to start: the library from its snapshot against parsing it, and `osc2tx check` of
 one scenario in a new process, for the first time and again, against `python -c "import antlr4"`.
 
 Times are CPU seconds, the least of a few runs. Ratios count, not seconds: the column `x loop`
-compares all with a loop over the characters of the same text.
+compares the whole check with a loop over the characters of the same text.
 """
 
 import argparse
@@ -24,11 +26,15 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
+from typing import TypeVar
 
 from osc2tx import stdlib
+from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.options import CompileOptions
 from osc2tx.semantics import ASAM, ModelBuilder
 from osc2tx.stdlib import snapshot
 from osc2tx.support.recursion import room_for_trees
@@ -37,9 +43,16 @@ from osc2tx.syntax.ast_transformer import ASTTransformer
 from osc2tx.syntax.parser import parse_tokens
 from osc2tx.syntax.token_source import TokenSource
 
+T = TypeVar("T")
 ROOT = Path(__file__).resolve().parents[1]
 STANDARD = "2.2"
-STAGES = ("lexing", "parsing", "AST", "model", "text to AST")
+OPTIONS = CompileOptions()
+STAGES = (
+    *("lexing", "parsing", "AST", "text to AST"),
+    *("model", "analysis", "lowering", "support", "check"),
+)
+CHECKED = {"analysis": "analysis", "lowering": "ir", "support": "is_supported"}
+"""The products of a compilation that a check asks for, by the names of the stages here."""
 
 HEADER = """\
 import osc.standard
@@ -89,13 +102,14 @@ def scenario_text(lines: int) -> str:
 
 
 def best(work: Callable[[], object], runs: int) -> float:
-    times = []
-    for _ in range(runs):
-        gc.collect()
-        start = time.process_time()
-        work()
-        times.append(time.process_time() - start)
-    return min(times)
+    return min(timed(work)[0] for _ in range(runs))
+
+
+def timed(work: Callable[[], T]) -> tuple[float, T]:
+    gc.collect()
+    start = time.process_time()
+    result = work()
+    return time.process_time() - start, result
 
 
 def trivial(text: str) -> int:
@@ -114,9 +128,28 @@ def stages_to_ast(source: SourceFile, sink: DiagnosticSink, runs: int) -> dict[s
     with room_for_trees():
         table = TokenSource(source, sink).scan()
         times["lexing"] = best(lambda: TokenSource(source, sink).scan(), runs)
-        times["parsing"] = best(lambda: parse_tokens(table, sink), runs)
-        tree = parse_tokens(table, sink)
-        times["AST"] = best(lambda: ASTTransformer(table, sink, ()).transform(tree), runs)
+        times["parsing"] = times["AST"] = math.inf
+        for _ in range(runs):
+            seconds, tree = timed(partial(parse_tokens, table, sink))
+            times["parsing"] = min(times["parsing"], seconds)
+            seconds, _file = timed(partial(ASTTransformer(table, sink, ()).transform, tree))
+            times["AST"] = min(times["AST"], seconds)
+    return times
+
+
+def stages_of_check(source: SourceFile, runs: int) -> dict[str, float]:
+    """Return the seconds of a whole check, and of its stages behind the model."""
+    times = dict.fromkeys((*CHECKED, "check"), math.inf)
+    for _ in range(runs):
+        compilation = Compilation(Path(source.name), source.name, OPTIONS, text=source.text)
+        before, _ = timed(partial(getattr, compilation, "model"))
+        after = {
+            stage: timed(partial(getattr, compilation, product))[0]
+            for stage, product in CHECKED.items()
+        }
+        assert not compilation.sink.has_errors, compilation.reports[0]
+        after["check"] = before + sum(after.values())
+        times = {stage: min(times[stage], spent) for stage, spent in after.items()}
     return times
 
 
@@ -140,9 +173,11 @@ def measure(wanted: int) -> tuple[int, dict[str, float]]:
         assert not reports.has_errors, reports.sorted()[0]
 
     times["model"] = best(model, runs)
+    times |= stages_of_check(source, runs)
     loop = best(lambda: trivial(source.text), runs)
     rates = [f"{lines / times[stage]:>12,.0f}" for stage in STAGES]
-    print(f"{lines:>8,}", *rates, f"{times['text to AST'] / loop:>8.0f}", flush=True)
+    multiple = times["check"] / (times["text to AST"] + times["model"])
+    print(f"{lines:>8,}", *rates, f"{times['check'] / loop:>8.0f} {multiple:>7.2f}", flush=True)
     return lines, times
 
 
@@ -158,26 +193,32 @@ def print_growth(rows: list[tuple[int, dict[str, float]]]) -> None:
 PEAK = """\
 import re, sys
 sys.path.insert(0, sys.argv[2])
-from benchmarks.frontend import DiagnosticSink, SourceFile, parse, scenario_text
+from pathlib import Path
+from benchmarks.frontend import OPTIONS, Compilation, scenario_text
 
 def peak():
     status = open("/proc/self/status", encoding="ascii").read()
     return int(re.search(r"VmHWM:\\s*(\\d+) kB", status)[1])
 
+def check(text):
+    compilation = Compilation(Path("bench.osc"), "bench.osc", OPTIONS, text=text)
+    assert compilation.check()
+    return compilation
+
 text = scenario_text(int(sys.argv[1]))
-parse(SourceFile("warm.osc", scenario_text(100)), DiagnosticSink())
+check(scenario_text(100))
 before = peak()
-file = parse(SourceFile("bench.osc", text), DiagnosticSink())
+kept = check(text)
 print((peak() - before) / text.count("\\n"))
 """
 
 
 def print_memory(sizes: list[int]) -> None:
-    """The memory of a new process each, beyond what it has before it parses; on Linux."""
+    """The memory of a new process each, beyond what it has before; on Linux."""
     for size in sizes:
         command = [sys.executable, "-c", PEAK, str(size), str(ROOT)]
         peak = float(subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout)
-        print(f"peak memory of parsing {size:,} lines: {peak:.1f} KB a line", flush=True)
+        print(f"peak memory of checking {size:,} lines: {peak:.1f} KB a line", flush=True)
 
 
 # --- Start ----------------------------------------------------------------------------------------
@@ -239,13 +280,11 @@ def print_start() -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description="Speed of the front end.")
     parser.add_argument("lines", type=int, nargs="*", help="sizes of the generated files")
-    parser.add_argument("--huge", action="store_true", help="200,000 lines too")
     parser.add_argument("--no-start", action="store_true", help="leave out the cost of a start")
     arguments = parser.parse_args()
-    sizes = arguments.lines or [1_000, 10_000, 100_000]
-    sizes += [200_000] if arguments.huge else []
-    heads = " ".join(f"{stage + ' l/s':>12}" for stage in STAGES[:-1])
-    print(f"   lines {heads}  text to AST   x loop")
+    sizes = arguments.lines or [6_000, 30_000, 150_000]
+    heads = " ".join(f"{stage:>12}" for stage in STAGES)
+    print(f"   lines {heads}   x loop x model")
     print_growth([measure(size) for size in sizes])
     if sys.platform == "linux":
         print_memory(sizes)

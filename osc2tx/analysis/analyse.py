@@ -12,7 +12,8 @@ from osc2tx.analysis.report_constraints import report_constraints
 from osc2tx.analysis.shared_slots import report_shared_slots
 from osc2tx.analysis.termination import find_endings
 from osc2tx.analysis.time_lints import report_times
-from osc2tx.analysis.usage import find_usage, report_usage
+from osc2tx.analysis.tree_walk import NodesByKind
+from osc2tx.analysis.usage import CONSTRAINTS, find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel
@@ -47,7 +48,8 @@ def analyse(
         one_of: Which member of a `one_of` counts.
         first_come: A duration and an `until` end with whichever comes first (dialect `carla`).
     """
-    usage = find_usage(model)
+    nodes = {file: NodesByKind(file, closed=CONSTRAINTS) for file in model.files}
+    usage = find_usage(model, nodes)
     constraints = analyse_constraints(model)
     report_constraints(model, constraints, usage, sink)
     endings = find_endings(model)
@@ -57,6 +59,6 @@ def analyse(
     report_liveness(model, endings, frozenset(usage.invoked), sink)
     report_usage(model, usage, sink)
     report_conditions(model, usage, sink)
-    report_times(model, sink)
-    report_shared_slots(model, sink, one_of)
+    report_times(model, nodes[model.root], sink)
+    report_shared_slots(model, nodes[model.root], sink, one_of)
     return Analysis(constraints, find_levels(model, constraints, endings, one_of))

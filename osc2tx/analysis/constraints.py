@@ -15,7 +15,7 @@ expression in force, all overriding done, so that a backend can write it as auth
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field
 from enum import Enum
 from functools import partial
@@ -142,9 +142,26 @@ class TypeConstraints:
     def domains_to_set(self) -> Mapping[Key, Domain]:
         """Return what is left of each parameter when all plain defaults may be replaced.
 
-        That is what settings of a run may choose from: they come after every default.
+        That is what settings of a run may choose from: they come after every default. What no
+        default reaches, by way of constraints on several parameters, is as it was.
         """
-        return solve([c.operations for c in self.firm], range(len(self.firm))).domains
+        firm = self.firm
+        plain = set(self.in_force.constraints).difference(firm)
+        reached = self._reached(key for each in plain for key in each.operations.keys)
+        again = [c.operations for c in firm if not c.operations.keys.isdisjoint(reached)]
+        kept = {key: domain for key, domain in self.domains.items() if key not in reached}
+        return {**kept, **solve(again, range(len(again))).domains} if reached else self.domains
+
+    def _reached(self, keys: Iterable[Key]) -> set[Key]:
+        """Return parameters and all others that constraints connect with them."""
+        pending, reached = list(keys), set[Key]()
+        while pending:
+            key = pending.pop()
+            if key not in reached:
+                reached.add(key)
+                for constraint in self.by_key.get(key, ()):
+                    pending += constraint.operations.keys
+        return reached
 
     @property
     def firm(self) -> tuple[Constraint, ...]:

@@ -113,25 +113,44 @@ def _intersect_choices(first: Choice, second: Choice) -> Choice:
 
 
 def _intersect_intervals(first: Interval, second: Interval) -> Interval:
+    """Return the common part; an operand itself if it lies within the other."""
+    lower, upper = _later_start(first, second), _earlier_end(first, second)
     nan = first.nan and second.nan
-    lower, lower_open = max(_lower_key(first), _lower_key(second))
-    upper, not_open = min(_upper_key(first), _upper_key(second))
-    result = Interval(lower, upper, lower_open, not not_open, nan)
-    if lower < upper or (lower == upper and not lower_open and not_open):
-        return result
+    if lower is upper and lower.nan == nan and not is_void(lower):
+        return lower
+    if not _is_empty(lower, upper):
+        return Interval(lower.lower, upper.upper, lower.lower_open, upper.upper_open, nan)
     if nan:
         return Interval(math.inf, -math.inf, nan=True)
-    if lower > upper and _is_slack(lower, upper):
-        return Interval(upper, lower)
+    if lower.lower > upper.upper and _is_slack(lower.lower, upper.upper):
+        return Interval(upper.upper, lower.lower)
     raise EmptyDomainError
 
 
-def _lower_key(interval: Interval) -> tuple[Number, bool]:
-    return interval.lower, interval.lower_open
+def _later_start(first: Interval, second: Interval) -> Interval:
+    if first.lower == second.lower:
+        return second if second.lower_open and not first.lower_open else first
+    return first if first.lower > second.lower else second
 
 
-def _upper_key(interval: Interval) -> tuple[Number, bool]:
-    return interval.upper, not interval.upper_open
+def _earlier_end(first: Interval, second: Interval) -> Interval:
+    if first.upper == second.upper:
+        return second if second.upper_open and not first.upper_open else first
+    return first if first.upper < second.upper else second
+
+
+def _is_empty(lower: Interval, upper: Interval) -> bool:
+    """Whether no number is both above the start of one interval and below the end of another."""
+    if lower.lower == upper.upper:
+        return lower.lower_open or upper.upper_open
+    return lower.lower > upper.upper
+
+
+def is_above(left: Interval, right: Interval) -> bool:
+    """Whether every number of one interval is greater than every one of the other, by enough."""
+    if not _is_empty(left, right):
+        return False
+    return left.lower == right.upper or not _is_slack(left.lower, right.upper)
 
 
 def _is_slack(first: Number, second: Number) -> bool:
@@ -162,10 +181,19 @@ def join(first: Domain, second: Domain) -> Domain:
     return first
 
 
+def _lower_key(interval: Interval) -> tuple[Number, bool]:
+    return interval.lower, interval.lower_open
+
+
+def _upper_key(interval: Interval) -> tuple[Number, bool]:
+    return interval.upper, not interval.upper_open
+
+
 def is_disjoint(first: Domain, second: Domain) -> bool:
     """Whether two sets have nothing in common; NaN never counts, as it equals nothing."""
     if isinstance(first, Interval) and isinstance(second, Interval):
-        first, second = numbers_of(first), numbers_of(second)
+        lower, upper = _later_start(first, second), _earlier_end(first, second)
+        return is_above(lower, upper)
     try:
         intersect(first, second)
     except EmptyDomainError:

@@ -11,10 +11,9 @@ from osc2tx.analysis.domains import (
     TRUE,
     Choice,
     Domain,
-    EmptyDomainError,
     Interval,
     Number,
-    intersect,
+    is_above,
     is_disjoint,
     is_void,
     join,
@@ -130,18 +129,6 @@ def _less_or_equal(left: Domain, right: Domain) -> Domain:
     if is_void(left) or is_void(right) or is_above(left, right):
         return FALSE
     return TRUE if left.upper <= right.lower and not (left.nan or right.nan) else ANY_BOOL
-
-
-def is_above(left: Interval, right: Interval) -> bool:
-    """Whether every number of one interval is greater than every one of the other, by enough."""
-    try:
-        intersect(
-            Interval(left.lower, float("inf"), left.lower_open),
-            Interval(float("-inf"), right.upper, False, right.upper_open),
-        )
-    except EmptyDomainError:
-        return True
-    return False
 
 
 def _numeric(operation: Operation, operands: Sequence[Interval]) -> Domain:

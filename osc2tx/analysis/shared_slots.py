@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 from osc2tx.analysis.applied_modifiers import library_modifiers
 from osc2tx.analysis.library_facts import entry_of, is_instant
-from osc2tx.analysis.tree_walk import nodes_below
+from osc2tx.analysis.tree_walk import NodesByKind
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.options import OneOfPolicy
@@ -35,22 +35,22 @@ class _Claim:
 
 
 def report_shared_slots(
-    model: SemanticModel, sink: DiagnosticSink, one_of: OneOfPolicy = "race"
+    model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink, one_of: OneOfPolicy = "race"
 ) -> None:
     """Report the compositions of the root file of which no run gets beyond the start.
 
     Args:
         model: The checked program.
+        nodes: Those of the root file.
         sink: Where reports go.
         one_of: Which member of a `one_of` counts.
     """
     together = (Op.PARALLEL, Op.ONE_OF) if one_of == "race" else (Op.PARALLEL,)
     starts = _Starts(model, together)
-    nodes = list(nodes_below(model.root))
-    if any(isinstance(n, ast.ModifierApplication) and _overrides(model, n) for n in nodes):
+    if any(_overrides(model, node) for node in nodes.of(ast.ModifierApplication)):
         return  # it ends one of them by its label, from anywhere
-    for node in nodes:
-        if isinstance(node, ast.Composition) and starts.are_together(node):
+    for node in nodes.of(ast.Composition):
+        if starts.are_together(node):
             _report(node, map(starts.of, node.members), sink)
 
 

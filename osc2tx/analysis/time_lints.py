@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.analysis.tree_walk import nodes_below
+from osc2tx.analysis.tree_walk import NodesByKind
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.units import to_si
@@ -11,21 +11,18 @@ from osc2tx.syntax import ast
 STEP = 0.05  # s, the length of a step where the run does not say another
 
 
-def report_times(model: SemanticModel, sink: DiagnosticSink) -> None:
+def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink) -> None:
     """Report the `elapsed` conditions of the root file that no run observes as written."""
-    for node in nodes_below(model.root):
-        match node:
-            case ast.OnDirective(event=event) if _elapsed(event) is not None:
-                sink.report(
-                    "OSC441",
-                    event.span,
-                    "this is true from that time on: `on` reacts at every instant of the run",
-                    help="to do it once write `wait elapsed(…)` and what follows inside `do`",
-                )
-            case ast.WaitDirective(event=event):
-                _report_short(model, _elapsed(event), sink)
-            case _:
-                continue
+    for reaction in nodes.of(ast.OnDirective):
+        if _elapsed(reaction.event) is not None:
+            sink.report(
+                "OSC441",
+                reaction.event.span,
+                "this is true from that time on: `on` reacts at every instant of the run",
+                help="to do it once write `wait elapsed(…)` and what follows inside `do`",
+            )
+    for wait in nodes.of(ast.WaitDirective):
+        _report_short(model, _elapsed(wait.event), sink)
 
 
 def _elapsed(event: ast.EventSpecification) -> ast.Expression | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from inspect import get_annotations
+from typing import TypeVar, cast
 
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
@@ -12,6 +13,7 @@ from osc2tx.syntax import ast
 SKIPPED = frozenset({"span", "comments", "trailing_comment", "end_comments"})
 _PLAIN = frozenset({"str", "str | None", "float", "int", "bool", "int | float", "tuple[str, ...]"})
 _FIELDS: dict[type[ast.Node], tuple[str, ...]] = {}
+_N = TypeVar("_N", bound=ast.Node)
 
 
 def do_members(root: ast.BehaviorMember) -> Iterator[ast.BehaviorMember]:
@@ -50,15 +52,39 @@ def children_of(node: ast.Node) -> list[ast.Node]:
     fields = _FIELDS.get(kind)
     for name in _child_fields(kind) if fields is None else fields:
         value = getattr(node, name)
-        if isinstance(value, tuple):
-            children += [item for item in value if isinstance(item, ast.Node)]
+        if value.__class__ is tuple:
+            children += value
         elif isinstance(value, ast.Node):
             children.append(value)
     return children
 
 
+class NodesByKind:
+    """The nodes of a tree by their classes: one walk for all who look for some of them."""
+
+    def __init__(self, root: ast.Node, closed: tuple[type[ast.Node], ...] = ()) -> None:
+        """Walk a tree.
+
+        Args:
+            root: Its root.
+            closed: Classes of nodes below which nothing is looked at.
+        """
+        self._found: dict[type[ast.Node], list[ast.Node]] = {}
+        stack = [root]
+        while stack:
+            node = stack.pop()
+            kind = type(node)
+            self._found.setdefault(kind, []).append(node)
+            if kind not in closed:
+                stack += reversed(children_of(node))
+
+    def of(self, kind: type[_N]) -> list[_N]:
+        """Return the nodes of a class, not of its subclasses, in source order."""
+        return cast("list[_N]", self._found.get(kind, []))
+
+
 def _child_fields(kind: type[ast.Node]) -> tuple[str, ...]:
-    """Return the fields of a class of nodes that may hold nodes, those of its bases first."""
+    """Return the fields of a class that may hold a node or hold a tuple of nodes, in order."""
     found = {
         name: annotation
         for base in reversed(kind.__mro__)

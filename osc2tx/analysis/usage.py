@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import field
 
 from osc2tx.analysis.library_facts import is_library_actor
-from osc2tx.analysis.tree_walk import children_of, do_directives, nodes_below
+from osc2tx.analysis.tree_walk import NodesByKind, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
@@ -15,6 +16,19 @@ from osc2tx_classes import dataclass
 
 Declared = tuple[sym.TypeSymbol, sym.EventSymbol]
 """A type and an event that it declares."""
+
+SETTINGS: tuple[type[ast.Node], ...] = (
+    ast.EmitDirective,
+    ast.Invocation,
+    ast.ParameterDeclaration,
+    ast.VariableDeclaration,
+    ast.ModifierApplication,
+    ast.Call,
+    ast.CallDirective,
+)
+DIVISIONS = frozenset({ast.BinaryOperator.DIVIDE, ast.BinaryOperator.MODULO})
+CONSTRAINTS = (ast.KeepConstraint, ast.RemoveDefault)
+"""What is looked at as a whole: it reads fields only where it relates several."""
 
 
 @dataclass(slots=True, eq=False)
@@ -45,53 +59,44 @@ class Usage:
     declared: dict[tuple[sym.TypeSymbol, str], list[Declared]] = field(default_factory=dict)
 
 
-def find_usage(model: SemanticModel) -> Usage:
-    """Look through all of the user's files."""
+def find_usage(model: SemanticModel, nodes: Mapping[ast.File, NodesByKind]) -> Usage:
+    """Return what the user's files use.
+
+    Args:
+        model: The checked program.
+        nodes: The nodes of its files, those below constraints left out.
+    """
     usage = Usage()
     for owner in model.symbols:
         if isinstance(owner, sym.TypeSymbol):
             for name, member in owner.members.items():
                 if isinstance(member, sym.EventSymbol):
                     usage.declared.setdefault((_ancestor(owner), name), []).append((owner, member))
-    for file in model.files:
-        is_root = file is model.root
-        stack: list[ast.Node] = [file]
-        while stack:
-            node = stack.pop()
-            if isinstance(node, ast.KeepConstraint | ast.RemoveDefault):
-                _look_at_rule(model, usage, node)
-                continue
-            _look_at(model, usage, node, is_root)
-            stack += reversed(children_of(node))
+    for found in nodes.values():
+        _look_at(model, usage, found)
+    usage.emits += nodes[model.root].of(ast.EmitDirective)
+    usage.waits += nodes[model.root].of(ast.EventSpecification)
     return usage
 
 
-def _look_at(model: SemanticModel, usage: Usage, node: ast.Node, is_root: bool) -> None:
-    match node:
-        case ast.NameExpression() | ast.MemberAccess():
-            _note(model.symbol_of(node), usage)
-        case ast.InheritanceCondition():
-            _note(model.symbol_of(node.field), usage)
-        case ast.EmitDirective():
-            symbol = model.symbol_of(node.event)
-            if symbol is not None:
-                usage.emitted.add(symbol)
-            if is_root:
-                usage.emits.append(node)
-            usage.settings.append(node)
-        case ast.EventSpecification() if is_root:
-            usage.waits.append(node)
-        case ast.Invocation():
-            binding = model.bindings.get(node)
-            if binding is not None:
-                usage.invoked.add(binding.callee)
-            usage.settings.append(node)
-        case ast.ParameterDeclaration() | ast.VariableDeclaration() | ast.ModifierApplication():
-            usage.settings.append(node)
-        case ast.Call() | ast.CallDirective():
-            usage.settings.append(node)
-        case ast.Binary(operator=ast.BinaryOperator.DIVIDE | ast.BinaryOperator.MODULO):
-            usage.divisions.append(node)
+def _look_at(model: SemanticModel, usage: Usage, nodes: NodesByKind) -> None:
+    for name in (*nodes.of(ast.NameExpression), *nodes.of(ast.MemberAccess)):
+        _note(model.symbol_of(name), usage)
+    for condition in nodes.of(ast.InheritanceCondition):
+        _note(model.symbol_of(condition.field), usage)
+    for emit in nodes.of(ast.EmitDirective):
+        symbol = model.symbol_of(emit.event)
+        if symbol is not None:
+            usage.emitted.add(symbol)
+    for invocation in nodes.of(ast.Invocation):
+        binding = model.bindings.get(invocation)
+        if binding is not None:
+            usage.invoked.add(binding.callee)
+    for kind in SETTINGS:
+        usage.settings += nodes.of(kind)
+    usage.divisions += (n for n in nodes.of(ast.Binary) if n.operator in DIVISIONS)
+    for rule in (*nodes.of(ast.KeepConstraint), *nodes.of(ast.RemoveDefault)):
+        _look_at_rule(model, usage, rule)
 
 
 def _note(symbol: sym.Symbol | None, usage: Usage) -> None:

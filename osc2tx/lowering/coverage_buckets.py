@@ -57,6 +57,8 @@ def with_buckets(
     ctx: LoweringContext, scenario: Composed, items: Sequence[Sampled]
 ) -> Iterator[ir.Coverage]:
     """Yield the items of a scenario with their buckets."""
+    if not items:
+        return
     grading = _Grading(ctx, scenario)
     by_name = {each.coverage.name: each for each in items}
     graded = {

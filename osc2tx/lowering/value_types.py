@@ -6,16 +6,17 @@ from osc2tx import ir
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 
-PRIMITIVE_KINDS = {
-    "bool": ir.Kind.BOOL,
-    "int": ir.Kind.INTEGER,
-    "uint": ir.Kind.INTEGER,
-    "float": ir.Kind.FLOAT,
-    "string": ir.Kind.STRING,
+PRIMITIVES = {
+    name: ir.ValueType(kind, name)
+    for name, kind in (
+        ("bool", ir.Kind.BOOL),
+        ("int", ir.Kind.INTEGER),
+        ("uint", ir.Kind.INTEGER),
+        ("float", ir.Kind.FLOAT),
+        ("string", ir.Kind.STRING),
+    )
 }
-
-
-BOOL = ir.ValueType(ir.Kind.BOOL, "bool")
+BOOL = PRIMITIVES["bool"]
 SCENARIO = ir.ValueType(ir.Kind.STRUCT, "scenario")
 
 
@@ -23,7 +24,7 @@ def lower_type(type_: types.Type) -> ir.ValueType:
     """Return the IR's view of a type."""
     match type_:
         case types.PrimitiveType(name=name):
-            return ir.ValueType(PRIMITIVE_KINDS[name], name)
+            return PRIMITIVES[name]
         case types.PhysicalType():
             return ir.ValueType(ir.Kind.QUANTITY, str(type_))
         case types.EnumType(symbol=enum):

@@ -48,10 +48,13 @@ class ASTTransformer(DeclarationBuilder):
     }
 
     def transform(self, tree: Tree) -> ast.File:
-        """Return the AST of a whole file."""
+        """Return the AST of a whole file; the tree is used up, so that not all of both is there."""
         imports: list[ast.Import] = []
         statements: list[Any] = []
-        for child in tree.children:
+        pending = tree.children[::-1]
+        tree.children.clear()
+        while pending:
+            child = pending.pop()
             if child.__class__ is Grammar.BlockContext:
                 found = self._block_without_header(child)
             elif child.__class__ is Grammar.StatementContext:

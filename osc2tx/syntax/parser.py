@@ -51,6 +51,7 @@ class _FastParser:
         context.stop = self._input.index - 1
         self.state = context.invokingState
         self._ctx = context.parentCtx
+        context.parentCtx = None  # a tree without cycles goes as soon as nobody needs it
 
     def match(self, expected: int) -> int:
         stream = self._input
