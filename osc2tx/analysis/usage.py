@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
+from typing import TypeAlias
 
 from osc2tx.analysis.library_facts import is_library_actor
 from osc2tx.analysis.tree_walk import NodesByKind, do_directives, nodes_below
@@ -27,6 +28,7 @@ SETTINGS: tuple[type[ast.Node], ...] = (
     ast.CallDirective,
 )
 DIVISIONS = frozenset({ast.BinaryOperator.DIVIDE, ast.BinaryOperator.MODULO})
+Rule: TypeAlias = ast.KeepConstraint | ast.RemoveDefault
 CONSTRAINTS = (ast.KeepConstraint, ast.RemoveDefault)
 """What is looked at as a whole: it reads fields only where it relates several."""
 
@@ -95,7 +97,8 @@ def _look_at(model: SemanticModel, usage: Usage, nodes: NodesByKind) -> None:
     for kind in SETTINGS:
         usage.settings += nodes.of(kind)
     usage.divisions += (n for n in nodes.of(ast.Binary) if n.operator in DIVISIONS)
-    for rule in (*nodes.of(ast.KeepConstraint), *nodes.of(ast.RemoveDefault)):
+    rules: list[Rule] = [*nodes.of(ast.KeepConstraint), *nodes.of(ast.RemoveDefault)]
+    for rule in rules:
         _look_at_rule(model, usage, rule)
 
 
@@ -106,9 +109,7 @@ def _note(symbol: sym.Symbol | None, usage: Usage) -> None:
         usage.read.add(symbol)
 
 
-def _look_at_rule(
-    model: SemanticModel, usage: Usage, rule: ast.KeepConstraint | ast.RemoveDefault
-) -> None:
+def _look_at_rule(model: SemanticModel, usage: Usage, rule: Rule) -> None:
     """Note the fields of a constraint that relates several."""
     fields = set()
     for node in nodes_below(rule):
