@@ -41,6 +41,10 @@ def unit() -> float:
     return best(advance) / 1000
 
 
+def upto(largest: int, sizes: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(size for size in sizes if size <= largest)
+
+
 def growth(sizes: tuple[int, ...], costs: list[float]) -> str:
     """Exponents between one size and the next: 1.00 is linear."""
     found = (

@@ -1,9 +1,10 @@
 """Times of the OpenDRIVE reader, as ratios against U and against `carla.Map` where it exists.
 
 U is one `next()` on a trivial generator on the same machine: ratios survive a change of machine,
-microseconds do not. Run with the folder of third-party maps:
+microseconds do not. Run with OpenDRIVE files, or with the folder of third-party maps:
 
-    OSC2TX_TEST_DATA=... python benchmarks/opendrive.py [carla-2020/Town06 ...]
+    python benchmarks/opendrive.py MAP.xodr ...
+    OSC2TX_TEST_DATA=... python benchmarks/opendrive.py
 """
 
 import gc
@@ -121,15 +122,15 @@ def search(path: Path, u: float) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    folder = Path(os.environ.get("OSC2TX_TEST_DATA", "")) / "maps"
-    if not folder.is_dir():
-        print("OSC2TX_TEST_DATA does not name a folder with `maps`", file=sys.stderr)
+    data = os.environ.get("OSC2TX_TEST_DATA")
+    if not arguments and data is None:
+        print("name a map, or a folder with `maps` in OSC2TX_TEST_DATA", file=sys.stderr)
         return 2
     u = unit()
     print(f"U = {u * 1e6:.4f} us; carla {'present' if carla is not None else 'absent'}")
-    for name in arguments or MAPS:
-        path = folder / f"{name}.xodr"
-        print(f"{name} ({path.stat().st_size / 1e6:.2f} MB)")
+    for name in arguments or [f"{data}/maps/{name}.xodr" for name in MAPS]:
+        path = Path(name)
+        print(f"{path.stem} ({path.stat().st_size / 1e6:.2f} MB)")
         queries(load(path, u), path, u)
         search(path, u)
     return 0 if math.isfinite(u) else 1

@@ -1,6 +1,6 @@
 """What a run costs: one pass over the tree, one step of the world, and whole scenarios.
 
-    python benchmarks/runtime.py [--map MAP.xodr]
+    python benchmarks/runtime.py [--map MAP.xodr] [--largest N]
 
 Prints
 
@@ -19,7 +19,7 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from costs import growth, spent, unit
+from costs import growth, spent, unit, upto
 from trees import print_trees
 
 import osc2tx_runtime
@@ -67,10 +67,11 @@ def drive(world: EmbeddedWorld, steps: int) -> None:
         world.step()
 
 
-def print_world(road_map: RoadMap, u: float) -> None:
+def print_world(road_map: RoadMap, u: float, largest: int) -> None:
+    sizes = upto(largest, ACTORS)
     print(f"\n{'world: one step':24}{'us':>10}{'us/actor':>10}{'U/actor':>10}{'x real time':>14}")
     costs = []
-    for actors in ACTORS:
+    for actors in sizes:
         steps = 2000 // actors + 100
         worlds = [filled_world(road_map, actors) for _ in range(3)]
         cost = min(spent(lambda w=world, n=steps: drive(w, n), 1) for world in worlds) / steps
@@ -79,7 +80,7 @@ def print_world(road_map: RoadMap, u: float) -> None:
             f"{actors:4d} actors{'':13}{cost * 1e6:10.1f}{cost * 1e6 / actors:10.2f}"
             f"{cost / actors / u:10.0f}{DT / cost:14.0f}"
         )
-    print(f"growth exponents with actors: {growth(ACTORS, costs)}")
+    print(f"growth exponents with actors: {growth(sizes, costs)}")
 
 
 # --- Whole scenarios ------------------------------------------------------------------------------
@@ -140,9 +141,11 @@ BUDGETS = (
 )
 
 
-def print_scenarios() -> None:
+def print_scenarios(largest: int) -> None:
     print(f"\n{'whole scenarios':40}{'us/tick':>10}{'x real time':>14}{'budget':>10}")
     for budget in BUDGETS:
+        if budget.scenario.count > largest:
+            continue
 
         def run(kind: type[Traffic] = budget.scenario) -> None:
             done = run_scenario(kind, RunSettings(dt=DT), keep_trace=False)
@@ -162,12 +165,16 @@ def main() -> None:
     default = Path(osc2tx_runtime.__file__).parent / "maps" / "highway.xodr"
     parser = argparse.ArgumentParser(description="What a run costs.")
     parser.add_argument("--map", type=Path, default=default, help="OpenDRIVE file for the world")
-    road_map = read_map(parser.parse_args().map)
+    parser.add_argument(
+        "--largest", type=int, default=1000, help="leave out what has more leaves, levels or actors"
+    )
+    arguments = parser.parse_args()
+    road_map = read_map(arguments.map)
     u = unit()
     print(f"map {road_map.name}; U = {u * 1e9:.1f} ns (one next() on a trivial generator)")
-    print_trees(u)
-    print_world(road_map, u)
-    print_scenarios()
+    print_trees(u, arguments.largest)
+    print_world(road_map, u, arguments.largest)
+    print_scenarios(arguments.largest)
 
 
 if __name__ == "__main__":

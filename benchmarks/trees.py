@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import py_trees
-from costs import best, growth
+from costs import best, growth, upto
 from py_trees.common import ParallelPolicy, Status
 
 from osc2tx_runtime.language.context import ExecutionContext
@@ -79,7 +79,7 @@ def branches(count: int) -> Behaviour:
 
 
 def reactions(count: int) -> Behaviour:
-    return Parallel("p", *(On(Event(), Emit(Event())) for _ in range(count)), Wait(Event()))
+    return Parallel("p", *(On(Event(), do=[Emit(Event())]) for _ in range(count)), Wait(Event()))
 
 
 def instant(tree: Behaviour) -> Callable[[], object]:
@@ -93,7 +93,8 @@ def instant(tree: Behaviour) -> Callable[[], object]:
     return next_step
 
 
-def print_trees(u: float) -> None:
+def print_trees(u: float, largest: int) -> None:
+    leaf_counts, depths = upto(largest, LEAVES), upto(largest, DEPTHS)
     print(f"\n{'trees: one pass':48}{'us':>10}{'U':>10}{'U/leaf':>10}")
 
     def row(name: str, work: Callable[[], object], leaves: int) -> float:
@@ -102,26 +103,26 @@ def print_trees(u: float) -> None:
         return seconds
 
     floor = []
-    for leaves in LEAVES:
+    for leaves in leaf_counts:
         tree = their_parallel(leaves)
         tree.tick_once()
         floor.append(row(f"py_trees Parallel, {leaves} Running", tree.tick_once, leaves))
     ours = [
         row(f"Parallel, {leaves} Wait(event)", started(waits(leaves))[1].tick_once, leaves)
-        for leaves in LEAVES
+        for leaves in leaf_counts
     ]
-    for depth in DEPTHS:
+    for depth in depths:
         tree = their_chain(depth)
         tree.tick_once()
         row(f"py_trees Sequence, depth {depth}", tree.tick_once, 1)
     deep = [
         row(f"Serial, depth {d}", started(chain(d, Serial, Wait(Event())))[1].tick_once, 1)
-        for d in DEPTHS
+        for d in depths
     ]
     row("20 branches of serial, one_of, until", started(branches(20))[1].tick_once, 40)
     row("100 on beside a Wait(event)", started(reactions(100))[1].tick_once, 101)
     row("20 Wait(event), a whole instant of the runner", instant(waits(20)), 20)
     levels = Parallel("p", *(Wait(lambda: False) for _ in range(100)))
     row("100 Wait(condition), a whole instant", instant(levels), 100)
-    print(f"growth exponents with leaves: py_trees {growth(LEAVES, floor)},", end=" ")
-    print(f"ours {growth(LEAVES, ours)}; with depth: {growth(DEPTHS, deep)}")
+    print(f"growth exponents with leaves: py_trees {growth(leaf_counts, floor)},", end=" ")
+    print(f"ours {growth(leaf_counts, ours)}; with depth: {growth(depths, deep)}")

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
-import random
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -19,15 +17,16 @@ from osc2tx.campaigns.engine import LocalEngine
 from osc2tx.campaigns.sampling import row_seed
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime.campaigns import Plan, Row
-from tests.campaigns.kit import TRIANGLE, Here, digest, parameters, plan_of, run
+from tests.campaigns.deaths import drive, driver_that_dies, numbers, words_of
+from tests.campaigns.kit import TRIANGLE, Here, digest, plan_of, run
 from tests.end_to_end.harness import SCENARIOS
 
 pytestmark = pytest.mark.slow
 
 
-def lethal(body: str) -> Plan:
+def lethal(body: str, *measures: str) -> Plan:
     """A scenario that does something to its process when `a` is drawn."""
-    plan = plan_of(TRIANGLE)
+    plan = plan_of(TRIANGLE, *measures)
     text = f"""import os
 import time
 
@@ -93,79 +92,83 @@ def test_a_module_that_cannot_be_imported_is_told() -> None:
         list(LocalEngine(1).run(plan, iter(rows(1))))
 
 
-def test_killed_workers_do_not_show(tmp_path: Path) -> None:
-    """Workers are killed at five random moments; who dies then is only tried once more."""
-    generator = random.Random(4)
-    plan = plan_of(TRIANGLE, "min_gap")
-    run(plan, tmp_path / "calm", "random", 300, LocalEngine(2, 10))
+@pytest.mark.parametrize("moment", (1, 8, 21, 38))
+def test_a_killed_worker_does_not_show(moment: int, calm: str, tmp_path: Path) -> None:
+    """One of two workers is killed when so many rows have come."""
 
     class Killed(LocalEngine):
         def run(self, plan, rows):  # type: ignore[no-untyped-def]
-            moments = {generator.randrange(5, 250) for _ in range(5)}
             done = 0
             for found in super().run(plan, rows):
                 before, done = done, done + len(found)
-                if any(before <= moment < done for moment in moments):
-                    os.kill(generator.choice(children()), signal.SIGKILL)
+                if before < moment <= done:
+                    os.kill(children()[moment % 2], signal.SIGKILL)
                 yield found
 
-    run(plan, tmp_path / "killed", "random", 300, Killed(2, 10))
-    assert digest(tmp_path / "killed") == digest(tmp_path / "calm")
+    run(plan_of(TRIANGLE, "min_gap"), tmp_path / "killed", "random", 40, Killed(2, 4))
+    assert digest(tmp_path / "killed") == calm
+
+
+@pytest.fixture(scope="module")
+def calm(tmp_path_factory: pytest.TempPathFactory) -> str:
+    place = tmp_path_factory.mktemp("calm") / "store"
+    run(plan_of(TRIANGLE, "min_gap"), place, "random", 40, Here())
+    return digest(place)
 
 
 def children() -> list[int]:
     """Return the workers of this process."""
-    import multiprocessing
-
-    return [each.pid for each in multiprocessing.active_children() if each.pid is not None]
+    return sorted(each.pid for each in multiprocessing.active_children() if each.pid is not None)
 
 
-def campaign(place: Path, samples: int, *options: str) -> list[str]:
-    command = [sys.executable, "-m", "osc2tx", "campaign", "run", str(SCENARIOS / "cut_in.osc")]
-    more = ["--store", str(place), "--workers", "2", "--batch", "3", "--kpi", "min_gap"]
-    return [*command, *more, "--samples", str(samples), *options]
+def test_rows_whose_first_process_dies_do_not_show(calm: str, tmp_path: Path) -> None:
+    """Twenty rows end their process in the middle, the first time."""
+    victims = drawn(40)[1::2]
+    first = f"os.path.join({str(tmp_path)!r}, str(self.a))"
+    plan = lethal(
+        f"if self.a in {victims} and not os.path.exists({first}): open({first}, 'x'); os._exit(3)",
+        "min_gap",
+    )
+    run(plan, tmp_path / "killed", "random", 40, LocalEngine(2, 4))
+    assert digest(tmp_path / "killed") == calm
 
 
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
 def test_a_driver_that_is_killed_goes_on(tmp_path: Path, blow: signal.Signals) -> None:
-    """Killed at three moments, told by what it has stored; nothing stored is lost or run again."""
-    generator = random.Random(int(blow))
+    """Killed after so many rows, again and again; nothing stored is lost or run again."""
     place = tmp_path / "store"
+    words = words_of(SCENARIOS / "cut_in.osc", place, 60)
     stored: set[int] = set()
-    for _ in range(3):
-        process = subprocess.Popen(
-            campaign(place, 60), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        target = len(stored) + generator.randrange(1, 12)
-        while process.poll() is None and len(numbers(place)) < target:
-            time.sleep(0.05)
-        process.send_signal(blow)
-        assert process.wait(600) == (-blow if blow is signal.SIGKILL else 130)
-        assert stored <= numbers(place)
+    for rows in (1, 7, 20):
+        driver_that_dies(rows, blow, words)
+        assert stored < numbers(place)
+        assert len(numbers(place)) == len(stored) + rows
         stored = numbers(place)
-    assert 0 < len(stored) < 60
-    ended = subprocess.run(campaign(place, 60), capture_output=True, text=True, check=True)
+    ended = drive(words)
     assert f"60 rows in {place}, {60 - len(stored)} new: 60 success" in ended.stdout
     assert ended.stderr == ""  # no progress beside a terminal
     whole = tmp_path / "whole"
-    subprocess.run(campaign(whole, 60), capture_output=True, check=True)
+    drive(words_of(SCENARIOS / "cut_in.osc", whole, 60))
     assert digest(place) == digest(whole)
 
 
-def numbers(place: Path) -> set[int]:
-    try:
-        return set(islice(parameters(place), 1000))
-    except CampaignError:  # not there yet, or just being made
-        return set()
+def test_a_driver_that_is_killed_after_each_two_rows(calm: str, tmp_path: Path) -> None:
+    """Twenty deaths, of a driver that has been started anew each time."""
+    source, place = tmp_path / "triangle.osc", tmp_path / "store"
+    source.write_text(TRIANGLE, encoding="utf-8")
+    drive(["build", str(source), "-o", str(tmp_path)])  # so that it is not compiled each time
+    words = words_of(source.with_suffix(".py"), place, 40)
+    for death in range(1, 21):
+        driver_that_dies(2, signal.SIGKILL, words)
+        assert len(numbers(place)) == 2 * death
+    assert ", 0 new: 40 success" in drive(words).stdout
+    assert digest(place) == calm
 
 
 def test_rows_of_a_scenario_of_ours_are_replayed_to_the_byte(tmp_path: Path) -> None:
     """And they are the runs of `osc2tx run` with the seed of the row."""
     place = tmp_path / "store"
-    done = subprocess.run(
-        campaign(place, 4, "--digests"), capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
+    drive([*words_of(SCENARIOS / "cut_in.osc", place, 4), "--digests"])
     with Store(place) as store:
         runs = list(store.runs())
     for run_ in runs[:2]:

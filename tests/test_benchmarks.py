@@ -1,0 +1,38 @@
+"""Each benchmark runs at its smallest size; what it measures decides nothing here."""
+
+import runpy
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.processes import forked
+
+FOLDER = Path(__file__).parent.parent / "benchmarks"
+MODULES = {"costs", "trees"}
+MAP = FOLDER.parent / "runtime_lib/osc2tx_runtime/maps/highway.xodr"
+SMALLEST = {
+    "build": ["--files", "11"],
+    "diffs": ["comment cut_in:"],
+    "frontend": ["--no-start", "60"],
+    "opendrive": [str(MAP)],
+    "runtime": ["--largest", "10"],
+}
+
+
+def test_all_are_here() -> None:
+    assert {path.stem for path in FOLDER.glob("*.py")} == MODULES | set(SMALLEST)
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param("build", marks=pytest.mark.slow), *sorted(SMALLEST)[1:]]
+)
+def test_runs(name: str) -> None:
+    def run() -> None:
+        sys.path.insert(0, str(FOLDER))
+        sys.argv = [name, *SMALLEST[name]]
+        runpy.run_path(str(FOLDER / f"{name}.py"), run_name="__main__")
+
+    ended = forked(run)
+    assert ended.code == 0, ended.err
+    assert ended.out
