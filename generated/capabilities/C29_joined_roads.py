@@ -1,7 +1,7 @@
 """Scenario `joined_roads`.
 
-C29 Joined roads: the map finds the motorway after a ramp, the lane of the motorway that ends, the part
-of it before that, and its right lane from end to end.
+C29 Joined roads: the map finds the motorway after a ramp, the lane of the motorway that ends, the
+part of it before that, and its right lane from end to end.
 
 Made by osc2tx from capabilities/C29_joined_roads.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
