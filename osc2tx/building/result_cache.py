@@ -21,7 +21,7 @@ from osc2tx.building.results import Dependency, FileResult, ImportedFile, Output
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import SourceFile
-from osc2tx.support.user_cache import cache_folder, read_own, write_own
+from osc2tx_cache import cache_folder, forget_the_oldest, read_own, write_own
 
 FORMAT = 3
 MOST_KEPT = 64  # folders that are remembered, of each kind
@@ -71,7 +71,7 @@ class ResultCache:
                 "results": records,
             }
             if write_own(self._path, json.dumps(document).encode()):
-                _forget_the_oldest(self._path.parent)
+                forget_the_oldest(self._path.parent, MOST_KEPT)
 
     def _read(self) -> dict[str, Any]:
         data = read_own(self._path) if self._path else None
@@ -162,13 +162,3 @@ class ResultCache:
                 os.path.join(self._real_path(folder), name) if is_plain else os.path.realpath(path)
             )
         return self._real[path]
-
-
-def _forget_the_oldest(folder: Path) -> None:
-    """Keep what was used last; folders come and go."""
-    try:
-        files = [(entry.stat().st_mtime_ns, entry.path) for entry in os.scandir(folder)]
-        for _, path in sorted(files, reverse=True)[MOST_KEPT:]:
-            os.unlink(path)
-    except OSError:  # another process does the same
-        return

@@ -22,7 +22,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "options": set(),
     # stages, in the order in which they run
     "syntax": {"diagnostics", "support"},
-    "stdlib": {"diagnostics", "support", "syntax", "version"},
+    "stdlib": {"diagnostics", "syntax", "version"},
     "catalogue": set(),
     "semantics": {"catalogue", "diagnostics", "stdlib", "support", "syntax.ast"},
     "analysis": {"catalogue", "diagnostics", "options", "semantics", "syntax.ast"},
@@ -55,10 +55,11 @@ MAY_IMPORT: dict[str, set[str]] = {
 # own `dataclass`.
 OTHERS = {
     "syntax": {"antlr4"},
-    "building": {"osc2tx_text"},
+    "building": {"osc2tx_cache", "osc2tx_text"},
     "compilation": {"osc2tx_text"},
     "catalogue": {"osc2tx_rules"},  # the rules of calls are stated and interpreted once
     "semantics": {"osc2tx_rules", "pint"},
+    "stdlib": {"osc2tx_cache"},
     "diagnostics/render": {"osc2tx_text"},
     "backends/py_trees": {"black", "jinja2", "osc2tx_rules", "osc2tx_text"},
     "backends/xosc": {"osc2tx_text"},

@@ -17,8 +17,14 @@ from tests.architecture.module_graph import (
 RULES = RUNTIME.parent / "osc2tx_rules"
 TEXT = RUNTIME.parent / "osc2tx_text"
 CLASSES = RUNTIME.parent / "osc2tx_classes"
+CACHE = RUNTIME.parent / "osc2tx_cache"
 OTHERS = {"osc2tx_classes", "osc2tx_rules", "osc2tx_text", "py_trees"}
-ONLY_IN = {"carla": "simulators/carla/client", "lxml": "opendrive", "numpy": "kpis"}
+ONLY_IN = {
+    "carla": "simulators/carla/client",
+    "lxml": "opendrive",
+    "numpy": "kpis",
+    "osc2tx_cache": "opendrive",
+}
 
 LEAVES = {"clock", "enums", "errors"}
 GROUND = {"opendrive", "world", "language"} | LEAVES
@@ -102,7 +108,7 @@ MAY_IMPORT: dict[str, set[str]] = {
 }
 
 FILES = files_of(RUNTIME)
-FOUND_EVERYWHERE = files_of(RULES) + files_of(TEXT) + files_of(CLASSES)
+FOUND_EVERYWHERE = files_of(RULES) + files_of(TEXT) + files_of(CLASSES) + files_of(CACHE)
 
 
 def part_of(module: str) -> str:

@@ -10,7 +10,7 @@ from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap, Route
 from tests.xosc.courses import Course, Node, number
 
 if TYPE_CHECKING:
-    from tests.xosc.actions import Running
+    from tests.xosc.scene import Running
 
 LONGITUDINAL, LATERAL = "longitudinal", "lateral"
 STRAIGHT = 0.75 * math.pi  # beyond: it looks against its lane

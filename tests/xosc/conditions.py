@@ -126,6 +126,8 @@ class Conditions:
                 return self.world.is_in(self.named[key], node.get("state"))
             case "TrafficSignalCondition":
                 return self.world.lights.get(node.get("name")) == node.get("state")
+            case "UserDefinedValueCondition":
+                return False  # nobody sets such a value
         raise NotImplementedError(node.tag)
 
     def _of_entity(self, body: Body, node: Node) -> bool:

@@ -96,9 +96,15 @@ class Ruler:
             return math.inf
         if not freespace:
             return abs(found)
-        x, y = self._axis(a, b, kind, system)
-        other = extent(b, *self._axis_at(b, a, kind, system))
-        return extent(a, x, y).apart(Extent(found + other.low, found + other.high))
+        own, other = self.extents(a, b, kind, system)
+        return own.apart(Extent(found + other.low, found + other.high))
+
+    def extents(self, a: Body, b: Body, kind: str, system: str) -> tuple[Extent, Extent]:
+        """Return from where to where each of two entities reaches, from its reference point."""
+        return (
+            extent(a, *self._axis(a, b, kind, system)),
+            extent(b, *self._axis_at(b, a, kind, system)),
+        )
 
     def signed(self, a: Body, b: Body, kind: str, system: str) -> float | None:
         """Return how far b is ahead of a, or to its left; `None` without a way."""

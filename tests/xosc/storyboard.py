@@ -15,11 +15,12 @@ from types import MappingProxyType
 from lxml import etree
 
 from osc2tx_runtime.opendrive import RoadMap
-from tests.xosc.actions import Running, Stage
+from tests.xosc.actions import Stage
 from tests.xosc.bodies import Body, body_of, couple
 from tests.xosc.conditions import Conditions
 from tests.xosc.courses import Node, number, with_parameters
 from tests.xosc.distances import Ruler
+from tests.xosc.scene import Running
 
 Row = tuple[float, float, float, float]  # t, x, y, v
 NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -88,7 +89,7 @@ class Evaluator:
             for entry in ready:
                 waiting.remove(entry)
                 for action in entry[1]:
-                    self.stage.begin(action, entry[0])
+                    self.stage.begin(action, entry[0], self.time)
         for action in self.root.iterfind("Storyboard/Init/Actions/GlobalAction"):
             self._global(action)
         couple(self.root, self.bodies)
@@ -117,10 +118,8 @@ class Evaluator:
             self._run_cycles()
             if self._settle(stop):
                 return self.time
-            self.stage.time = self.time
-            self.stage.advance()
+            self.stage.advance(self.time)
             self.step += 1
-            self.stage.time = self.time
         return math.inf
 
     def _settle(self, stop: Node | None) -> bool:
@@ -203,7 +202,6 @@ class Evaluator:
                 self._stop(each)
         self._enter(event, "runningState", "startTransition")
         self.starts.setdefault(event.get("name"), self.time)
-        self.stage.time = self.time
         self.work[event] = [
             run for action in event.iterfind("Action") for run in self._begin(action, event)
         ]
@@ -218,7 +216,7 @@ class Evaluator:
             return
         actors = event.getparent().getparent().find("Actors")
         for actor in actors.iterfind("EntityRef"):
-            run = self.stage.begin(inner, self.bodies[actor.get("entityRef")])
+            run = self.stage.begin(inner, self.bodies[actor.get("entityRef")], self.time)
             if run is not None:
                 yield run
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -19,6 +20,7 @@ from osc2tx.stdlib import DOMAIN, TYPES, library_source, parse_library_file, sna
 from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
 from osc2tx.syntax import ast, dump_ast, parse
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
+from osc2tx_cache import Snapshots, cache_folder, snapshots
 
 ROOT = Path(__file__).resolve().parents[3]
 OWN = sorted(ROOT.glob("scenarios/*.osc")) + sorted(ROOT.glob("tests/golden/ast/*/input.osc"))
@@ -32,11 +34,11 @@ LIBRARY += [("dialects/carla.osc", "2.1")]
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A cache of the test's own, with a snapshot of `types.osc` in it."""
     monkeypatch.delenv("OSC2TX_NO_CACHE", raising=False)
-    monkeypatch.setattr(snapshot, "_STARTED", 1 << 62)  # others may be editing the code
+    monkeypatch.setattr(snapshots, "_STARTED", 1 << 62)  # others may be editing the code
     for name in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
         monkeypatch.setenv(name, str(tmp_path))
     forget()
-    folder = snapshot.cache_folder()
+    folder = cache_folder()
     assert folder is not None and folder.is_relative_to(tmp_path)
     save_snapshot(parse_library_file(types()), "2.2")
     yield folder
@@ -142,7 +144,8 @@ def test_a_snapshot_with_a_flipped_bit_is_ignored(cache: Path) -> None:
     [b"", b"no marshal", marshal.dumps(3), marshal.dumps((1, 2)), marshal.dumps((1, 2, 3))],
 )
 def test_a_snapshot_with_other_contents_is_ignored(cache: Path, content: bytes) -> None:
-    the_file(cache).write_bytes(snapshot.MAGIC + snapshot._checksum(content) + content)
+    magic = the_file(cache).read_bytes().partition(b"\n")[0] + b"\n"
+    the_file(cache).write_bytes(magic + snapshots._checksum(content) + content)
     assert load_snapshot(types(), "2.2") is None
 
 
@@ -160,12 +163,18 @@ def test_a_snapshot_of_another_text_is_ignored() -> None:
     assert load_snapshot(other, "2.2") is None
 
 
-@pytest.mark.parametrize("attribute", ["__version__", "_STARTED", "MAGIC", "_CODE_FOLDERS"])
+@pytest.mark.parametrize("other", [{"kind": "osc2tx 0 AST 1"}, {"parts": ("syntax",)}], ids=str)
 def test_a_snapshot_of_other_code_is_ignored(
-    attribute: str, monkeypatch: pytest.MonkeyPatch
+    other: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    others = {"__version__": "0", "_STARTED": 0, "MAGIC": b"else\n", "_CODE_FOLDERS": ("syntax",)}
-    monkeypatch.setattr(snapshot, attribute, others[attribute])
+    made = snapshot.SNAPSHOTS
+    same = {"kind": made._magic.decode().strip(), "code": made._code, "parts": made._parts}
+    monkeypatch.setattr(snapshot, "SNAPSHOTS", Snapshots(**(same | other)))
+    assert load_snapshot(types(), "2.2") is None
+
+
+def test_a_snapshot_of_code_that_changes_is_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(snapshots, "_STARTED", 0)
     assert load_snapshot(types(), "2.2") is None
 
 

@@ -225,7 +225,17 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
         raise Inexpressible("there is no time across the road in OpenSCENARIO XML", leaf.node.span)
     _require_side(leaf, gap)
     newer = leaf.ctx.version >= "1.1"
+    if not newer:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
+            "off while it looks aside, by the sine of that angle times the way between both",
+            Remedy(version="1.1"),
+        )
     limits = leaf.limits
+    # Between reference points: the free space of the XML shrinks where boxes turn.
+    sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
     constraints = element(
         "DynamicConstraints",
         maxAcceleration=limits.lateral,
@@ -236,8 +246,8 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
         "LateralDistanceAction",
         None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
         entityRef=gap.reference.name,
-        distance=round(gap.size, 6),
-        freespace=True,
+        distance=round(gap.size + sides, 6),
+        freespace=False,
         continuous=keeps,
         displacement=SIDES[gap.side] if newer else None,
         coordinateSystem="road" if newer else None,

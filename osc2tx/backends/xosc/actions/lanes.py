@@ -108,9 +108,9 @@ def lane_change(
     state = leaf.state
     if own_lanes is None and reference is None:
         own_lanes = lanes
-    target = None if own_lanes is None else target_lane(leaf, own_lanes)
+    here, target = (None, None) if own_lanes is None else _from_and_to(leaf, own_lanes)
     count = 1 if own_lanes is None else own_lanes
-    to_lane = math.copysign(distance_between(leaf, state.lane, target, count), count)
+    to_lane = math.copysign(_distance(leaf, here, target, count), count)
     way = abs(to_lane + offset - _offset(state))
     course = course_of_shift(way, profile, peak, duration, leaf.limits)
     if not jumps:
@@ -186,16 +186,22 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     return None if between is None else between + lanes
 
 
-def target_lane(leaf: Leaf, lanes: int) -> LanePosition | None:
-    """Return the lane beside that of the actor; `None` if its lane is not known.
+def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosition | None]:
+    """Return the lane of the actor and the one beside it, as far as they are known.
+
+    After some time it may be on a road that follows: there it changes the lane.
 
     Raises:
         Inexpressible: There is no such lane: tools would not notice.
     """
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is None or lane is None:
-        return None
+        return lane, None
+    here: LanePosition | None = lane
     target = roads.beside(lane, lanes)
+    if target is None and not leaf.is_start:
+        here = roads.may_be_beside(lane, lanes)
+        target = None if here is None else roads.beside(here, lanes)
     if target is None:
         side = "left" if lanes > 0 else "right"
         raise Inexpressible(
@@ -203,10 +209,10 @@ def target_lane(leaf: Leaf, lanes: int) -> LanePosition | None:
             f" {lane.road}",
             leaf.node.span,
         )
-    return target
+    return here, target
 
 
-def distance_between(
+def _distance(
     leaf: Leaf, lane: LanePosition | None, target: LanePosition | None, lanes: int
 ) -> float:
     """Return how far (m) a lane is from another one."""

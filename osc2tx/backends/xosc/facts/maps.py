@@ -72,6 +72,17 @@ class Roads:
             return place
         return self.map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
 
+    def may_be_beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
+        """Return where, from a lane on, the lanes ahead first have one so many to their left."""
+        ahead = [self.map.lane_key(place)]
+        for key in ahead:
+            section = self.map.roads[key.road].sections[key.section]
+            middle = LanePosition(key.road, key.lane, (section.begin + section.end) / 2)
+            if self.beside(middle, lanes) is not None:
+                return middle
+            ahead += [each for each in self.map.successors(key) if each not in ahead]
+        return None
+
     def with_number(self, place: LanePosition, number: int, edge: str) -> LanePosition | None:
         """Return the lane with a number at a place; `None` if there is none."""
         side: Literal["left", "right"] = "right" if edge == "right" else "left"

@@ -1,7 +1,8 @@
 """Files in the user's cache folder, read only if nobody else can have written them.
 
-What is read there decides what osc2tx makes, so a folder or a file that belongs to somebody else,
-or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor writes any.
+What is read there decides what osc2tx and its runtime make, so a folder or a file that belongs to
+somebody else, or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor
+writes any.
 """
 
 from __future__ import annotations
@@ -68,6 +69,16 @@ def write_own(path: Path, data: bytes) -> bool:
         Path(temporary).unlink(missing_ok=True)
         return False
     return True
+
+
+def forget_the_oldest(folder: Path, most: int) -> None:
+    """Keep only so many files of a folder, those written last; what they are of comes and goes."""
+    try:
+        files = [(entry.stat().st_mtime_ns, entry.path) for entry in os.scandir(folder)]
+        for _, path in sorted(files, reverse=True)[most:]:
+            os.unlink(path)
+    except OSError:  # another process does the same
+        return
 
 
 def _is_ours(status: os.stat_result, is_kind: Callable[[int], bool]) -> bool:

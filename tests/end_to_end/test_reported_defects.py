@@ -1,0 +1,240 @@
+"""Small scenarios that once went wrong: each has the outcome that the standard gives it.
+
+The files are test data, in the folder `defects`; its README names the right outcome of each.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from osc2tx_runtime import RunSettings
+from tests.unit.backends.xosc.checks import schema_errors
+from tests.unit.cli.shell import Shell
+from tests.xosc.parity import FINE, LONG, Given, check, is_exact, played, scenarios
+
+# What is never read and what never changes: that is in the nature of small cases.
+OF_SMALL_CASES = {"OSC430", "OSC431", "OSC436", "OSC437"}
+FOUND = re.compile(r"^[\w.]+:(\d+):\d+: (?:error|warning)\[(OSC\d+)\]: (.*)$", re.M)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A file with its outcome.
+
+    Attributes:
+        file: Its name.
+        end: Seconds that the run takes.
+        events: All that happen, in order, where the file tells by them.
+        code: Of the command.
+        found: Diagnostics as line and code, in order.
+        says: Part of the first message, or of what is printed.
+        options: Of the command.
+        seeds: How many runs have this outcome.
+    """
+
+    file: str
+    end: float | None = None
+    events: str | None = None
+    code: int = 0
+    found: tuple[str, ...] = ()
+    says: str = ""
+    options: tuple[str, ...] = ()
+    seeds: int = 1
+
+    def __str__(self) -> str:
+        return " ".join((self.file, *self.options))
+
+
+def refused(file: str, found: str, says: str, *options: str, code: int = 3) -> Row:
+    return Row(file, code=code, found=(found,), says=says, options=options)
+
+
+STEPS = (("--dt", "0.05"), ("--dt", "0.1"), ("--dt", "0.02"))
+COLLISION = "collision at 1.85 s: ego, other"
+
+ROWS = [
+    Row("global_map", 3.0),
+    Row("global_actor_placed", 3.0),
+    Row("range_in_range_2_2", 0.0, options=("--std", "2.2")),
+    refused("speed_beyond_any_world", "6 OSC516", "no world has such a speed"),
+    Row("override_before_its_base", 1.0),
+    Row("until_in_a_range_of_durations", 3.0, "done@3", seeds=10),
+    refused("minimum_duration_by_idling", "4 OSC809", "its duration of 5 s", code=5),
+    Row("one_of_shorter_than_asked", 3.0, "long@3", seeds=10),
+    refused("until_against_duration", "8 OSC439", "earlier than the 5 s"),
+    Row("short_waits_add_up", 1.1, "done@0.1", found=tuple(f"{n} OSC440" for n in range(6, 16))),
+    *(Row("assignments_take_no_time", 5.0, "done@4", options=dt) for dt in STEPS),
+    refused("one_occurrence_an_instant", "14 OSC809", "wait k == 2", "--max-time", "5", code=5),
+    Row("event_named_by_a_keyword", 1.0, "from@1 seen@1", options=("--signal", "from@1s")),
+    Row("handlers_at_the_last_instant", 1.0, "a@1 b@1 c@1 d@1"),
+    Row("on_fail_of_a_member", None, "f@0 one.fail@0", 5, ("9 OSC809",), "it takes 500.00 s"),
+    Row("modifier_as_a_member", 3.0),
+    Row("type_as_receiver", 3.0, found=("4 OSC415", "9 OSC415"), says="the one there is"),
+    Row("dut_as_receiver_carla", 2.0, found=("9 OSC622",), options=("--dialect", "carla")),
+    refused("action_without_actor", "7 OSC804", "no global action `log`", code=5),
+    refused("struct_member_keep", "12 OSC804", "no action `spawn`", code=5),
+    Row("along_with_lane", 3.0),
+    Row("same_name_in_two_namespaces", 1.0),
+    Row("two_conditional_subtypes", 1.0),
+    Row("numeric_equation", 0.0),
+    Row("difference_of_dates", 2.0),
+    Row("literals", 0.0),
+    refused("plus_is_for_floats", "4 OSC100", "with a point or an exponent only"),
+    refused("unexported_enum", "11 OSC215", "`crimson` is not visible here"),
+    refused("silent_other_carriageway", "13 OSC802", "somebody else is 201 m", code=5),
+    Row("draws_beyond_the_map", seeds=10),
+    Row("behind_one_not_yet_placed", 3.0, seeds=10),
+    Row("thin_set_of_eight", 0.2, seeds=5),
+    Row("division_before_its_guard", 0.2, seeds=20),
+    Row("elements_of_a_sized_list", 0.2, seeds=5),
+    Row("union_of_ranges", 0.2, seeds=10),
+    Row("assign_speed_is_reached", 2.0, "after@1"),
+    Row("collision_is_a_success", 11.45, says=COLLISION),
+    Row("collision_is_a_success", code=5, says=COLLISION, options=("--fail-on", "collision")),
+    Row("draws_from_the_sidecar", 1.0, options=("--scenario", "two", "--seed", "1")),
+    Row("comments_attach", 1.0),
+]
+
+# Whether all of the document is exact; else what its report says.
+DOCUMENTS = {
+    "xml_trailer_is_not_instant": None,
+    "xml_peak_beyond_default_limits": None,
+    "xml_distance_to_an_oncoming_reference": None,
+    "xml_distance_to_a_turned_obstacle": None,
+    "xml_time_to_collision_beside": "motion across it does not count",
+    "xml_start_speed_of_a_later_actor": None,
+    "xml_walker_walks_on": None,
+    "xml_relative_lane_after_a_junction": None,
+}
+REACTS = "xml_on_reacts_each_time"
+
+
+@pytest.fixture
+def shell(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Shell:
+    monkeypatch.chdir(tmp_path)
+    return Shell(capsys, tmp_path)
+
+
+@pytest.fixture
+def folder(test_data: Path) -> Path:
+    found = test_data / "defects"
+    if not found.is_dir():
+        pytest.skip("the test data have no folder `defects`")
+    return found
+
+
+def header_and_events(trace: Path) -> tuple[dict[str, object], str]:
+    """Return the first line of a trace, and all events as `name@time`."""
+    lines = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
+    events = (f"{each['name']}@{each['t']:g}" for each in lines if each["kind"] == "event")
+    return lines[0], " ".join(events)
+
+
+def test_every_file_has_a_row(folder: Path) -> None:
+    listed = {row.file for row in ROWS} | DOCUMENTS.keys() | {REACTS}
+    assert listed == {path.stem for path in folder.glob("*.osc")}
+
+
+@pytest.mark.parametrize("row", ROWS, ids=str)
+def test_outcome(row: Row, folder: Path, shell: Shell) -> None:
+    shell.write(f"{row.file}.osc", (folder / f"{row.file}.osc").read_text(encoding="utf-8"))
+    for seed in range(row.seeds):
+        given = row.options if "--seed" in row.options else ("--seed", seed, *row.options)
+        ended = shell("run", *given, "--trace", "trace.jsonl", f"{row.file}.osc")
+        said = ended.err + ended.out  # why a run fails is what the command is asked for
+        found = [each for each in FOUND.findall(said) if each[1] not in OF_SMALL_CASES]
+        assert ended.code == row.code, ended.err
+        assert tuple(f"{line} {code}" for line, code, _ in found) == row.found
+        assert row.says in said
+        if row.end is not None:
+            assert f"success after {row.end:.2f} s" in said
+        if row.events is not None:
+            assert header_and_events(Path("trace.jsonl"))[1] == row.events
+
+
+@pytest.mark.parametrize("file", DOCUMENTS)
+def test_document(file: str, folder: Path) -> None:
+    given = Given(folder / f"{file}.osc", RunSettings(dt=FINE))
+    (document,) = scenarios(given)
+    reason = DOCUMENTS[file]
+    if reason is not None:
+        assert document.xml is None
+        assert any(reason in (entry.reason or "") for entry in document.report.entries)
+        return
+    assert is_exact(document), document.report.obstacles
+    assert document.xml is not None
+    assert schema_errors(document.xml, given.xml.version) == []
+    check(given, document)
+
+
+def test_a_document_reacts_each_time(folder: Path, tmp_path: Path) -> None:
+    """Its parallel is over before its duration: the run fails, and the document still ends."""
+    text = (folder / f"{REACTS}.osc").read_text(encoding="utf-8")
+    path = tmp_path / f"{REACTS}.osc"
+    path.write_text(text, encoding="utf-8")
+    (whole,) = scenarios(Given(path))
+    assert whole.xml is not None
+    assert played(whole.xml, 0.1).end < LONG
+    shorter = tmp_path / "shorter.osc"
+    shorter.write_text(text.replace("(duration: 20s)", ""), encoding="utf-8")
+    given = Given(shorter)
+    (document,) = scenarios(given)
+    assert is_exact(document)
+    check(given, document)
+
+
+def test_no_actor_and_no_method_is_no_error_of_a_check(folder: Path, shell: Shell) -> None:
+    for file in ("action_without_actor", "struct_member_keep"):
+        assert shell("check", "--strict", folder / f"{file}.osc").code == 0
+
+
+def test_values_in_order_are_in_order(folder: Path, shell: Shell) -> None:
+    shell("run", "--trace", "trace.jsonl", folder / "thin_set_of_eight.osc")
+    values = header_and_events(Path("trace.jsonl"))[0]["parameters"]
+    assert isinstance(values, dict)
+    assert len(values) == 8
+    assert list(values.values()) == sorted(values.values())
+
+
+def test_drawn_values_lie_where_they_may(folder: Path, shell: Shell) -> None:
+    """Of a union, between elements of a list, and of what a division must not meet."""
+    for seed in range(10):
+        values = {}
+        for file in ("union_of_ranges", "elements_of_a_sized_list", "division_before_its_guard"):
+            shell("run", "--seed", seed, "--trace", "trace.jsonl", folder / f"{file}.osc")
+            found = header_and_events(Path("trace.jsonl"))[0]["parameters"]
+            assert isinstance(found, dict)
+            values.update(found)
+        assert 0.0 <= values["b"] <= 4.0 or 6.0 <= values["b"] <= 8.0
+        assert 1.0 <= values["xs.0"] <= 2.0
+        assert 12 / (values["i"] - values["j"]) > 3
+
+
+def test_the_module_alone_decides_what_is_drawn(folder: Path, shell: Shell) -> None:
+    path = shell.write("two.osc", (folder / "draws_from_the_sidecar.osc").read_text("utf-8"))
+    shell("build", "--target", "py", "-o", "out", path)
+    drawn = []
+    for edit in (None, "{}", "away"):
+        sidecar = Path("out", "two.map.json")
+        if edit == "away":
+            sidecar.unlink()
+        elif edit is not None:
+            sidecar.write_text(edit, encoding="utf-8")
+        options = ("--scenario", "two", "--seed", "1", "--trace", "trace.jsonl")
+        assert shell("run", *options, "out/two.py").code == 0
+        drawn.append(header_and_events(Path("trace.jsonl"))[0]["parameters"])
+    assert drawn[0] == drawn[1] == drawn[2]
+
+
+def test_comments_stand_above_what_they_are_about(folder: Path, shell: Shell) -> None:
+    shell("build", "--target", "py", "-o", "out", folder / "comments_attach.osc")
+    text = Path("out", "comments_attach.py").read_text(encoding="utf-8")
+    assert "end::a" not in text.partition("class Top")[2]
+    assert "99kph" not in text.partition("self.other.drive")[0].rpartition("self.ego.drive")[2]

@@ -1,0 +1,181 @@
+"""Longitudinal actions: courses of the speed, and gaps along the road.
+
+What the standard leaves to the tool is done as plainly as it allows: a gap is closed as fast as the
+limits of the action allow, a speed without time is reached as fast as limits and jerk allow.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from tests.xosc.bodies import LONGITUDINAL, Body
+from tests.xosc.courses import Node, between, number, shaped, with_jerk
+from tests.xosc.scene import GAP_REACHED, STILL, Running, Scene
+
+
+class Speeds:
+    """Longitudinal actions at work."""
+
+    def __init__(self, scene: Scene, *, carries: bool) -> None:
+        self._scene, self._carries = scene, carries
+        self._next: dict[str, float] = {}  # of the next step, as far as they are known
+
+    def step(self) -> dict[str, float]:
+        """Return the next speeds (m/s) of all bodies."""
+        self._next = {}
+        return {name: self.next_of(body) for name, body in self._scene.bodies.items()}
+
+    # --- starting ---------------------------------------------------------------------------------
+
+    def begin(self, body: Body, node: Node) -> Running:
+        match node.tag:
+            case "SpeedAction":
+                return self._speed(body, node)
+            case "SpeedProfileAction":
+                return self._profile(body, node)
+            case "LongitudinalDistanceAction":
+                side = self._scene.side(body, node, "longitudinal")
+                return Running(body, (LONGITUDINAL,), self._scene.time, None, gap=node, side=side)
+        raise NotImplementedError(node.tag)
+
+    def _speed(self, body: Body, node: Node) -> Running:
+        dynamics, target = node.find("SpeedActionDynamics"), node.find("SpeedActionTarget")[0]
+        if target.get("continuous") == "true":
+            return Running(body, (LONGITUDINAL,), self._scene.time, None, relative=node)
+        end = self._target_speed(target)
+        shape, dimension = dynamics.get("dynamicsShape"), dynamics.get("dynamicsDimension")
+        value, change = number(dynamics, "value"), abs(end - body.v)
+        peak = {"linear": 1.0, "cubic": 1.5, "sinusoidal": math.pi / 2, "step": 0.0}[shape]
+        match dimension:
+            case "time":
+                time = value
+            case "rate":
+                time = peak * change / value
+            case "distance":  # the mean of all these shapes lies in the middle
+                time = 2.0 * value / (body.v + end)
+        if shape == "step":
+            time = 0.0
+        else:  # a tool may hold it to what the vehicle can do
+            limit = body.limits["maxAcceleration" if end > body.v else "maxDeceleration"]
+            time = max(time, peak * change / limit)
+        return Running(
+            body, (LONGITUDINAL,), self._scene.time, time, speed=shaped(shape, body.v, end, time)
+        )
+
+    def _target_speed(self, target: Node) -> float:
+        if target.tag == "AbsoluteTargetSpeed":
+            return number(target, "value")
+        other, value = self._scene.bodies[target.get("entityRef")], number(target, "value")
+        is_factor = target.get("speedTargetValueType") == "factor"
+        return other.v * value if is_factor else other.v + value
+
+    def _profile(self, body: Body, node: Node) -> Running:
+        assert node.get("entityRef") is None
+        entries, limits = node.findall("SpeedProfileEntry"), node.find("DynamicConstraints")
+
+        def limit(name: str) -> float:
+            told = math.inf if limits is None else number(limits, name, math.inf)
+            return min(told, body.limits[name])
+
+        points, courses = [(0.0, body.v)], []
+        for entry in entries:
+            begin, v = points[-1]
+            end = number(entry, "speed")
+            if entry.get("time") is not None:
+                points.append((begin + number(entry, "time"), end))
+                courses.append(None)
+                continue
+            peak = limit("maxAcceleration" if end > v else "maxDeceleration")
+            rate = self._carried(body) if self._carries and not courses else 0.0
+            course, time = with_jerk(v, end, peak, limit("maxAccelerationRate"), rate)
+            courses.append(course)
+            points.append((begin + time, end))
+
+        def value(t: float) -> float:
+            for ((begin, _), (end, _)), course in zip(pairwise(points), courses, strict=True):
+                if t <= end and course is not None:
+                    return course(t - begin)
+            return between(points, t)
+
+        return Running(body, (LONGITUDINAL,), self._scene.time, points[-1][0], speed=value)
+
+    @staticmethod
+    def _carried(body: Body) -> float:
+        """Return the acceleration (m/s^2) that an entity takes into its next action."""
+        run = body.actions.get(LONGITUDINAL)
+        return 0.0 if run is None or run.done else body.a
+
+    # --- one step ---------------------------------------------------------------------------------
+
+    def next_of(self, body: Body) -> float:
+        """Return the next speed of a body; it may need that of another one."""
+        if body.name not in self._next:
+            self._next[body.name] = body.v  # who follows who follows it
+            self._next[body.name] = self._following(body)
+        return self._next[body.name]
+
+    def _following(self, body: Body) -> float:
+        run = body.actions.get(LONGITUDINAL)
+        if run is None or run.done or run.is_timed:
+            return body.v
+        time = self._scene.time + self._scene.dt - run.begun
+        if run.relative is not None:
+            return self._nearing(body, run.relative)
+        if run.gap is not None:
+            return self._closing(body, run)
+        assert run.speed is not None and run.length is not None
+        run.done = time >= run.length - STILL
+        return run.speed(time)
+
+    def _closing(self, body: Body, run: Running) -> float:
+        """Return the next speed of an entity that keeps a distance, as fast as it may."""
+        node, limits = run.gap, run.gap.find("DynamicConstraints")
+        leader, is_behind = self._scene.bodies[node.get("entityRef")], run.side > 0
+        gap = self._scene.gap(body, node, "longitudinal")
+        wanted = number(node, "distance")
+        if node.get("timeGap") is not None:
+            wanted = number(node, "timeGap") * (body.v if is_behind else leader.v)
+        if limits is None and node.get("continuous") == "true":
+            return self._rigid(body, leader, gap, number(node, "timeGap"), is_behind=is_behind)
+        if node.get("freespace") == "true":
+            wanted += body.front + leader.rear if is_behind else body.rear + leader.front
+        error = gap - run.side * wanted
+        low, high = (
+            math.inf if limits is None else number(limits, name, math.inf)
+            for name in ("maxDeceleration", "maxAcceleration")
+        )
+        if node.get("continuous") != "true" and abs(error) < GAP_REACHED:
+            run.done = True
+            return body.v
+        rate = 2.0 * error + 2.0 * math.sqrt(2.0) * (leader.v - body.v) * body.along * leader.along
+        return body.v + min(max(rate, -low), high) * self._scene.dt
+
+    def _nearing(self, body: Body, action: Node) -> float:
+        """Return the next speed of an entity that keeps one relative to that of another one.
+
+        The dynamics say how it is reached: at a rate, or in a step.
+        """
+        target = self._target_speed(action.find("SpeedActionTarget")[0])
+        dynamics = action.find("SpeedActionDynamics")
+        if dynamics.get("dynamicsShape") == "step":
+            return target
+        assert dynamics.get("dynamicsDimension") == "rate", "no length goes with continuous"
+        most = number(dynamics, "value") * self._scene.dt
+        return body.v + min(max(target - body.v, -most), most)
+
+    def _rigid(
+        self, body: Body, leader: Body, gap: float, time: float, *, is_behind: bool
+    ) -> float:
+        """Return the next speed of an entity that keeps its distance without any limits."""
+        speed = self.next_of(leader)
+        if not time or not is_behind:
+            return speed
+        ways = 0.5 * (leader.v + speed - body.v) * self._scene.dt
+        space = body.front + leader.rear if self._is_between_ends(body) else 0.0
+        return (gap - space + ways) / (time + 0.5 * self._scene.dt)
+
+    @staticmethod
+    def _is_between_ends(body: Body) -> bool:
+        run = body.actions[LONGITUDINAL]
+        return run.gap is not None and run.gap.get("freespace") == "true"

@@ -1,0 +1,84 @@
+"""Routing actions: routes, and trajectories."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from osc2tx_runtime.opendrive import LanePosition
+from tests.xosc.bodies import LATERAL, LONGITUDINAL, Body, Pose
+from tests.xosc.courses import Node, between, number
+from tests.xosc.places import place_of
+from tests.xosc.scene import STILL, Running, Scene
+
+
+class Ways:
+    """Routing actions at work."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+
+    def begin(self, body: Body, node: Node) -> Running | None:
+        if node.tag in ("AssignRouteAction", "AcquirePositionAction"):
+            *_, last = node.iter("Position")
+            goal, _ = place_of(last[0], self._scene.bodies, self._scene.map)
+            if not isinstance(goal, LanePosition):
+                goal = self._scene.map.locate(goal.x, goal.y, heading=goal.h)
+            body.route = self._scene.map.route_to(goal)
+            return None
+        assert node.tag == "FollowTrajectoryAction", node.tag
+        way = []
+        for vertex in node.iter("Vertex"):
+            where, h = place_of(vertex.find("Position")[0], self._scene.bodies, self._scene.map)
+            pose = where if isinstance(where, Pose) else Pose(*self._scene.map.pose(where)[:2], 0.0)
+            way.append((number(vertex, "time"), pose if h is None else pose._replace(h=h)))
+        is_timed = node.find("TimeReference/Timing") is not None
+        domains = (LATERAL, LONGITUDINAL) if is_timed else (LATERAL,)
+        run = Running(body, domains, self._scene.time, None, way=way, is_timed=is_timed)
+        lengths = [math.dist(a[:2], b[:2]) for (_, a), (_, b) in pairwise(way)]
+        run.points = [0.0]
+        for length in lengths:
+            run.points.append(run.points[-1] + length)
+        if is_timed:
+            assert node.find("TimeReference/Timing").get("domainAbsoluteRelative") == "relative"
+            run.length = way[-1][0]
+        body.place = None
+        if not is_timed or way[0][0] == 0.0:
+            body.pose = self._on_way(run, 0.0)
+        return run
+
+    def _on_way(self, run: Running, driven: float) -> Pose:
+        """Return the pose so far (m) along a way; it looks along it."""
+        last = len(run.way) - 2
+        index = next((i for i in range(last) if driven < run.points[i + 1]), last)
+        (_, a), (_, b) = run.way[index], run.way[index + 1]
+        length = run.points[index + 1] - run.points[index]
+        part = (driven - run.points[index]) / length if length else 1.0
+        h = math.atan2(b.y - a.y, b.x - a.x) if length else a.h
+        return Pose(a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), h)
+
+    def _at_time(self, run: Running, time: float) -> Pose:
+        times = [t for t, _ in run.way]
+        time = min(max(time, times[0]), times[-1])
+        driven = between(list(zip(times, run.points, strict=True)), time)
+        if any(a == b for a, b in pairwise(run.points)):  # it waits on its way
+            xs = between([(t, p.x) for t, p in run.way], time)
+            ys = between([(t, p.y) for t, p in run.way], time)
+            return Pose(xs, ys, self._on_way(run, driven).h)
+        return self._on_way(run, driven)
+
+    def follow(self, body: Body, run: Running, way: float, time: float) -> None:
+        if run.is_timed:
+            assert run.length is not None
+            x, y, _ = body.here
+            body.pose = self._at_time(run, time)
+            body.v = math.dist(body.pose[:2], (x, y)) / self._scene.dt
+            run.done = time >= run.length - STILL
+        else:
+            run.driven += way
+            body.pose = self._on_way(run, run.driven)
+            run.done = run.driven >= run.points[-1] - STILL
+        if run.done and body.kind == "Vehicle":  # from here on it keeps its lane
+            place = self._scene.map.locate(*body.pose[:2], heading=body.pose.h, max_distance=0.0)
+            if place is not None:
+                body.put(self._scene.map, place, body.pose.h)
