@@ -10,6 +10,8 @@ from osc2tx.analysis.tree_walk import do_directives, do_members, nodes_below
 from osc2tx.catalogue import catalogue
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.builtins import DURATION
+from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 from osc2tx_classes import dataclass
 
@@ -62,10 +64,19 @@ class _TerminationAnalysis:
             for member in reversed(list(do_members(directive.member))):
                 if self._is_instant(member):
                     self._instant.add(member)
-                if self._is_endless(member):
+                if self._is_endless(member) and not (
+                    member is directive.member and self._has_own_duration(behavior)
+                ):
                     self.endless.add(member)
             if directive.member in self.endless:
                 self.endless_behaviors.add(behavior)
+
+    def _has_own_duration(self, behavior: Behavior) -> bool:
+        return any(
+            _says_own_duration(self.model, statement)
+            for ancestor in supertypes(behavior)
+            for statement in ancestor.statements
+        )
 
     def _is_instant(self, member: ast.BehaviorMember) -> bool:
         match member:
@@ -146,6 +157,16 @@ def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:
         and argument.name.text == "at"
         and argument.value.span.text == "end"
         for argument in modifier.arguments
+    )
+
+
+def _says_own_duration(model: SemanticModel, member: ast.Statement) -> bool:
+    """Whether a member of a scenario constrains how long that takes."""
+    if isinstance(member, ast.ModifierApplication):
+        return _speaks_of_duration(model, member)
+    return isinstance(member, ast.KeepConstraint) and any(
+        isinstance(node, ast.NameExpression) and model.symbol_of(node) is DURATION
+        for node in nodes_below(member)
     )
 
 

@@ -168,7 +168,7 @@ class BehaviorLowering:
                     start_to_start=self._time(arguments.get("start_to_start")),
                     end_to_end=self._time(arguments.get("end_to_end")),
                 )
-        return with_open_duration(self._ctx, made, name_of_member(node))
+        return with_open_duration(self._ctx, made, f"{name_of_member(node)}.duration")
 
     def _composition_arguments(self, node: ast.Composition) -> dict[str, ast.Expression]:
         """Return the arguments by name; the first position of `parallel` is `overlap`."""

@@ -7,6 +7,7 @@ from osc2tx.lowering.behaviors import BehaviorLowering
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present
+from osc2tx.lowering.own_durations import lasting
 from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.lowering.triggers import boundary_of
 from osc2tx.syntax import ast
@@ -19,6 +20,7 @@ def lower_body(
     statements: tuple[ast.Statement, ...],
     constraints: ConstraintLowering,
     standing: StandingModifiers,
+    duration: ir.Expression | None,
 ) -> ir.Behavior | None:
     """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
     directives = [s for s in statements if isinstance(s, ast.DoDirective)]
@@ -36,6 +38,7 @@ def lower_body(
     reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s.event) is None])
     if body is None:
         return None
+    body = lasting(ctx, body, duration)
     before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))
     body = _framed(scenario, before, body, after)
     if not reactions:

@@ -77,7 +77,8 @@ class InvocationLowering:
             until=lower_until(self._ctx, node.with_members),
             is_own=is_user_defined(callee),
         )
-        return start_on_path(with_open_duration(self._ctx, invocation, name_of_member(node)))
+        name = f"{name_of_member(node)}.duration"
+        return start_on_path(with_open_duration(self._ctx, invocation, name))
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
         """Return who acts; without an expression it is the actor of the scenario (§5.5)."""

@@ -23,14 +23,14 @@ def with_open_duration(ctx: LoweringContext, node: Member, name: str) -> Member:
     Args:
         ctx: The scenario.
         node: The member.
-        name: What it is called in the name of the parameter.
+        name: Of the parameter.
     """
     duration = node.duration
     if node.until or not isinstance(duration, ir.RangeValue):
         return node
     if not is_open_ended(replace(node, duration=None)):
         return node
-    drawn = ctx.draw(f"{name}.duration", duration, duration.lower.type)
+    drawn = ctx.draw(name, duration, duration.lower.type)
     return replace(node, duration=drawn)
 
 

@@ -44,7 +44,7 @@ def is_known_here(constraint: Constraint, key: Key) -> bool:
     It sets an object that is handed in; what else it speaks of is only known inside.
     """
     prefix = constraint.place.prefix
-    is_inside = bool(prefix) and isinstance(prefix[0], ast.Node)
+    is_inside = bool(prefix) and isinstance(prefix[0], Instance)
     return not is_inside or isinstance(key[0], ast.Node) or constraint.operations.keys == {key}
 
 

@@ -162,8 +162,13 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
 
 
 def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
-    """Return the value of a parameter of an invocation or modifier, in what that says."""
-    key = None if ctx.place is None else ctx.place.locate(node)
+    """Return the value of a parameter of an invocation or modifier, in what that says.
+
+    Elsewhere a name that has a value is the duration of the scenario.
+    """
+    symbol = ctx.model.symbol_of(node)
+    own = None if symbol is None else (symbol,)
+    key = own if ctx.place is None else ctx.place.locate(node)
     return None if key is None else ctx.given.get(key)
 
 

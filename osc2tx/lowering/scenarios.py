@@ -34,6 +34,7 @@ from osc2tx.lowering.method_overriding import object_types
 from osc2tx.lowering.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers import is_override
 from osc2tx.lowering.override_modifiers import lower_overrides
+from osc2tx.lowering.own_durations import own_duration
 from osc2tx.lowering.standing_modifiers import StandingModifiers, stands
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.user_actions import lower_actions
@@ -159,12 +160,16 @@ def _lower_scenario(
     node = scenario.node
     statements = _statements(scenario)
     constraints = ConstraintLowering.of_scenario(ctx, scenario)
+    standing = StandingModifiers(ctx, constraints)
+    for statement in statements:
+        if isinstance(statement, ast.ModifierApplication):
+            standing.of_member(statement)  # constraints may speak of its parameters
+    duration = own_duration(ctx, constraints)
     lowering = DeclarationLowering(ctx, scenario, statements, constraints)
     declarations = lowering.lower()
     shared = GlobalLowering(ctx, scenario, constraints)
     methods = lowering.lower_methods()
-    standing = StandingModifiers(ctx, constraints)
-    tree = lower_body(ctx, scenario, statements, constraints, standing)
+    tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
     if tree is None:
         return None
     placements, body = PlacementLowering(ctx).split(labelled_once(tree, set()))

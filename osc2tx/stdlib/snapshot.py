@@ -18,10 +18,9 @@ __all__ = ["load_snapshot", "save_snapshot"]
 
 # What the AST of a text depends on besides the text.
 SNAPSHOTS = Snapshots(
-    kind="osc2tx-ast-1",
+    kind=f"osc2tx {__version__} AST 1",
     code=Path(__file__).resolve().parent.parent,
     parts=("syntax", "syntax/ast", "syntax/ast_builder", "syntax/_antlr"),
-    version=__version__,
 )
 
 

@@ -27,15 +27,15 @@ class Snapshots:
     """The snapshots of one kind.
 
     Args:
-        kind: The first word in their files, with the number of their form.
+        kind: The first line of their files: what they are, the number of their form, and the
+            version of the code if it has one.
         code: The folder of the code that makes them.
         parts: The folders below it whose modules decide what is in them.
-        version: Of that code.
     """
 
-    def __init__(self, kind: str, code: Path, parts: tuple[str, ...], version: str) -> None:
+    def __init__(self, kind: str, code: Path, parts: tuple[str, ...]) -> None:
         self._magic = f"{kind}\n".encode()
-        self._code, self._parts, self._version = code, parts, version
+        self._code, self._parts = code, parts
 
     def path(self, name: str) -> Path | None:
         """Return the file of a snapshot, `None` if there is no cache.
@@ -69,17 +69,18 @@ class Snapshots:
             return None
         return data if (found_stamp, found_source) == (stamp, made_of) else None
 
-    def save(self, name: str, made_of: Any, data: Any) -> bool:
-        """Keep plain data for the next process; return whether that was possible."""
+    def save(self, name: str, made_of: Any, data: Any) -> Path | None:
+        """Keep plain data for the next process; return the file if that was possible."""
         path, stamp = self.path(name), self._stamp()
         if path is None or stamp is None:
-            return False
+            return None
         contents: Any = (stamp, made_of, data)
         content = marshal.dumps(contents)
-        return write_own(path, self._magic + _checksum(content) + content)
+        is_kept = write_own(path, self._magic + _checksum(content) + content)
+        return path if is_kept else None
 
     def _stamp(self) -> Stamp | None:
-        """Return what identifies the code: version, Python, its files.
+        """Return what identifies the code: Python, and its files.
 
         `None` if that cannot be told: the files are not there, or changed after this process began.
         """
@@ -95,7 +96,7 @@ class Snapshots:
             return None
         if not files or max(changed for _, _, changed in files) > _STARTED:
             return None
-        return (self._version, sys.version_info[:3], *sorted(files))
+        return (sys.version_info[:3], *sorted(files))
 
 
 def _checksum(content: bytes) -> bytes:

@@ -66,7 +66,7 @@ OTHERS = {
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "backends/xosc/xml": {"lxml", "osc2tx_text"},
     # rows are chosen here, run there
-    "campaigns": {"distributed", "osc2tx_runtime", "osc2tx_text", "scipy"},
+    "campaigns": {"distributed", "optuna", "osc2tx_runtime", "osc2tx_text", "scipy"},
     "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
     "testing_campaigns": {"osc2tx_runtime", "pytest"},

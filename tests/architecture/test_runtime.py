@@ -19,7 +19,12 @@ TEXT = RUNTIME.parent / "osc2tx_text"
 CLASSES = RUNTIME.parent / "osc2tx_classes"
 CACHE = RUNTIME.parent / "osc2tx_cache"
 OTHERS = {"osc2tx_classes", "osc2tx_rules", "osc2tx_text", "py_trees"}
-ONLY_IN = {"carla": "simulators/carla/client", "lxml": "opendrive", "numpy": "kpis"}
+ONLY_IN = {
+    "carla": "simulators/carla/client",
+    "lxml": "opendrive",
+    "numpy": "kpis",
+    "osc2tx_cache": "opendrive",
+}
 
 LEAVES = {"clock", "enums", "errors"}
 GROUND = {"opendrive", "world", "language"} | LEAVES

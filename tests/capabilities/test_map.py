@@ -95,6 +95,33 @@ def test_c29_what_the_map_says_of_its_roads(perform: Perform) -> None:
     assert (end["road"], end["s"]) == ("4", pytest.approx(20.0, abs=0.6))
 
 
+def test_c29_roads_of_a_merge(perform: Perform) -> None:
+    run = perform("C29_joined_roads")
+    assert run.status == "success"
+    root, found = written("merge"), values(run)
+    motorway = root.find("road[@name='after']")
+    assert motorway is not None
+    assert found["motorway_length"] == found["way_length"] == number(motorway, "length")
+    begins = [number(section, "s") for section in motorway.findall("lanes/laneSection")]
+    # The lane for joining becomes narrower, so that its middle is longer than its section of 100 m.
+    assert begins[2] - begins[1] < found["lane_length"] < begins[2] - begins[1] + 0.1
+    first = motorway.find("lanes/laneSection/right")
+    types = [] if first is None else [lane.get("type") for lane in first]
+    assert found["lanes_joined"] == len([each for each in types if each in ("driving", "entry")])
+    begin = run.at("ego", 0.0)
+    assert (begin["road"], begin["lane"], begin["s"]) == ("3", -1, 20.0)
+
+
+def test_c29_lanes_abreast(perform: Perform) -> None:
+    run = perform("C29_lanes_abreast")
+    assert run.status == "success"
+    ego, other, oncoming = (run.at(actor, 0.0) for actor in ("ego", "other", "oncoming"))
+    assert other["lane"] - ego["lane"] == 2 and ego["lane"] * oncoming["lane"] < 0
+    assert ego["x"] == other["x"] == 200.0
+    # Against s a lane begins at the end of the road of 2 km.
+    assert oncoming["s"] == pytest.approx(2000.0 - 200.0, abs=ROUNDED)
+
+
 def test_c29_degrees_become_metres(perform: Perform) -> None:
     run = perform("C29_geodetic_points")
     assert run.status == "success"

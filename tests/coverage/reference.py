@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-import re
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
 
 from lxml import etree
 
@@ -13,16 +14,17 @@ from osc2tx.backends.xosc.actions import registry
 from osc2tx.backends.xosc.report import Entry as Loss
 from osc2tx.backends.xosc.report import Grade
 from osc2tx.catalogue import catalogue
+from osc2tx.diagnostics import Span
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from osc2tx.reference import Entry, entries
 from osc2tx.reference.shown import TABLE
+from osc2tx.syntax import ast
 from osc2tx_runtime.simulators.carla.capabilities import how
-from tests.coverage.sources import Source, scenarios
+from tests.coverage.sources import Source, scenarios, walk
 from tests.coverage.xml import documents, losses
 
 __all__ = ["TABLE", "render"]
 
-LINES_AROUND = 3  # lines of a scenario that an example shows after the first use
 UNFIT = {"hello_world", "C34_conflict_reported"}  # in the dialect of CARLA; shows a mistake
 MUCH_XML = 1200  # characters, more than an example should have
 ACTING = ("action", "modifier")
@@ -158,31 +160,38 @@ def _actions(document: XmlScenario, event: str) -> str:
 
 
 def _example(entry: Entry) -> tuple[Source, int, str] | None:
-    """The shortest scenario that uses it, of those that XML has if there are any: line and text."""
+    """The shortest use in a scenario, of those that XML has if there are any: line and text."""
     best = min(_uses(entry), key=lambda use: use[0], default=None)
-    if best is None:
-        return None
-    _, source, number = best
-    shown = source.path.read_text(encoding="utf-8").splitlines()
-    first = max(number - (entry.declaration.kind == "modifier") * 2, 0)
-    return source, number + 1, _dedented(shown[first : number + 1 + LINES_AROUND])
+    return None if best is None else best[1]
 
 
-def _uses(entry: Entry) -> Iterator[tuple[tuple[bool, int, str], Source, int]]:
-    kind, own = entry.declaration.kind, entry.own_name
-    before = r"\w\." if kind == "action" or "." in entry.declaration.name else r"(?<![\w.])"
-    use = re.compile(rf"{before}{own}\(")
+def _uses(entry: Entry) -> Iterator[tuple[tuple[bool, int, str], tuple[Source, int, str]]]:
+    key = (entry.declaration.kind, entry.own_name)
     for source in scenarios():
         if source.path.stem in UNFIT:
             continue
-        text = source.path.read_text(encoding="utf-8")
-        lines = [line.partition("#")[0] for line in text.splitlines()]
-        number = next((i for i, line in enumerate(lines) if use.search(line)), None)
-        if number is not None:
-            without = not 0 < len(_elements(source, number + 1)) <= MUCH_XML
-            yield (without, len(text), source.place), source, number
+        for statement in _statements(source).get(key, ()):
+            line, text = _text(statement.span)
+            without = not 0 < len(_elements(source, line)) <= MUCH_XML
+            yield (without, len(text), source.place), (source, line, text)
 
 
-def _dedented(lines: list[str]) -> str:
-    width = min(len(line) - len(line.lstrip()) for line in lines if line.strip())
-    return "\n".join(line[width:].rstrip() for line in lines).strip("\n")
+@cache
+def _statements(source: Source) -> Mapping[tuple[str, str], list[ast.Node]]:
+    """What stands for each action and modifier that a scenario uses: all of an invocation."""
+    found: dict[tuple[str, str], list[ast.Node]] = {}
+    within: dict[ast.Node, ast.Node] = {}
+    for node in walk(source.compilation.ast) if source.compilation.ast else ():
+        if isinstance(node, ast.Invocation):
+            within |= dict.fromkeys(node.with_members, node)
+            found.setdefault(("action", node.behavior.text), []).append(node)
+        elif isinstance(node, ast.ModifierApplication):
+            found.setdefault(("modifier", node.modifier.text), []).append(within.get(node, node))
+    return found
+
+
+def _text(span: Span) -> tuple[int, str]:
+    """The number of the first line, and all lines without their common indentation."""
+    first, last = (span.source.position(at)[0] for at in (span.start, span.end))
+    lines = span.source.text.splitlines()[first - 1 : last]
+    return first, textwrap.dedent("\n".join(lines)).strip("\n")

@@ -4,7 +4,8 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
 `road_map`. In order of control flow:
 
 * `xml_reader`, `reader`, `lane_reader`, `signal_reader`, `crosswalks`: text to roads, checked, or
-  a `MapError`; `unread`: what is left out; `seams`: where lanes do not go on as they end.
+  a `MapError`; `unread`: what is left out; `seams`: where lanes do not go on as they end;
+  `map_snapshots`, `packed_map`: large maps are parsed once.
 * `polynomials`, `geometry`, `model`: what a road is made of.
 * `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
 * `lane_advance`: moving along lanes, `lane_cursor`: the same step by step; `lane_distances`:

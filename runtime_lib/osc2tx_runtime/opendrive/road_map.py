@@ -16,6 +16,7 @@ from .lane_cursor import LaneCursor
 from .lane_distances import LaneGroups, Route, passable
 from .lane_line import lane_line
 from .lane_table import LaneTable
+from .map_snapshots import read_content_once
 from .model import (
     DRIVING,
     Advance,
@@ -31,7 +32,7 @@ from .network import connect_lanes, linked_ends
 from .outlines import lane_outlines, spawn_points
 from .poses import lane_pose, surface_pose
 from .projection import Projection, best_place, lane_at, place_score, position_of, project
-from .reader import MapContent, read_content, read_content_text
+from .reader import MapContent, read_content_text
 from .road_index import RoadIndex
 from .seams import Seam, seams
 from .signals import Controller, Signal
@@ -315,12 +316,12 @@ class RoadMap:
 
 
 def read_map(path: Path) -> RoadMap:
-    """Reads an OpenDRIVE file.
+    """Reads an OpenDRIVE file; what was read of a large one is kept for other processes.
 
     Raises:
         MapError: The file cannot be read or is not a usable map.
     """
-    return RoadMap(read_content(Path(path)))
+    return RoadMap(read_content_once(Path(path)))
 
 
 def read_map_text(text: str | bytes, name: str = "map") -> RoadMap:

@@ -1,10 +1,17 @@
-"""Looks for motion that cannot be: jumps of places, courses beside the heading, lateral loads."""
+"""Looks for motion that cannot be: jumps of places, courses beside the heading, lateral loads.
+
+As a program it prints the worst of each actor of traces: `python -m tests.runtime.world.motion_scan
+TRACE.jsonl ...`
+"""
 
 from __future__ import annotations
 
+import json
 import math
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, NamedTuple
 
 __all__ = ["SMOOTHING", "Instant", "Worst", "impossible", "scan", "scan_lines"]
@@ -90,3 +97,17 @@ def impossible(lines: Iterable[Mapping[str, Any]], smoothing: float = SMOOTHING)
 
 def _turn(before: float, after: float) -> float:
     return math.pi - (math.pi - (after - before)) % math.tau
+
+
+def _table(paths: Iterable[Path]) -> Iterable[str]:
+    yield "trace, actor: jump (m), course (degrees), across and along (m/s^2)"
+    for path in paths:
+        with path.open(encoding="utf-8") as lines:
+            found = scan_lines(map(json.loads, lines), smoothing=0.0)
+        for actor, worst in found.items():
+            figures = (worst.jump, math.degrees(worst.course), worst.across, worst.along)
+            yield f"{path.stem}, {actor}: " + ", ".join(f"{figure:.2f}" for figure in figures)
+
+
+if __name__ == "__main__":
+    print(*_table(map(Path, sys.argv[1:])), sep="\n")

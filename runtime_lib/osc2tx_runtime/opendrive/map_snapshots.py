@@ -1,0 +1,67 @@
+"""Snapshots of maps in the user's cache folder: a large map is parsed once.
+
+A snapshot belongs to the bytes of a map, wherever that is, and to the code that read it.
+"""
+
+from __future__ import annotations
+
+import stat
+from dataclasses import replace
+from pathlib import Path
+
+from osc2tx_cache import Snapshots, forget_the_oldest
+
+from .packed_map import PackingError, pack, unpack
+from .reader import MapContent, read_content
+
+__all__ = ["read_content_once"]
+
+SMALLEST = 200_000
+"""Bytes of a map that is worth a file."""
+
+MOST_KEPT = 64
+"""Maps; the file of one has a fifth of its size or less."""
+
+SNAPSHOTS = Snapshots(
+    kind="OpenDRIVE map 1",
+    code=Path(__file__).resolve().parent.parent,
+    parts=("opendrive", "."),
+)
+
+
+def read_content_once(path: Path) -> MapContent:
+    """Reads a file, from its snapshot if there is one that can be trusted.
+
+    Raises:
+        MapError: The file is not a usable OpenDRIVE map.
+    """
+    digest = _digest(path)
+    if digest is None:
+        return read_content(path)
+    name = f"maps/{digest[:32]}"
+    packed = SNAPSHOTS.load(name, digest)
+    if packed is not None:
+        try:
+            return replace(unpack(packed), file=str(path), name=path.stem)
+        except PackingError:
+            pass  # as if there were none
+    content = read_content(path)
+    if _digest(path) == digest:  # nobody wrote it meanwhile
+        kept = SNAPSHOTS.save(name, digest, pack(content))
+        if kept is not None:
+            forget_the_oldest(kept.parent, MOST_KEPT)
+    return content
+
+
+def _digest(path: Path) -> str | None:
+    """Return the digest of a large file; `None` of others, and of what cannot be read."""
+    try:
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode) or status.st_size < SMALLEST:
+            return None
+        import hashlib  # most maps are small
+
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None
