@@ -208,11 +208,11 @@ def _declared_by(
     r: Resolution, owner: TypeSymbol, node: ast.MethodDeclaration
 ) -> MethodSymbol | None:
     """Return the method that a declaration makes, also one that an extension replaces."""
-    symbol = owner.members.get(node.name.text)
-    while isinstance(symbol, MethodSymbol):
-        if symbol.node is node:
-            return symbol
-        symbol = r.scope.overridden.get(symbol)
+    for symbol in owner.named(node.name.text):
+        while isinstance(symbol, MethodSymbol):
+            if symbol.node is node:
+                return symbol
+            symbol = r.scope.overridden.get(symbol)
     return None
 
 
