@@ -10,10 +10,9 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Generator, Iterator
-from itertools import islice
 from typing import Any
 
-from osc2tx.campaigns.engine import crashed
+from osc2tx.campaigns.engine import crashed, take
 from osc2tx.campaigns.errors import CampaignError
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
@@ -39,7 +38,7 @@ class DaskEngine:
     def __init__(self, address: str, batch: int = 16, patience: float = 60.0) -> None:
         self._address, self._batch, self._patience = address, batch, patience
 
-    def run(self, plan: Plan, rows: Iterator[Row]) -> Generator[list[RowResult], None, None]:
+    def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
         """Yield what came of rows as it comes.
 
         Raises:
@@ -68,7 +67,13 @@ class _Flight:
     """The rows of one campaign that are on the cluster."""
 
     def __init__(
-        self, dask: Any, client: Any, plan: Plan, rows: Iterator[Row], batch: int, patience: float
+        self,
+        dask: Any,
+        client: Any,
+        plan: Plan,
+        rows: Iterator[Row | None],
+        batch: int,
+        patience: float,
     ) -> None:
         self._dask, self._client, self._rows = dask, client, rows
         self._batch, self._patience = batch, patience
@@ -103,7 +108,7 @@ class _Flight:
         self._is_alone = False
         self._count_workers()
         while len(self._flying) < AHEAD * max(self._workers, 1):
-            rows = list(islice(self._rows, self._batch))
+            rows = take(self._rows, self._batch)
             if not rows:
                 break
             self._send(rows, self._shared)

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from contextlib import closing
 
 from osc2tx.campaigns.engine import Engine
+from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import Texts, identity_of, plan_to
 from osc2tx.campaigns.planner import Planner, columns_of, is_allowed
 from osc2tx.campaigns.samplers import sampler_by_name
-from osc2tx.campaigns.sampling import Sampler, Wanted
+from osc2tx.campaigns.sampling import Findings, Sampler, Wanted
 from osc2tx.campaigns.store import Store
 from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.campaigns import Executor, Plan, Row
@@ -61,27 +62,30 @@ def run_campaign(
         ScenarioError: The scenario cannot have any values.
     """
     with closing(Executor(plan)) as executor:
-        sampler = make_sampler(executor, wanted)
+        findings = Findings(store.measures() if wanted.aim else {}, store.left_out())
+        sampler = make_sampler(executor, wanted, findings)
         store.claim(
             identity_of(plan, texts, executor, sampler, wanted),
             plan_to(plan, texts, plan.settings.map_path),
         )
         if wanted.samples is not None:
             store.wanted = wanted.samples
-        planner = Planner(executor, sampler, wanted.samples, store.done(), store.left_out())
+        planner = Planner(executor, sampler, wanted.samples, store.done(), findings.left_out)
         counts = store.counts()
         so_far = Progress(
             wanted.samples,
             sum(counts.values()),
             sum(counts.values()) - counts.get("success", 0),
             0,
-            len(store.left_out()),
+            len(findings.left_out),
         )
         on_progress(so_far)
         with closing(engine.run(plan, planner.rows())) as results:
             for found in results:
                 left_out, planner.newly_left_out = planner.newly_left_out, []
                 store.add(found, left_out)
+                if wanted.aim:
+                    findings.hear(found)
                 so_far = replace(
                     so_far,
                     done=so_far.done + len(found),
@@ -94,12 +98,18 @@ def run_campaign(
         return replace(so_far, left_out=len(store.left_out()))
 
 
-def make_sampler(executor: Executor, wanted: Wanted) -> Sampler:
-    """Return the sampler of a campaign."""
+def make_sampler(executor: Executor, wanted: Wanted, findings: Findings) -> Sampler:
+    """Return the sampler of a campaign.
+
+    Raises:
+        CampaignError: Nothing says how many rows there are to be, or they cannot be chosen.
+    """
+    if wanted.is_endless:
+        raise CampaignError("say how many rows there are to be: --samples 1000")
 
     def allows(row: Row) -> bool:
         return is_allowed(executor, row)
 
     needs_columns = wanted.name.partition(":")[0] not in ("random", "table")
     columns = columns_of(executor) if needs_columns else []
-    return sampler_by_name(wanted, columns, allows)
+    return sampler_by_name(wanted, columns, allows, findings)

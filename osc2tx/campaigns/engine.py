@@ -12,6 +12,7 @@ import time
 from collections import deque
 from collections.abc import Generator, Iterator
 from contextlib import suppress
+from itertools import islice
 from multiprocessing.connection import Connection, wait
 from typing import Protocol
 
@@ -21,7 +22,7 @@ from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.rows import CRASHED
 from osc2tx_runtime.campaigns.worker import Refused, work
 
-__all__ = ["Engine", "LocalEngine", "crashed"]
+__all__ = ["Engine", "LocalEngine", "crashed", "take"]
 
 ATTEMPTS = 2
 STARTS = 3  # of workers that end before they are ready, with no row done meanwhile
@@ -30,8 +31,16 @@ STARTS = 3  # of workers that end before they are ready, with no row done meanwh
 class Engine(Protocol):
     """Runs rows, wherever that is."""
 
-    def run(self, plan: Plan, rows: Iterator[Row]) -> Generator[list[RowResult], None, None]:
-        """Yield what came of rows, in any order, some at a time; take rows when there is room."""
+    def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
+        """Yield what came of rows, in any order, some at a time; take rows when there is room.
+
+        Where `rows` has None there are no more before something else has come of earlier ones.
+        """
+
+
+def take(rows: Iterator[Row | None], most: int) -> list[Row]:
+    """Take so many rows, or those that there are at the moment."""
+    return list(islice(iter(lambda: next(rows, None), None), most))
 
 
 class LocalEngine:
@@ -46,7 +55,7 @@ class LocalEngine:
     def __init__(self, workers: int, batch: int = 16, timeout: float | None = None) -> None:
         self._workers, self._batch, self._timeout = workers, batch, timeout
 
-    def run(self, plan: Plan, rows: Iterator[Row]) -> Generator[list[RowResult], None, None]:
+    def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
         """Yield what came of rows as it comes.
 
         Raises:
@@ -99,7 +108,12 @@ class _Pool:
     """The workers of one campaign."""
 
     def __init__(
-        self, plan: Plan, workers: int, batch: int, timeout: float | None, rows: Iterator[Row]
+        self,
+        plan: Plan,
+        workers: int,
+        batch: int,
+        timeout: float | None,
+        rows: Iterator[Row | None],
     ) -> None:
         self._plan, self._most, self._batch, self._timeout = plan, workers, batch, timeout
         self._rows = rows
@@ -128,13 +142,8 @@ class _Pool:
     def _next_rows(self) -> list[Row]:
         if self._suspects:
             return [self._suspects.popleft()]
-        found: list[Row] = []
-        while len(found) < self._batch:
-            row = self._again.popleft() if self._again else next(self._rows, None)
-            if row is None:
-                break
-            found.append(row)
-        return found
+        again = [self._again.popleft() for _ in range(min(self._batch, len(self._again)))]
+        return again + take(self._rows, self._batch - len(again))
 
     def collect(self) -> list[RowResult]:
         """Wait for what workers tell; return what came of rows."""

@@ -76,8 +76,8 @@ class Planner:
         self.accepted = 0
         self.newly_left_out: list[int] = []
 
-    def rows(self) -> Iterator[Row]:
-        """Yield the rows that are to be run.
+    def rows(self) -> Iterator[Row | None]:
+        """Yield the rows that are to be run; None as the sampler does.
 
         Raises:
             CampaignError: Hardly any point keeps the constraints.
@@ -86,6 +86,9 @@ class Planner:
         for row in self._sampler.rows():
             if self._samples is not None and self.accepted >= self._samples:
                 return
+            if row is None:
+                yield None
+                continue
             if row.number in self._done:
                 self.accepted += 1
             elif row.number in self._left_out or not self._keeps(row):

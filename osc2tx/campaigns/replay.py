@@ -8,7 +8,8 @@ from pathlib import Path
 
 from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import plan_from
-from osc2tx.campaigns.store import Store, row_of
+from osc2tx.campaigns.records import row_of
+from osc2tx.campaigns.store import Store
 from osc2tx_classes import replace
 from osc2tx_runtime import RunResult
 from osc2tx_runtime.campaigns import Executor

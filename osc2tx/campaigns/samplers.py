@@ -9,7 +9,8 @@ from typing import Any
 
 from osc2tx.campaigns.designs import GridSampler, PairwiseSampler
 from osc2tx.campaigns.errors import CampaignError
-from osc2tx.campaigns.sampling import Sampler, Wanted, row_seed
+from osc2tx.campaigns.sampling import Findings, Sampler, Wanted, row_seed
+from osc2tx.campaigns.search import SearchSampler
 from osc2tx.campaigns.sequences import SequenceSampler
 from osc2tx.campaigns.tables import TableSampler
 from osc2tx_classes import dataclass
@@ -35,7 +36,10 @@ class RandomSampler:
 
 
 def sampler_by_name(
-    wanted: Wanted, columns: Sequence[Column], is_allowed: Callable[[Row], bool]
+    wanted: Wanted,
+    columns: Sequence[Column],
+    is_allowed: Callable[[Row], bool],
+    findings: Findings,
 ) -> Sampler:
     """Return a sampler.
 
@@ -43,6 +47,7 @@ def sampler_by_name(
         wanted: Its name, seed and size.
         columns: The parameters that the scenario draws.
         is_allowed: Whether the values of a row keep the constraints.
+        findings: What a search goes by; grows meanwhile.
 
     Raises:
         CampaignError: There is none of this name, or it cannot do what is wanted.
@@ -52,11 +57,14 @@ def sampler_by_name(
         return RandomSampler(wanted.seed)
     if name == "table" and file:
         return TableSampler.read(file, wanted.seed)
-    if name in ("lhs", "sobol", "halton", "grid", "pairwise") and not columns:
+    option = "--search" if wanted.aim else f"--sampler {name}"
+    if (wanted.aim or name in ("lhs", "sobol", "halton", "grid", "pairwise")) and not columns:
         raise CampaignError(
-            f"--sampler {name}: the scenario draws no values; give a parameter a range, or run it"
+            f"{option}: the scenario draws no values; give a parameter a range, or run it"
             " with other seeds alone (--sampler random)"
         )
+    if wanted.aim:
+        return SearchSampler(columns, wanted.seed, wanted.aim, findings)
     if name in ("lhs", "sobol", "halton"):
         return SequenceSampler(name, columns, wanted)
     if name == "grid":

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Protocol
 
+from osc2tx.campaigns.aims import Aim
+from osc2tx.campaigns.errors import CampaignError
 from osc2tx_classes import dataclass
-from osc2tx_runtime.campaigns import Row
+from osc2tx_runtime.campaigns import Plan, Row, RowResult
 
-__all__ = ["Sampler", "Wanted", "row_seed"]
+__all__ = ["Findings", "Sampler", "Wanted", "row_seed", "wanted_rows"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,12 +23,74 @@ class Wanted:
         seed: Of the campaign.
         samples: How many rows; None for all of a sampler that ends by itself.
         levels: Values of each range in a grid and for pairs.
+        aim: What a search looks for.
     """
 
     name: str
     seed: int = 0
     samples: int | None = None
     levels: int = 5
+    aim: Aim | None = None
+
+    @property
+    def is_endless(self) -> bool:
+        """Whether nothing says how many rows there are."""
+        ends_by_itself = self.name.partition(":")[0] in ("grid", "pairwise", "table")
+        return self.samples is None and not ends_by_itself
+
+    @property
+    def at_once(self) -> int:
+        """How many rows a worker is given at once: one if the choice of the next ones waits."""
+        return 1 if self.aim else 16
+
+
+def wanted_rows(
+    plan: Plan,
+    sampler: str | None,
+    samples: int | None,
+    levels: int,
+    search: str | None = None,
+    search_batch: int = 16,
+) -> Wanted:
+    """Return what a sampler is to do, or a search: `random` where neither is named.
+
+    Raises:
+        CampaignError: Both are, or the search does not say what it looks for.
+        SettingsError: There is no such measure.
+    """
+    if sampler and search:
+        raise CampaignError(
+            f"--sampler {sampler}: a search chooses the rows; leave out one of both"
+        )
+    aim = Aim.parse(search, plan.measures, search_batch) if search else None
+    return Wanted(
+        "search" if aim else sampler or "random", plan.settings.seed, samples, levels, aim
+    )
+
+
+class Findings:
+    """What is known of rows, for who chooses the next ones by it.
+
+    Attributes:
+        measures: Those of rows that were run, by number; kept for a search alone.
+        left_out: Numbers of rows that break a constraint.
+    """
+
+    def __init__(
+        self,
+        measures: Mapping[int, Mapping[str, float | None]] | None = None,
+        left_out: Iterable[int] = (),
+    ) -> None:
+        self.measures = dict(measures or {})
+        self.left_out = set(left_out)
+
+    def hear(self, results: Iterable[RowResult]) -> None:
+        """Note what came of rows."""
+        self.measures.update((each.row.number, each.measures) for each in results)
+
+    def knows(self, number: int) -> bool:
+        """Whether it is known what came of a row."""
+        return number in self.measures or number in self.left_out
 
 
 class Sampler(Protocol):
@@ -40,8 +104,8 @@ class Sampler(Protocol):
     def is_checked(self) -> bool:
         """Whether the values of a row may break a constraint, so that the row is left out."""
 
-    def rows(self) -> Iterator[Row]:
-        """Yield the rows by number, from 0."""
+    def rows(self) -> Iterator[Row | None]:
+        """Yield the rows by number, from 0; None for none before more is known of earlier ones."""
 
 
 def row_seed(seed: int, number: int) -> int:

@@ -9,55 +9,18 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from osc2tx.campaigns.errors import CampaignError
-from osc2tx_runtime.campaigns import Row, RowResult
+from osc2tx.campaigns.records import COLUMNS, OF_THE_MACHINE, SCHEMA, decoded, record
+from osc2tx_runtime.campaigns import RowResult
 
 __all__ = ["Store"]
 
 FORMAT = 1
-
-SCHEMA = """
-create table campaign (name text primary key, value text not null) without rowid;
-create table run (
-    number integer primary key,
-    seed integer not null,
-    shares text,
-    given text not null,
-    parameters text not null,
-    status text not null,
-    reason text not null,
-    source text,
-    steps integer not null,
-    time real not null,
-    measures text not null,
-    digest text,
-    seconds real not null,
-    attempts integer not null
-);
-create table collision (
-    number integer not null, nth integer not null,
-    time real not null, one text not null, other text not null, speed real not null,
-    primary key (number, nth)
-) without rowid;
-create table sample (
-    number integer not null, nth integer not null,
-    kind text not null, line text not null,
-    primary key (number, nth)
-) without rowid;
-create table left_out (number integer primary key);
-"""
-
-# Columns whose values depend on the machine and on what happened to it.
-_OF_THE_MACHINE = ("seconds", "attempts")
-_COLUMNS = (
-    *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
-    *("time", "measures", "digest", "seconds", "attempts"),
-)
 
 
 class Store:
@@ -178,7 +141,7 @@ class Store:
     def add(self, results: Iterable[RowResult], left_out: Iterable[int] = ()) -> None:
         """Store what came of rows, at once."""
         results = list(results)
-        marks = ", ".join("?" * len(_COLUMNS))
+        marks = ", ".join("?" * len(COLUMNS))
         collisions = [
             (each.row.number, nth, *contact)
             for each in results
@@ -192,7 +155,7 @@ class Store:
         base = self._base
         base.execute("begin immediate")
         try:
-            base.executemany(f"insert or ignore into run values ({marks})", map(_record, results))
+            base.executemany(f"insert or ignore into run values ({marks})", map(record, results))
             base.executemany("insert or ignore into collision values (?,?,?,?,?,?)", collisions)
             base.executemany("insert or ignore into sample values (?,?,?,?)", samples)
             base.executemany(
@@ -211,6 +174,11 @@ class Store:
         """Return the numbers of the rows that break a constraint."""
         return {number for (number,) in self._base.execute("select number from left_out")}
 
+    def measures(self) -> dict[int, dict[str, float | None]]:
+        """Return the measures of all rows by number."""
+        query = "select number, measures from run order by number"
+        return {number: json.loads(text) for number, text in self._base.execute(query)}
+
     def counts(self) -> dict[str, int]:
         """Return how many rows ended how."""
         query = "select status, count(*) from run group by status order by status"
@@ -218,8 +186,8 @@ class Store:
 
     def runs(self) -> Iterator[dict[str, Any]]:
         """Yield all rows by number: columns of the table, JSON as what it says."""
-        for values in self._base.execute(f"select {', '.join(_COLUMNS)} from run order by number"):
-            yield _decoded(values)
+        for values in self._base.execute(f"select {', '.join(COLUMNS)} from run order by number"):
+            yield decoded(values)
 
     def run(self, number: int) -> dict[str, Any]:
         """Return a row.
@@ -227,12 +195,12 @@ class Store:
         Raises:
             CampaignError: It was not run.
         """
-        query = f"select {', '.join(_COLUMNS)} from run where number = ?"
+        query = f"select {', '.join(COLUMNS)} from run where number = ?"
         values = self._base.execute(query, (number,)).fetchone()
         if values is None:
             why = "breaks a constraint, so it was left out" if number in self.left_out() else ""
             raise CampaignError(f"{self.path}: row {number} {why or 'was not run'}")
-        return _decoded(values)
+        return decoded(values)
 
     def collisions(self) -> Iterator[tuple[Any, ...]]:
         """Yield the contacts of all rows: number, nth, time (s), both actors, speed (m/s)."""
@@ -247,7 +215,7 @@ class Store:
 
     def digest(self) -> str:
         """Return the SHA-256 of all that was found, without what depends on the machine."""
-        kept = [name for name in _COLUMNS if name not in _OF_THE_MACHINE]
+        kept = [name for name in COLUMNS if name not in OF_THE_MACHINE]
         digest = hashlib.sha256()
         for query in (
             f"select {', '.join(kept)} from run order by number",
@@ -258,38 +226,6 @@ class Store:
             for values in self._base.execute(query):
                 digest.update(repr(values).encode())
         return digest.hexdigest()
-
-
-def row_of(run: Mapping[str, Any]) -> Row:
-    """Return the row that a record is of."""
-    return Row(run["number"], run["seed"], run["shares"], run["given"])
-
-
-def _record(result: RowResult) -> Sequence[Any]:
-    row = result.row
-    return (
-        row.number,
-        row.seed,
-        None if row.shares is None else json.dumps(dict(row.shares)),
-        json.dumps(dict(row.set)),
-        json.dumps(dict(result.values), default=str),
-        result.status,
-        result.reason,
-        result.source,
-        result.steps,
-        result.time,
-        json.dumps(dict(result.measures)),
-        result.digest,
-        result.seconds,
-        result.attempts,
-    )
-
-
-def _decoded(values: Sequence[Any]) -> dict[str, Any]:
-    found = dict(zip(_COLUMNS, values, strict=True))
-    for name in ("shares", "given", "parameters", "measures"):
-        found[name] = None if found[name] is None else json.loads(found[name])
-    return found
 
 
 def _differences(known: Mapping[str, Any], given: Mapping[str, Any]) -> Iterator[str]:

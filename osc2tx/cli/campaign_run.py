@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import click
@@ -11,12 +11,14 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.workers import processors
 from osc2tx.campaigns import CampaignError
-from osc2tx.campaigns.cluster import DaskEngine
+from osc2tx.campaigns.aims import Aim
 from osc2tx.campaigns.driver import Progress, run_campaign
-from osc2tx.campaigns.engine import Engine, LocalEngine
+from osc2tx.campaigns.engine import Engine
+from osc2tx.campaigns.engines import engine_by_name
 from osc2tx.campaigns.samplers import SAMPLERS
-from osc2tx.campaigns.sampling import Wanted
+from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
+from osc2tx.cli.campaign_progress import progress_bar
 from osc2tx.cli.module_loading import module_files, written_files
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
@@ -31,13 +33,12 @@ from osc2tx.cli.run import (
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
+from osc2tx_classes import replace
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.kpis import MEASURES
-from osc2tx_text import complain, is_watched, visible
-
-OnProgress = Callable[[Progress], None]
+from osc2tx_text import complain
 
 
 class CampaignCommand(RunCommand):
@@ -78,8 +79,20 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
 @click.option(
     "--sampler",
     metavar="|".join(SAMPLERS),
-    default="random",
     help="Which values rows have.  [default: random]",
+)
+@click.option(
+    "--search",
+    metavar="KPI",
+    help="Choose rows by what came of others: look for the worst value of a KPI; `min:KPI` or"
+    " `max:KPI` says which that is.",
+)
+@click.option(
+    "--search-batch",
+    metavar="N",
+    type=click.IntRange(min=1),
+    default=16,
+    help="How many rows a search chooses together.  [default: 16]",
 )
 @click.option(
     "--levels",
@@ -111,8 +124,7 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
     "--batch",
     metavar="N",
     type=click.IntRange(min=1),
-    default=16,
-    help="How many rows a process is given at once.  [default: 16]",
+    help="How many rows a process is given at once.  [default: 16, 1 in a search]",
 )
 @click.option(
     "--timeout",
@@ -140,12 +152,14 @@ def run(
     file: str,
     scenario: str | None,
     samples: int | None,
-    sampler: str,
+    sampler: str | None,
+    search: str | None,
+    search_batch: int,
     levels: int,
     place: Path | None,
     engine: str,
     workers: int | None,
-    batch: int,
+    batch: int | None,
     timeout: float | None,
     kpis: tuple[str, ...],
     fail_if: tuple[str, ...],
@@ -159,7 +173,8 @@ def run(
     Rows that are in the store are not run again: after Ctrl-C, or whatever ended it, the same
     command goes on. Samplers: `random` draws as `osc2tx run` does; `sobol` and `halton` fill the
     space evenly and go on for ever, `lhs` for a number of rows; `grid` has all combinations of a
-    few values, `pairwise` all pairs; `table:FILE` the rows of a CSV file.
+    few values, `pairwise` all pairs; `table:FILE` the rows of a CSV file. With `--search` there is
+    no sampler: rows are chosen where others came near to the worst value.
     """
     path = Path(file)
     if path.is_dir():
@@ -178,9 +193,10 @@ def run(
     files, module, name = found
     measures = tuple(MEASURES) if not kpis else tuple(each for each in kpis if each != "none")
     plan = Plan(files, module, name, settings, measures, conditions, digests)
-    wanted = Wanted(sampler, settings.seed, samples, levels)
-    runs_rows = _engine(engine, workers, batch, timeout)
     try:
+        wanted = wanted_rows(plan, sampler, samples, levels, search, search_batch)
+        at_once = batch or wanted.at_once
+        runs_rows = engine_by_name(engine, at_once, processors(), workers, timeout)
         return _run(plan, texts, wanted, place or Path(f"{name}.campaign"), runs_rows, reporter)
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
@@ -189,29 +205,13 @@ def run(
         return Exit(error.exit_code)
 
 
-def _engine(name: str, workers: int | None, batch: int, timeout: float | None) -> Engine:
-    if name == "local":
-        return LocalEngine(workers or processors(), batch, timeout)
-    scheme, _, address = name.partition("://")
-    host, _, port = address.rpartition(":")
-    if scheme != "dask" or not host or not port.isdecimal():
-        raise click.UsageError(f"--engine {name}: there is local and dask://HOST:PORT")
-    for option, value in (("--workers", workers), ("--timeout", timeout)):
-        if value is not None:
-            raise click.UsageError(
-                f"{option} is for --engine local: a cluster has its own workers, and a row there"
-                " cannot be ended from here"
-            )
-    return DaskEngine(address, batch)
-
-
 def _run(
     plan: Plan, texts: Texts, wanted: Wanted, place: Path, engine: Engine, reporter: Reporter
 ) -> Exit:
     with Store(place, is_new=True) as store:
         wanted = _with_samples(wanted, store)
         try:
-            with _progress_bar(plan.scenario) as show:
+            with progress_bar(plan.scenario) as show:
                 ended = run_campaign(plan, texts, wanted, store, engine, show)
         except KeyboardInterrupt:
             done = sum(store.counts().values())
@@ -220,21 +220,17 @@ def _run(
                 " command goes on"
             )
             return Exit.INTERRUPTED
-        for line in summary(plan.scenario, store, ended):
+        for line in summary(plan.scenario, store, ended, wanted.aim):
             reporter.say(line)
         return Exit.FAILED if ended.failed else Exit.OK
 
 
 def _with_samples(wanted: Wanted, store: Store) -> Wanted:
     """Take the number of rows from the store where the command line has none, and note it."""
-    samples = wanted.samples or store.wanted
-    ends_by_itself = wanted.name.partition(":")[0] in ("grid", "pairwise", "table")
-    if samples is None and not ends_by_itself:
-        raise CampaignError("say how many rows there are to be: --samples 1000")
-    return Wanted(wanted.name, wanted.seed, samples, wanted.levels)
+    return replace(wanted, samples=wanted.samples or store.wanted)
 
 
-def summary(name: str, store: Store, ended: Progress) -> Iterator[str]:
+def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterator[str]:
     """Yield the lines that say what is in a store."""
     counts = ", ".join(f"{number} {status}" for status, number in store.counts().items())
     yield f"{name}: {count_of(ended.done, 'row')} in {store.path}, {ended.new} new: {counts}"
@@ -244,6 +240,9 @@ def summary(name: str, store: Store, ended: Progress) -> Iterator[str]:
             f"  {count_of(ended.left_out, 'point')} of the sampler break a constraint and were left"
             f" out: {share:.1%} were accepted"
         )
+    best = aim and aim.best(store.measures())
+    if aim and best:
+        yield f"  {aim.kpi}: {best[1]:.6g} in row {best[0]} is the {aim.in_words} of all"
 
 
 def _files_of(
@@ -268,28 +267,3 @@ def _files_of(
         raise InputError(f"{path}: {error.message}") from error
     finally:
         loaded.close()
-
-
-@contextmanager
-def _progress_bar(name: str) -> Iterator[OnProgress]:
-    """Yield what shows progress: rate, failures, remaining time; nothing beside a terminal."""
-    if not is_watched():
-        yield lambda progress: None
-        return
-    from rich import progress as bars
-    from rich.console import Console
-
-    columns = (
-        bars.TextColumn("{task.description}", markup=False),
-        bars.BarColumn(),
-        bars.TextColumn("{task.completed:.0f} of {task.total}, {task.fields[failed]} failed"),
-        bars.TextColumn("{task.speed} rows/s"),
-        bars.TimeRemainingColumn(),
-    )
-    with bars.Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(visible(name), total=None, failed=0)
-
-        def show(progress: Progress) -> None:
-            bar.update(task, completed=progress.done, total=progress.wanted, failed=progress.failed)
-
-        yield show

@@ -8,7 +8,8 @@ from pathlib import Path
 import click
 
 from osc2tx.cli.options import compile_options, target_options
-from osc2tx.config import ConfigFiles, GivenOptions, Origin
+from osc2tx.cli.places import seen_from
+from osc2tx.config import ConfigFiles, GivenOptions, InForce, Origin
 from osc2tx.support.real_paths import real_path
 from osc2tx_text import in_json, say
 
@@ -22,7 +23,7 @@ def config(path: Path, given: GivenOptions) -> None:
     configs = ConfigFiles()
     found = configs.for_folder(path) if path.is_dir() else configs.for_source(path)
     rows = [
-        (f"{entry.name} = {_json(entry.value)}", _shown(entry.origin))
+        (f"{entry.name} = {_json(_value(entry))}", _place(entry.origin))
         for entry in found.settings_in_force(None if path.is_dir() else path, given)
     ]
     width = max(len(setting) for setting, _ in rows)
@@ -34,10 +35,20 @@ def _json(value: object) -> str:
     return in_json(json.dumps(value, ensure_ascii=False))
 
 
-def _shown(origin: Origin) -> str:
+def _value(entry: InForce) -> object:
+    if not entry.is_path or isinstance(entry.value, bool):
+        return entry.value
+    if isinstance(entry.value, str):
+        return _path(Path(entry.value))
+    return [_path(Path(value)) for value in entry.value]
+
+
+def _place(origin: Origin) -> str:
     if origin.path is None:
         return origin.place
-    path = real_path(origin.path)
-    here = Path.cwd()
-    name = path.relative_to(here).as_posix() if path.is_relative_to(here) else str(path)
+    name = _path(real_path(origin.path))
     return f"{name}, [{origin.place}]" if origin.place else name
+
+
+def _path(path: Path) -> str:
+    return seen_from(path, Path.cwd()).as_posix()

@@ -7,7 +7,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from osc2tx.config.settings import COMPILE_SETTINGS
+from osc2tx.config.settings import COMPILE_SETTINGS, RUN_SETTINGS
 from osc2tx.options import ONLY_VERSIONS, CompileOptions, XmlOptions
 from osc2tx_classes import dataclass
 
@@ -89,6 +89,9 @@ class ScenarioConfig:
     campaign: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
+_RUN_PATHS = {setting.key for setting in RUN_SETTINGS if setting.is_path}
+
+
 @dataclass(frozen=True, slots=True)
 class Origin:
     """Where a setting is from: a table of a file, or without file the command line or a default."""
@@ -99,11 +102,12 @@ class Origin:
 
 @dataclass(frozen=True, slots=True)
 class InForce:
-    """A setting that counts, as one would write it, and where it is from."""
+    """A setting that counts, as one would write it, and where it is from; paths are whole."""
 
     name: str
     value: str | bool | Sequence[str]
     origin: Origin
+    is_path: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,14 +166,16 @@ class Config:
             stated = ((getattr(layer, setting.key), origin) for layer, origin in layers)
             default = (setting.default, Origin("default"))
             value, origin = next((pair for pair in stated if pair[0] is not None), default)
-            yield InForce(setting.key, value, origin)
+            yield InForce(setting.key, value, origin, setting.is_path)
         if self.sources:
-            yield InForce("sources", [str(path) for path in self.sources], self._origin(""))
+            sources = [str(path) for path in self.sources]
+            yield InForce("sources", sources, self._origin(""), is_path=True)
         if self.out is not None:
-            yield InForce("out", str(self.out), self._origin(""))
+            yield InForce("out", str(self.out), self._origin(""), is_path=True)
         for part, texts_of in (("run", table.run), ("campaign", table.campaign)):
             for key, texts in texts_of.items():
-                yield InForce(f"{part}.{key}", list(texts), self._origin(f"{section}.{part}"))
+                origin, is_path = self._origin(f"{section}.{part}"), key in _RUN_PATHS
+                yield InForce(f"{part}.{key}", list(texts), origin, is_path)
 
     def _origin(self, table: str) -> Origin:
         return Origin(".".join(part for part in (self.prefix, table) if part), self.path)

@@ -85,7 +85,10 @@ class LexicalErrors:
             match = patterns.LINE_REST.match(self._text, start)
             end = match.end() if match else len(self._text)
             message = "a comment starts with `#`, not with `//`"
-            self._report("OSC111", start, start + 2, message)
+            before = self._text[self._text.rfind("\n", 0, start) + 1 : start].rstrip()
+            is_operator = before[-1:].isalnum() or before.endswith((")", "]", "_"))
+            help_ = "to divide write `/`: of whole numbers it is whole" if is_operator else None
+            self._report("OSC111", start, start + 2, message, help_)
             return end
         close = self._text.find("*/", start + 2)
         if close < 0:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator
 from contextlib import closing
 from functools import cache
-from itertools import islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from osc2tx.backends.py_trees.emitter import draft
 from osc2tx.campaigns.driver import Progress, run_campaign
-from osc2tx.campaigns.engine import Engine
+from osc2tx.campaigns.engine import Engine, take
 from osc2tx.campaigns.sampling import Wanted
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime import RunSettings
@@ -68,10 +67,10 @@ class Here:
     def __init__(self, batch: int = 1) -> None:
         self._batch = batch
 
-    def run(self, plan: Plan, rows: Iterator[Row]) -> Generator[list[RowResult], None, None]:
+    def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
         with closing(Executor(plan)) as executor:
             while True:
-                taken = list(islice(rows, self._batch))
+                taken = take(rows, self._batch)
                 if not taken:
                     return
                 yield [executor.run(row) for row in reversed(taken)]
@@ -81,8 +80,12 @@ def run(
     plan: Plan, place: Path, sampler: str, samples: int | None, engine: Engine, seed: int = 0
 ) -> Progress:
     """Run a campaign, or go on with it."""
+    return run_wanted(plan, place, Wanted(sampler, seed, samples), engine)
+
+
+def run_wanted(plan: Plan, place: Path, wanted: Wanted, engine: Engine) -> Progress:
     with Store(place, is_new=True) as store:
-        return run_campaign(plan, {}, Wanted(sampler, seed, samples), store, engine)
+        return run_campaign(plan, {}, wanted, store, engine)
 
 
 def parameters(place: Path) -> dict[int, dict[str, object]]:

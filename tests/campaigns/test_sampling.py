@@ -13,7 +13,7 @@ from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.designs import levels_of
 from osc2tx.campaigns.driver import make_sampler
 from osc2tx.campaigns.planner import Planner, columns_of
-from osc2tx.campaigns.sampling import Wanted, row_seed
+from osc2tx.campaigns.sampling import Findings, Wanted, row_seed
 from osc2tx_runtime import RunSettings, run_scenario
 from osc2tx_runtime.campaigns import Executor, Modules, Point
 from osc2tx_runtime.campaigns.points import Column
@@ -23,7 +23,7 @@ from tests.campaigns.kit import DRIVES, MIXED, TRIANGLE, Here, parameters, plan_
 def values(text: str, sampler: str, samples: int | None, seed: int = 0) -> dict[int, dict]:
     """Return what the rows of a sampler have, without running them."""
     with closing(Executor(plan_of(text))) as executor:
-        made = make_sampler(executor, Wanted(sampler, seed, samples))
+        made = make_sampler(executor, Wanted(sampler, seed, samples), Findings())
         planner = Planner(executor, made, samples, (), set())
         return {row.number: executor.values_of(row)[0] for row in planner.rows()}
 
@@ -122,6 +122,7 @@ def test_values_of_a_table_have_units(tmp_path: Path) -> None:
     ("sampler", "samples", "message"),
     [
         ("lhs", None, "say how many rows"),
+        ("random", None, "say how many rows"),
         ("soboll", 5, "there is random, lhs, sobol"),
         ("table:nowhere.csv", None, "cannot be read"),
     ],
@@ -169,7 +170,7 @@ def test_setting_the_values_of_a_row_gives_the_same_run() -> None:
     modules = Modules(plan.files)
     scenario = modules.load(plan.module)["mixed"]
     with closing(Executor(plan)) as executor:
-        for row in islice(make_sampler(executor, Wanted("halton")).rows(), 5):
+        for row in make_sampler(executor, Wanted("lhs", samples=5), Findings()).rows():
             drawn, _ = executor.values_of(row)
             told = {n: str(v).lower() if isinstance(v, bool) else v for n, v in drawn.items()}
             by_values = run_scenario(scenario, RunSettings(seed=row.seed, set=told))

@@ -74,6 +74,7 @@ def test_a_division_may_stand_before_its_guard(drawn: Drawn) -> None:
     [
         ("    x: float = 1.0 / 0.0\n", 6, "`1.0 / 0.0` cannot be computed: float division"),
         ("    n: int = 0\n    x: int = 7 % n\n", 7, "`7 % n` cannot be computed: integer modulo"),
+        ("    n: int = 0\n    x: int = 7 / n\n", 7, "`7 / n` cannot be computed: integer div"),
     ],
 )
 def test_a_value_without_result_is_said_with_its_line(

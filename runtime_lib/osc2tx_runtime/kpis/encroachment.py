@@ -25,6 +25,7 @@ class MinEncroachment:
     """
 
     name = "min_pet"
+    worst = "min"
 
     def __init__(self) -> None:
         self._ways: dict[str, list[tuple[float, ...]]] = {}

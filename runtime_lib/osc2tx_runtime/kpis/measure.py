@@ -51,7 +51,11 @@ class Scene(NamedTuple):
 
 
 class Measure(Protocol):
-    """Looks at the steps of one run; made anew for each. All values have SI units."""
+    """Looks at the steps of one run; made anew for each. All values have SI units.
+
+    Its class may have an attribute `worst`, `min` or `max`: whether the least or the greatest value
+    is the worst one, which a search looks for.
+    """
 
     def observe(self, scene: Scene) -> None:
         """Look at a step, the first one included."""

@@ -16,6 +16,7 @@ class _Greatest:
     """The greatest value of all actors and steps, and of each actor."""
 
     name = ""
+    worst = "max"
 
     def __init__(self) -> None:
         self._before: dict[str, ActorState] = {}

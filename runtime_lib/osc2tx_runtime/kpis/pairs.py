@@ -22,6 +22,7 @@ class _Least:
     """The least value of all pairs and steps, and of each pair."""
 
     name = ""
+    worst = "min"
 
     def __init__(self) -> None:
         self._least: dict[tuple[str, str], float] = {}

@@ -21,6 +21,7 @@ class Collisions:
     """
 
     name = "collisions"
+    worst = "max"
 
     def __init__(self) -> None:
         self._before: Mapping[str, Moving] = {}
@@ -50,6 +51,7 @@ class OffRoad:
     """Time that vehicles spent off all driving lanes (s), the longest of all and that of each."""
 
     name = "off_road"
+    worst = "max"
 
     def __init__(self) -> None:
         self._seconds: dict[str, float] = {}
@@ -80,6 +82,7 @@ class RedLights:
     """How often a vehicle passed the line of a light that said stop."""
 
     name = "red_lights"
+    worst = "max"
 
     def __init__(self) -> None:
         self._criteria: Criteria | None = None

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from osc2tx_classes import dataclass
 from osc2tx_runtime.language.base_action import BaseAction
-from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Wait
+from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Until, Wait
 from osc2tx_runtime.language.tree.compositions import Composition
 from osc2tx_runtime.language.tree.events import describe
 
@@ -64,7 +64,13 @@ def _kind(node: Behaviour) -> str:
 
 
 def _label(node: Behaviour) -> str:
-    return "" if isinstance(node, Composition) else getattr(node, "label", None) or ""
+    """The label that stands before it in the scenario; `until` has taken it over."""
+    if isinstance(node, (Composition, Until)):
+        return ""
+    label, above = getattr(node, "label", None), node.parent
+    while label is None and isinstance(above, Until):
+        label, above = above.label, above.parent
+    return label or ""
 
 
 def _text(node: Behaviour) -> str:

@@ -11,7 +11,7 @@ import pytest
 
 from osc2tx_runtime.domain.objects.parts import HitchReceiver
 from osc2tx_runtime.language.trace import TraceWriter, number, to_json
-from osc2tx_runtime.language.tree import Emit, Parallel, Serial, Wait, elapsed
+from osc2tx_runtime.language.tree import Emit, Parallel, Serial, Until, Wait, elapsed
 from osc2tx_runtime.world.velocities import OrientationRate, Velocity
 from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
 
@@ -83,6 +83,18 @@ def test_labels_in_the_tree_are_those_of_the_scenario() -> None:
         ("evade: hero task", "evade"),
         ("pause: elapsed 0.1 s", "pause"),
         ("elapsed 0.1 s", None),
+    ]
+
+
+def test_what_is_done_until_something_has_the_label_that_until_takes_over() -> None:
+    done = Until(Until(Task(HERO, 3, label="go"), elapsed(9.0)), elapsed(0.1))
+    lines = [json.loads(line) for line in Run(Serial("whole", done)).go().lines]
+    (nodes,) = (line["nodes"] for line in lines if line["kind"] == "tree")
+    assert [(node["text"], node.get("label")) for node in nodes] == [
+        ("whole", None),
+        ("elapsed 0.1 s", None),
+        ("elapsed 9 s", None),
+        ("go: hero task", "go"),
     ]
 
 

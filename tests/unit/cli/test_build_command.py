@@ -186,6 +186,24 @@ def test_config(shell: Shell) -> None:
     assert shell("config").out.splitlines()[1] == 'dialect = "asam"         # default'
 
 
+def test_config_has_paths_as_one_would_write_them(shell: Shell, tmp_path: Path) -> None:
+    shell.write(
+        "osc2tx.toml",
+        f'sources = ["in"]\nout = "made"\nimport_paths = ["lib", "{tmp_path.parent}/far"]\n'
+        '[scenarios.a.run]\nmap-path = ["maps"]\n',
+    )
+    shell.drive("in/a.osc")
+    shown = [
+        line.partition("  #")[0].rstrip() for line in shell("config", "in/a.osc").out.splitlines()
+    ]
+    assert shown[-4:] == [
+        f'import_paths = ["lib", "{tmp_path.parent}/far"]',
+        'sources = ["in"]',
+        'out = "made"',
+        'run.map-path = ["maps"]',
+    ]
+
+
 # --- usage ---
 
 

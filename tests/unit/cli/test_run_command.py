@@ -179,3 +179,10 @@ def test_the_scenarios_of_a_file_are_offered(shell: Shell) -> None:
     found = complete.get_completions(["run", str(source), "--scenario"], "t")
     assert [each.value for each in found] == ["two"]
     assert complete.get_completions(["run", "nowhere.osc", "--scenario"], "") == []
+
+
+def test_a_scenario_that_says_it_failed_says_where(shell: Shell) -> None:
+    text = "import osc.standard\n\nscenario vehicle.inner:\n  do serial:\n    emit fail\n\n"
+    shell.write("a.osc", f"{text}scenario top:\n  ego: vehicle\n  do serial:\n    ego.inner()\n")
+    ended = shell("run", "a.osc")
+    assert ended.out.startswith("a.osc:5:5: error[OSC809]: top: failure after 0.00 s: inner")

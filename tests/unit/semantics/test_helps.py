@@ -60,6 +60,7 @@ FIELD = {
     "two equal signs": ("a: int == 3", "OSC100", "a type name", "int = 3"),
     "choice as in Python": ("a: int = 3 if true else 4", "OSC100", "`if`", "condition ? a : b"),
     "power": ("a: int = 2 ** 3", "OSC100", "no operator `**`", "multiply"),
+    "division as in Python": ("a: int = 3 // 2", "OSC111", "a comment starts", "write `/`"),
     "hat": ("a: int = 2 ^ 3", "OSC102", "`^`", "multiply"),
     "percent": ("a: float = 50%", "OSC100", "remainder", "0.5"),
     "kilometres an hour": ("a: speed = 72km/h", "OSC201", "`h`", "`72kph`"),

@@ -52,6 +52,9 @@ class Ending(Node, Decorator):
     Args:
         behavior: The tree.
         ends: The nodes in it that end the scenario.
+
+    Attributes:
+        failed_by: The one of them that ended it with a failure.
     """
 
     synthetic = True
@@ -59,6 +62,7 @@ class Ending(Node, Decorator):
     def __init__(self, behavior: Behaviour, ends: Sequence[End]) -> None:
         super().__init__(name=behavior.name, child=behavior)
         self._ends = sorted(ends, key=lambda end: end.name)
+        self.failed_by: Fail | None = None
 
     def setup(self, **kwargs: object) -> None:
         """Take the context; find out how to tick the tree."""
@@ -84,6 +88,7 @@ class Ending(Node, Decorator):
             self.context.request_settling()  # what still happens at this instant belongs to it
             return RUNNING
         if status is not FAILURE and failed:
+            self.failed_by = failed[0]
             status = self.fail(f"{failed[0].name} ({failed[0].source})")
         elif status is not FAILURE and reached:
             status = SUCCESS

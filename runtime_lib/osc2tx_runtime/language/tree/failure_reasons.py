@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, Behaviour, Node, place_key
+from osc2tx_runtime.language.tree.ending import Ending
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -28,7 +29,9 @@ def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
 
 def failure_place(root: Behaviour) -> str:
     """Return the place of what failed first; empty where it has none."""
-    return source_of(culprits(root)[0])
+    first = culprits(root)[0]
+    says_so = first.failed_by if isinstance(first, Ending) else None
+    return source_of(says_so or first)
 
 
 def culprits(root: Behaviour) -> list[Behaviour]:

@@ -110,6 +110,7 @@ def _condense(lines: list[str]) -> str:
     kept = (line.strip() for line in lines if not line.lstrip().startswith("#"))
     joined = re.sub(r"\s+", " ", " ".join(kept))
     joined = re.sub(r"(?<=[(\[]) |,? (?=[)\]])", "", joined)
+    joined = joined.replace(" // ", " / ")  # of whole numbers: the scenario has one division
     return re.sub(r"\bself\.|\blambda: ", "", joined)
 
 

@@ -1,0 +1,83 @@
+"""The tables of a store, and rows as records of them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from osc2tx_runtime.campaigns import Row, RowResult
+
+__all__ = ["COLUMNS", "OF_THE_MACHINE", "SCHEMA", "decoded", "record", "row_of"]
+
+SCHEMA = """
+create table campaign (name text primary key, value text not null) without rowid;
+create table run (
+    number integer primary key,
+    seed integer not null,
+    shares text,
+    given text not null,
+    parameters text not null,
+    status text not null,
+    reason text not null,
+    source text,
+    steps integer not null,
+    time real not null,
+    measures text not null,
+    digest text,
+    seconds real not null,
+    attempts integer not null
+);
+create table collision (
+    number integer not null, nth integer not null,
+    time real not null, one text not null, other text not null, speed real not null,
+    primary key (number, nth)
+) without rowid;
+create table sample (
+    number integer not null, nth integer not null,
+    kind text not null, line text not null,
+    primary key (number, nth)
+) without rowid;
+create table left_out (number integer primary key);
+"""
+
+# Columns whose values depend on the machine and on what happened to it.
+OF_THE_MACHINE = ("seconds", "attempts")
+COLUMNS = (
+    *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
+    *("time", "measures", "digest", "seconds", "attempts"),
+)
+
+
+def row_of(run: Mapping[str, Any]) -> Row:
+    """Return the row that a record is of."""
+    return Row(run["number"], run["seed"], run["shares"], run["given"])
+
+
+def record(result: RowResult) -> Sequence[Any]:
+    """Return what came of a row as a record of the table `run`."""
+    row = result.row
+    return (
+        row.number,
+        row.seed,
+        None if row.shares is None else json.dumps(dict(row.shares)),
+        json.dumps(dict(row.set)),
+        json.dumps(dict(result.values), default=str),
+        result.status,
+        result.reason,
+        result.source,
+        result.steps,
+        result.time,
+        json.dumps(dict(result.measures)),
+        result.digest,
+        result.seconds,
+        result.attempts,
+    )
+
+
+def decoded(values: Sequence[Any]) -> dict[str, Any]:
+    """Return a record by column, JSON as what it says."""
+    found = dict(zip(COLUMNS, values, strict=True))
+    for name in ("shares", "given", "parameters", "measures"):
+        found[name] = None if found[name] is None else json.loads(found[name])
+    return found
