@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import shlex
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_classes import dataclass
 
 if TYPE_CHECKING:
-    import pytest
-
     from osc2tx.campaigns.coverage import Item
-    from osc2tx_runtime.campaigns import Executor, Plan, Row, RowResult
+    from osc2tx_runtime.campaigns import Plan, RowResult
 
-__all__ = ["Campaign", "CampaignRow", "MarkedRows", "run_campaign"]
+__all__ = ["Campaign", "CampaignRow", "plan_of", "row_of", "run_campaign"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,10 +94,13 @@ def run_campaign(
     path: str | Path,
     *,
     samples: int | None = None,
-    sampler: str = "random",
+    sampler: str | None = None,
     scenario: str | None = None,
+    search: str | None = None,
+    search_batch: int = 16,
     levels: int = 5,
-    workers: int = 1,
+    engine: str = "local",
+    workers: int | None = None,
     kpi: Sequence[str] | None = None,
     fail_if: Sequence[str] = (),
     store: str | Path | None = None,
@@ -110,10 +111,13 @@ def run_campaign(
     Args:
         path: The file; settings of `osc2tx.toml` count as for `osc2tx run`.
         samples: How many rows; `grid`, `pairwise` and `table:FILE` end by themselves.
-        sampler: Which values rows have.
+        sampler: Which values rows have; `random` without, and without a search.
+        search: The KPI whose worst value is looked for.
+        search_batch: How many rows a search chooses together.
         scenario: Which one of the file.
         levels: Values of a range for grid and pairwise.
-        workers: How many processes run rows.
+        engine: Where rows are run: `local`, or `dask://HOST:PORT`.
+        workers: How many processes run rows; one without. A cluster has its own.
         kpi: What is measured; all of osc2tx without.
         fail_if: What else makes a row fail, `min_ttc<1.5`.
         store: Where results are kept, and perhaps are already; nowhere without.
@@ -125,18 +129,19 @@ def run_campaign(
         ScenarioError: The scenario cannot have any values.
     """
     from osc2tx.campaigns.driver import run_campaign as run
-    from osc2tx.campaigns.engine import LocalEngine
-    from osc2tx.campaigns.sampling import Wanted
+    from osc2tx.campaigns.engines import engine_by_name
+    from osc2tx.campaigns.sampling import wanted_rows
     from osc2tx.campaigns.store import Store
     from osc2tx.campaigns.summary import results_of
 
     path = Path(path)
     plan, texts = plan_of(path, scenario, kpi, fail_if, options)
+    wanted = wanted_rows(plan, sampler, samples, levels, search, search_batch)
+    runs_rows = engine_by_name(engine, wanted.at_once, 1, workers)
     with tempfile.TemporaryDirectory(prefix="osc2tx-campaign-") as folder:
         place = Path(store or Path(folder, "rows.campaign"))
         with Store(place, is_new=True) as opened:
-            wanted = Wanted(sampler, plan.settings.seed, samples, levels)
-            run(plan, texts, wanted, opened, LocalEngine(workers))
+            run(plan, texts, wanted, opened, runs_rows)
             found = results_of(opened)
             rows = tuple(
                 CampaignRow(
@@ -224,77 +229,8 @@ def repeat_command(
     return " ".join(filter(None, (start, f"--seed {seed}", others, given)))
 
 
-class MarkedRows:
-    """The rows of tests that are marked with a campaign; what was compiled last is kept."""
-
-    def __init__(self) -> None:
-        self._key: object = None
-        self._path = Path()
-        self._options: Mapping[str, Any] = {}
-        self._plan: Plan | None = None
-        self._executor: Executor | None = None
-        self._rows: list[Row] = []
-        self._source: Iterator[Row] = iter(())
-
-    def close(self) -> None:
-        """Forget what was compiled."""
-        if self._executor is not None:
-            self._executor.close()
-        self._key = self._executor = None
-
-    def indices(self, mark: pytest.Mark) -> range:
-        """Return one index for each row; compiles only if the mark does not say how many."""
-        samples = mark.kwargs.get("samples")
-        if samples is not None:
-            return range(samples)
-        self._open(mark)
-        self._rows += self._source
-        return range(len(self._rows))
-
-    def run(self, mark: pytest.Mark, index: int) -> CampaignRow:
-        """Run the row with an index among those that keep the constraints.
-
-        Raises:
-            CampaignError: There are not so many.
-        """
-        from osc2tx.campaigns import CampaignError
-
-        self._open(mark)
-        assert self._executor is not None and self._plan is not None, "it is open"
-        while len(self._rows) <= index:
-            row = next(self._source, None)
-            if row is None:
-                raise CampaignError(f"the sampler has {len(self._rows)} rows only: give samples=")
-            self._rows.append(row)
-        result = self._executor.run(self._rows[index])
-        return _row(self._path, self._plan, result, self._options)
-
-    def _open(self, mark: pytest.Mark) -> None:
-        from osc2tx.campaigns.driver import make_sampler
-        from osc2tx.campaigns.planner import Planner
-        from osc2tx.campaigns.sampling import Findings, Wanted
-        from osc2tx_runtime.campaigns import Executor
-
-        key = mark.args, repr(sorted(mark.kwargs.items()))
-        if key == self._key:
-            return
-        self.close()
-        options = dict(mark.kwargs)
-        (path,) = mark.args
-        scenario, kpi = options.pop("scenario", None), options.pop("kpi", None)
-        fail_if, sampler = options.pop("fail_if", ()), options.pop("sampler", "random")
-        samples, levels = options.pop("samples", None), options.pop("levels", 5)
-        self._path, self._options = Path(path), options
-        self._plan, _ = plan_of(self._path, scenario, kpi, fail_if, options)
-        self._executor = Executor(self._plan)
-        wanted = Wanted(sampler, self._plan.settings.seed, samples, levels)
-        chosen = make_sampler(self._executor, wanted, Findings())
-        planned = Planner(self._executor, chosen, samples, (), set()).rows()
-        self._source = filter(None, planned)  # no search, which alone has rows to wait for
-        self._rows, self._key = [], key
-
-
-def _row(path: Path, plan: Plan, result: RowResult, options: Mapping[str, Any]) -> CampaignRow:
+def row_of(path: Path, plan: Plan, result: RowResult, options: Mapping[str, Any]) -> CampaignRow:
+    """Return what came of a row, for a test."""
     return CampaignRow(
         number=result.row.number,
         status=result.status,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from osc2tx.testing_campaigns import MarkedRows
+from osc2tx.testing_marks import MarkedRows
 
 if TYPE_CHECKING:
     from osc2tx.testing_campaigns import CampaignRow

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from contextlib import closing
 
 from osc2tx.campaigns.engine import Engine
+from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import Texts, identity_of, plan_to
 from osc2tx.campaigns.planner import Planner, columns_of, is_allowed
 from osc2tx.campaigns.samplers import sampler_by_name
@@ -98,7 +99,13 @@ def run_campaign(
 
 
 def make_sampler(executor: Executor, wanted: Wanted, findings: Findings) -> Sampler:
-    """Return the sampler of a campaign."""
+    """Return the sampler of a campaign.
+
+    Raises:
+        CampaignError: Nothing says how many rows there are to be, or they cannot be chosen.
+    """
+    if wanted.is_endless:
+        raise CampaignError("say how many rows there are to be: --samples 1000")
 
     def allows(row: Row) -> bool:
         return is_allowed(executor, row)

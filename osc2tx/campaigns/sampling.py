@@ -7,10 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Protocol
 
 from osc2tx.campaigns.aims import Aim
+from osc2tx.campaigns.errors import CampaignError
 from osc2tx_classes import dataclass
-from osc2tx_runtime.campaigns import Row, RowResult
+from osc2tx_runtime.campaigns import Plan, Row, RowResult
 
-__all__ = ["Sampler", "Wanted", "row_seed"]
+__all__ = ["Findings", "Sampler", "Wanted", "row_seed", "wanted_rows"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,41 @@ class Wanted:
     samples: int | None = None
     levels: int = 5
     aim: Aim | None = None
+
+    @property
+    def is_endless(self) -> bool:
+        """Whether nothing says how many rows there are."""
+        ends_by_itself = self.name.partition(":")[0] in ("grid", "pairwise", "table")
+        return self.samples is None and not ends_by_itself
+
+    @property
+    def at_once(self) -> int:
+        """How many rows a worker is given at once: one if the choice of the next ones waits."""
+        return 1 if self.aim else 16
+
+
+def wanted_rows(
+    plan: Plan,
+    sampler: str | None,
+    samples: int | None,
+    levels: int,
+    search: str | None = None,
+    search_batch: int = 16,
+) -> Wanted:
+    """Return what a sampler is to do, or a search: `random` where neither is named.
+
+    Raises:
+        CampaignError: Both are, or the search does not say what it looks for.
+        SettingsError: There is no such measure.
+    """
+    if sampler and search:
+        raise CampaignError(
+            f"--sampler {sampler}: a search chooses the rows; leave out one of both"
+        )
+    aim = Aim.parse(search, plan.measures, search_batch) if search else None
+    return Wanted(
+        "search" if aim else sampler or "random", plan.settings.seed, samples, levels, aim
+    )
 
 
 class Findings:

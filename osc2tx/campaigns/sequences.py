@@ -26,8 +26,6 @@ class SequenceSampler:
 
     def __init__(self, name: str, columns: Sequence[Column], wanted: Wanted) -> None:
         self._name, self._columns, self._wanted = name, columns, wanted
-        if name == "lhs" and wanted.samples is None:
-            raise CampaignError("--sampler lhs: say how many rows there are, --samples N")
         self._qmc = _qmc(name)
 
     @property

@@ -12,11 +12,11 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.workers import processors
 from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.aims import Aim
-from osc2tx.campaigns.cluster import DaskEngine
 from osc2tx.campaigns.driver import Progress, run_campaign
-from osc2tx.campaigns.engine import Engine, LocalEngine
+from osc2tx.campaigns.engine import Engine
+from osc2tx.campaigns.engines import engine_by_name
 from osc2tx.campaigns.samplers import SAMPLERS
-from osc2tx.campaigns.sampling import Wanted
+from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
 from osc2tx.cli.campaign_progress import progress_bar
 from osc2tx.cli.module_loading import module_files, written_files
@@ -193,38 +193,16 @@ def run(
     files, module, name = found
     measures = tuple(MEASURES) if not kpis else tuple(each for each in kpis if each != "none")
     plan = Plan(files, module, name, settings, measures, conditions, digests)
-    runs_rows = _engine(engine, workers, batch or (1 if search else 16), timeout)
     try:
-        aim = Aim.parse(search, measures, search_batch) if search else None
-        wanted = Wanted(_sampler(sampler, aim), settings.seed, samples, levels, aim)
+        wanted = wanted_rows(plan, sampler, samples, levels, search, search_batch)
+        at_once = batch or wanted.at_once
+        runs_rows = engine_by_name(engine, at_once, processors(), workers, timeout)
         return _run(plan, texts, wanted, place or Path(f"{name}.campaign"), runs_rows, reporter)
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
     except ScenarioError as error:
         complain(f"{error.source or path}: error: {error.message}")
         return Exit(error.exit_code)
-
-
-def _sampler(given: str | None, aim: Aim | None) -> str:
-    if given and aim:
-        raise CampaignError(f"--sampler {given}: a search chooses the rows; leave out one of both")
-    return "search" if aim else given or "random"
-
-
-def _engine(name: str, workers: int | None, batch: int, timeout: float | None) -> Engine:
-    if name == "local":
-        return LocalEngine(workers or processors(), batch, timeout)
-    scheme, _, address = name.partition("://")
-    host, _, port = address.rpartition(":")
-    if scheme != "dask" or not host or not port.isdecimal():
-        raise click.UsageError(f"--engine {name}: there is local and dask://HOST:PORT")
-    for option, value in (("--workers", workers), ("--timeout", timeout)):
-        if value is not None:
-            raise click.UsageError(
-                f"{option} is for --engine local: a cluster has its own workers, and a row there"
-                " cannot be ended from here"
-            )
-    return DaskEngine(address, batch)
 
 
 def _run(
@@ -249,11 +227,7 @@ def _run(
 
 def _with_samples(wanted: Wanted, store: Store) -> Wanted:
     """Take the number of rows from the store where the command line has none, and note it."""
-    samples = wanted.samples or store.wanted
-    ends_by_itself = wanted.name.partition(":")[0] in ("grid", "pairwise", "table")
-    if samples is None and not ends_by_itself:
-        raise CampaignError("say how many rows there are to be: --samples 1000")
-    return replace(wanted, samples=samples)
+    return replace(wanted, samples=wanted.samples or store.wanted)
 
 
 def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterator[str]:

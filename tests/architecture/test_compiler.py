@@ -47,7 +47,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "testing": {"building", "cli", "compilation", "config", "diagnostics"}
     | {"testing_campaigns", "testing_rows"},
     "testing_campaigns": {"building", "campaigns", "cli", "compilation", "config", "diagnostics"},
-    "testing_rows": {"testing_campaigns"},
+    "testing_marks": {"campaigns", "testing_campaigns"},
+    "testing_rows": {"testing_campaigns", "testing_marks"},
     "": {"api", "diagnostics", "version"},
 }
 
@@ -69,7 +70,8 @@ OTHERS = {
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "osc2tx_text", "scipy"},
     "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
-    "testing_campaigns": {"osc2tx_runtime", "pytest"},
+    "testing_campaigns": {"osc2tx_runtime"},
+    "testing_marks": {"osc2tx_runtime", "pytest"},
     "testing_rows": {"pytest"},
 }
 

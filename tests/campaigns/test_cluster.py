@@ -29,9 +29,11 @@ from osc2tx_runtime.campaigns.remote import parcel_of, run_rows
 from osc2tx_runtime.campaigns.worker import Refused
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.campaigns.kit import TRIANGLE, Here, digest, plan_of, run
+from tests.campaigns.test_search import search
 from tests.campaigns.test_workers import lethal, rows
 
 distributed: Any = pytest.importorskip("distributed", reason="make test-cluster installs it")
+pytest_plugins = ["pytester"]
 pytestmark = pytest.mark.slow
 
 
@@ -66,6 +68,31 @@ def test_the_engine_does_not_show(two_workers: Any, tmp_path: Path) -> None:
     run(plan, tmp_path / "by 3", "sobol", 15, engine(two_workers, 3))
     run(plan, tmp_path / "by 3", "sobol", 40, engine(two_workers, 3))
     assert digest(tmp_path / "local") == digest(tmp_path / "by 16") == digest(tmp_path / "by 3")
+
+
+def test_a_campaign_of_a_test_and_of_a_mark(two_workers: Any, pytester: pytest.Pytester) -> None:
+    pytester.makefile(".osc", triangle=TRIANGLE)
+    where = two_workers.scheduler_address.replace("tcp://", "dask://")
+    pytester.makepyfile(f"""
+        import pytest
+
+        from osc2tx.testing import run_campaign
+
+        here = run_campaign("triangle.osc", samples=6, sampler="halton").rows
+        there = run_campaign("triangle.osc", samples=6, sampler="halton", engine="{where}").rows
+
+        @pytest.mark.campaign("triangle.osc", samples=6, sampler="halton", engine="{where}")
+        def test_it(row):
+            assert here == there
+            assert row in here
+        """)
+    pytester.runpytest_subprocess().assert_outcomes(passed=6)
+
+
+def test_a_search_on_a_cluster(two_workers: Any, tmp_path: Path) -> None:
+    search(tmp_path / "here", 24, Here())
+    search(tmp_path / "there", 24, engine(two_workers, 1))
+    assert digest(tmp_path / "here") == digest(tmp_path / "there")
 
 
 def test_workers_need_the_runtime_alone(two_workers: Any, tmp_path: Path) -> None:

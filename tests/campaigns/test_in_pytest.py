@@ -136,3 +136,29 @@ def test_settings_of_a_campaign(pytester: pytest.Pytester) -> None:
     more.stdout.fnmatch_lines(["triangle: 4 rows in triangle.campaign, 1 new: 4 success"])
     other = pytester.run(*command, "--sampler", "random")
     assert "sampler was" in other.stderr.str()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", ['workers=2, sampler="sobol"', 'search="min_gap", search_batch=2'])
+def test_rows_that_are_run_together(pytester: pytest.Pytester, how: str) -> None:
+    pytester.makefile(".osc", triangle=TRIANGLE)
+    pytester.makepyfile(f"""
+        import os
+
+        import pytest
+
+        from osc2tx.testing import run_campaign
+
+        whole = run_campaign("triangle.osc", samples=5, {how}).rows
+
+        @pytest.mark.campaign("triangle.osc", samples=5, {how})
+        def test_it(row, request):
+            assert row == whole[request.node.callspec.indices["row"]]
+        """)
+    pytester.runpytest_subprocess().assert_outcomes(passed=5)
+
+
+@pytest.mark.slow
+def test_a_campaign_that_nothing_ends_is_refused(scenario: Path) -> None:
+    with pytest.raises(CampaignError, match="say how many rows"):
+        run_campaign(scenario)

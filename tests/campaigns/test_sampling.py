@@ -122,6 +122,7 @@ def test_values_of_a_table_have_units(tmp_path: Path) -> None:
     ("sampler", "samples", "message"),
     [
         ("lhs", None, "say how many rows"),
+        ("random", None, "say how many rows"),
         ("soboll", 5, "there is random, lhs, sobol"),
         ("table:nowhere.csv", None, "cannot be read"),
     ],
@@ -169,7 +170,7 @@ def test_setting_the_values_of_a_row_gives_the_same_run() -> None:
     modules = Modules(plan.files)
     scenario = modules.load(plan.module)["mixed"]
     with closing(Executor(plan)) as executor:
-        for row in islice(make_sampler(executor, Wanted("halton"), Findings()).rows(), 5):
+        for row in make_sampler(executor, Wanted("lhs", samples=5), Findings()).rows():
             drawn, _ = executor.values_of(row)
             told = {n: str(v).lower() if isinstance(v, bool) else v for n, v in drawn.items()}
             by_values = run_scenario(scenario, RunSettings(seed=row.seed, set=told))

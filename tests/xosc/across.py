@@ -11,6 +11,14 @@ from tests.xosc.places import beside, offset_of
 from tests.xosc.scene import GAP_REACHED, Running, Scene
 
 NEARING = 2.0  # 1/s
+# Peak acceleration times the square of the length, by the change. A steady change has none: the
+# standard leaves its length to the tool.
+PEAK_FACTORS = {
+    "sinusoidal": 0.5 * math.pi**2,
+    "linear": 0.5 * math.pi**2,
+    "cubic": 6.0,
+    "step": 0.0,
+}
 
 
 class Offsets:
@@ -74,7 +82,7 @@ class Offsets:
         dynamics = node.find("LaneOffsetActionDynamics")
         shape, peak = dynamics.get("dynamicsShape"), number(dynamics, "maxLateralAcc", math.inf)
         change = abs(end - body.place.offset)
-        factor = {"sinusoidal": 0.5 * math.pi * math.pi, "cubic": 6.0, "step": 0.0}[shape]
+        factor = PEAK_FACTORS[shape]
         time = math.sqrt(factor * change / peak)
         return time, shaped(shape, body.place.offset, end, time)
 

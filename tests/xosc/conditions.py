@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from dataclasses import dataclass
 from typing import Protocol
 
 from tests.xosc.bodies import Body
@@ -19,6 +20,26 @@ KINDS = {
     "maneuverGroup": "ManeuverGroup",
     "story": "Story",
 }
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a tool reads documents, where that is not what the standard says.
+
+    Attributes:
+        is_lazy: Of a group of conditions it looks at none behind a false one, but at delayed ones.
+        latches: Of a group it wants each condition once, not all at one time.
+        counts_from_looking: A time counts from when it begins to look for it.
+        carries_acceleration: A profile of speeds begins with the present acceleration.
+    """
+
+    is_lazy: bool = False
+    latches: bool = False
+    counts_from_looking: bool = False
+    carries_acceleration: bool = False
+
+
+BY_THE_STANDARD = Reading()
 
 
 class World(Protocol):
@@ -60,8 +81,10 @@ class Past:
 class Conditions:
     """Evaluates the triggers of a document."""
 
-    def __init__(self, world: World, dt: float, *, is_lazy: bool) -> None:
-        self.world, self.dt, self.is_lazy = world, dt, is_lazy
+    def __init__(self, world: World, dt: float, reading: Reading) -> None:
+        self.world, self.dt, self.reading = world, dt, reading
+        self.looking_since: dict[Node, float] = {}  # s
+        self.latched: set[Node] = set()
         self.last: dict[Node, bool] = {}  # at the look before
         self.edged: dict[Node, Past] = {}
         self.named = {
@@ -71,18 +94,17 @@ class Conditions:
         }
 
     def fires(self, trigger: Node | None) -> bool:
-        """Whether a trigger fires; all its conditions are looked at in each step.
-
-        A lazy tool looks at none behind a false one of its group, but at delayed ones.
-        """
+        """Whether a trigger fires; all its conditions are looked at in each step."""
         groups = () if trigger is None else trigger.iterfind("ConditionGroup")
         return any([self._all_hold(list(group)) for group in groups])
 
     def _all_hold(self, conditions: list[Node]) -> bool:
         result = True
         for condition in conditions:
-            if result or not self.is_lazy or number(condition, "delay") > 0.0:
-                held = self._holds(condition)
+            if result or not self.reading.is_lazy or number(condition, "delay") > 0.0:
+                held = self._holds(condition) or condition in self.latched
+                if held and self.reading.latches:
+                    self.latched.add(condition)
                 result = result and held
         return result
 
@@ -114,7 +136,9 @@ class Conditions:
         node = node[0]
         match node.tag:
             case "SimulationTimeCondition":
-                return _compare(node, self.world.time)
+                since = self.looking_since.setdefault(node, self.world.time)
+                counts = self.reading.counts_from_looking
+                return _compare(node, self.world.time - (since if counts else 0.0))
             case "VariableCondition" | "ParameterCondition":
                 name = node.get("variableRef") or node.get("parameterRef")
                 value, rule = self.world.variables[name], node.get("rule")
@@ -188,4 +212,4 @@ def _part(node: Node, along: float, across: float) -> float:
     return math.hypot(along, across)
 
 
-__all__ = ["Conditions", "World"]
+__all__ = ["BY_THE_STANDARD", "Conditions", "Reading", "World"]

@@ -15,6 +15,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
+from tests.xosc.conditions import BY_THE_STANDARD, Reading
 from tests.xosc.played import Difference, Played, compare, values_of, world
 from tests.xosc.storyboard import NOTHING, Evaluator, map_of
 
@@ -36,7 +37,7 @@ class Given:
 
 
 @cache
-def road_map(path: Path) -> RoadMap:
+def map_read(path: Path) -> RoadMap:
     """Return a map, read once."""
     return read_map(path)
 
@@ -46,8 +47,7 @@ def played(
     dt: float,
     maps: tuple[Path, ...] = (SHIPPED,),
     *,
-    is_lazy: bool = False,
-    carries_acceleration: bool = False,
+    reading: Reading = BY_THE_STANDARD,
     given: Mapping[str, str] = NOTHING,
     most: float = LONG,
 ) -> Played:
@@ -57,20 +57,12 @@ def played(
         xml: The document.
         dt: Length of a step (s).
         maps: Folders with its map.
-        is_lazy: Of a group of conditions a tool looks at none behind a false one.
-        carries_acceleration: A profile of speeds begins with the present acceleration, which is
-            not what the standard says.
+        reading: How it is read.
         given: Values of parameters, instead of those that the document has for them.
         most: Seconds after which it is left.
     """
-    evaluator = Evaluator(
-        xml,
-        road_map(map_of(xml, maps)),
-        dt,
-        is_lazy=is_lazy,
-        carries_acceleration=carries_acceleration,
-        given=given,
-    )
+    road_map = map_read(map_of(xml, maps))
+    evaluator = Evaluator(xml, road_map, dt, reading=reading, given=given)
     end = evaluator.play(most)
     return Played(end, evaluator.starts, evaluator.track)
 
@@ -84,6 +76,17 @@ def is_exact(document: XmlScenario) -> bool:
     """Whether all of a document is graded so."""
     return document.xml is not None and all(
         entry.grade is Grade.EXACT for entry in document.report.entries
+    )
+
+
+def reading_of(xml: XmlOptions, *, is_lazy: bool = False) -> Reading:
+    """Return how the tool of a profile reads its documents."""
+    tool = PROFILES[xml.profile]
+    return Reading(
+        is_lazy=is_lazy,
+        latches=tool.latches_conditions,
+        counts_from_looking=not tool.has_delays,
+        carries_acceleration=tool.carries_acceleration,
     )
 
 
@@ -102,18 +105,11 @@ def difference(
         AssertionError: An event has not happened, came too late, or in another order.
     """
     assert document.xml is not None
-    declared = values_of(document)
+    declared, dt = values_of(document), given.settings.dt
     expected = world(given.path, document.name, given.settings, given.options, declared)
-    carries = PROFILES[given.xml.profile].carries_acceleration
-    found = played(
-        document.xml,
-        given.settings.dt,
-        given.maps,
-        is_lazy=is_lazy,
-        carries_acceleration=carries,
-        given=expected.choices,
-    )
-    return compare(document, expected, found, given.settings.dt, patience)
+    reading = reading_of(given.xml, is_lazy=is_lazy)
+    found = played(document.xml, dt, given.maps, reading=reading, given=expected.choices)
+    return compare(document, expected, found, dt, patience)
 
 
 def stated_bounds(document: XmlScenario) -> list[Metres | str]:

@@ -17,7 +17,7 @@ from lxml import etree
 from osc2tx_runtime.opendrive import RoadMap
 from tests.xosc.actions import Stage
 from tests.xosc.bodies import Body, body_of, couple
-from tests.xosc.conditions import Conditions
+from tests.xosc.conditions import BY_THE_STANDARD, Conditions, Reading
 from tests.xosc.courses import Node, number, with_parameters
 from tests.xosc.distances import Ruler
 from tests.xosc.scene import Running
@@ -43,8 +43,7 @@ class Evaluator:
         road_map: RoadMap,
         dt: float,
         *,
-        is_lazy: bool = False,
-        carries_acceleration: bool = False,
+        reading: Reading = BY_THE_STANDARD,
         given: Mapping[str, str] = NOTHING,
     ) -> None:
         self.root = with_parameters(etree.fromstring(xml.encode()), given)
@@ -53,7 +52,8 @@ class Evaluator:
         for node in self.root.iter("ScenarioObject"):
             body = body_of(node)
             self.bodies[body.name] = body
-        self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries_acceleration)
+        carries = reading.carries_acceleration
+        self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries)
         self.ruler = Ruler(road_map)
         declared = ("VariableDeclaration", "ParameterDeclaration")
         self.variables: dict[str, str] = {
@@ -71,7 +71,7 @@ class Evaluator:
         self.work: dict[Node, list[Running]] = {}
         self.starts: dict[str, float] = {}
         self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
-        self.conditions = Conditions(self, dt, is_lazy=is_lazy)
+        self.conditions = Conditions(self, dt, reading)
         self._init()
 
     @property

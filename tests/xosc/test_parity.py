@@ -1,7 +1,7 @@
 """What is graded exact does what the embedded world does, at steps of 10 ms.
 
-These are all scenarios of the repository and all cases of the golden documents. What is
-approximated is not farther off than its report says.
+These are all scenarios of the repository and all cases of the golden documents, in all versions and
+for all tools. What is approximated is not farther off than its report says.
 """
 
 from dataclasses import replace
@@ -9,11 +9,14 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.xml.profiles import PROFILES
 from osc2tx.config import GivenOptions
-from osc2tx.options import CompileOptions, XmlOptions, XmlProfile
+from osc2tx.options import CompileOptions, XmlOptions, XmlProfile, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.golden.test_xosc import CASES
 from tests.golden.test_xosc import given as stated
+from tests.unit.backends.xosc.checks import schema_errors
 from tests.xosc.parity import (
     FINE,
     Given,
@@ -21,6 +24,7 @@ from tests.xosc.parity import (
     is_exact,
     is_measured,
     played,
+    reading_of,
     scenarios,
     stated_bounds,
 )
@@ -29,6 +33,8 @@ SCENARIOS = Path(__file__).parents[2] / "scenarios"
 OWN = [path for path in sorted(SCENARIOS.rglob("*.osc")) if path.stem != "hello_world"]
 ALL = [*OWN, *CASES]
 QUICK = {"cut_in", "pedestrian_crossing", "follow_leader", "C19_change_speed", "drive_to_a_place"}
+
+WRITTEN = [(name, version) for name, tool in PROFILES.items() for version in tool.versions]
 
 # Exact, and not compared with a run of the world to its end.
 WITHOUT_RUN = {
@@ -106,18 +112,36 @@ def slow_but(path: Path) -> object:
     return path if name(path) in QUICK else pytest.param(path, marks=pytest.mark.slow)
 
 
+def check_document(path: Path, source: Given, document: XmlScenario) -> None:
+    """Compare a document with the world as far as metres say how far off it is."""
+    if document.xml is None:
+        assert document.report.obstacles
+    elif is_measured(document) and name(path) not in WITHOUT_RUN:
+        check(source, document)
+    else:
+        played(document.xml, 0.1, source.maps, reading=reading_of(source.xml), most=10.0)
+
+
 @pytest.mark.parametrize("path", list(map(slow_but, ALL)), ids=name)
 def test_documents_are_like_the_world(path: Path) -> None:
     source = given(path)
     for document in scenarios(source):
-        if document.xml is None:
-            assert document.report.obstacles
-            continue
-        assert is_measured(document) == (name(path) not in IN_WORDS), stated_bounds(document)
-        if is_measured(document) and name(path) not in WITHOUT_RUN:
-            check(source, document)
-        else:
-            played(document.xml, 0.1, source.maps, most=10.0)
+        if document.xml is not None:
+            measured = name(path) not in IN_WORDS
+            assert is_measured(document) == measured, stated_bounds(document)
+        check_document(path, source, document)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("profile", "version"), WRITTEN)
+@pytest.mark.parametrize("path", ALL, ids=name)
+def test_all_versions_and_profiles(path: Path, profile: XmlProfile, version: XmlVersion) -> None:
+    source = given(path)
+    source = replace(source, xml=replace(source.xml, profile=profile, version=version))
+    for document in scenarios(source):
+        if document.xml is not None:
+            assert schema_errors(document.xml, version) == []
+        check_document(path, source, document)
 
 
 @pytest.mark.slow

@@ -166,7 +166,7 @@ def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
     dimension, value = "time", time
     speed = leaf.state.speed
     asks = f"LaneChangeActionDynamics/{dimension}" in leaf.ctx.profile.unsupported
-    if asks and speed is not None and speed.is_known and time > 0.0:
+    if asks and speed is not None and speed.is_known and speed.low > 0.0 and time > 0.0:
         dimension, value = "distance", time * speed.low
     return element(
         "LaneChangeActionDynamics",
@@ -249,6 +249,14 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
     _note_drift(leaf, way, (profile, peak, None), course)
     note_slow(leaf, way, course)
     shape = _shape(leaf, course, profile)
+    if isinstance(course, Linear):
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "the XML says no length for a change of the offset, and a steady one has no peak that"
+            " gives it",
+            Metres(way, "beside, until it is there"),
+        )
     # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
     half_turn = math.pi / course.duration
     peak_rate = 0.5 * way * half_turn * half_turn

@@ -24,6 +24,11 @@ ACTION = "action"
 event is called so."""
 
 
+SHORTLY = 1e-6
+"""Seconds by which a time is over where a version only knows later ones: less than any step, more
+than tools are off that sum up steps. """
+
+
 @dataclass(slots=True)
 class Event:
     """An event.
@@ -125,7 +130,8 @@ class StoryboardWriter:
 
     def _condition(self, test: Test) -> Element:
         if test.reached is not None and self._version == "1.0":
-            condition = element("SimulationTimeCondition", value=test.reached, rule="greaterThan")
+            value = max(test.reached - SHORTLY, 0.0)
+            condition = element("SimulationTimeCondition", value=value, rule="greaterThan")
             return element("ByValueCondition", condition)
         return test.condition
 

@@ -77,7 +77,7 @@ def _check(ctx: Context, event: Event, node: Element) -> None:
 
 # What does not hold while a comparison does; where the two sides are equal, both may.
 _OPPOSITE_RULES = {"greaterThan": "lessThan", "lessThan": "greaterThan"}
-_OPPOSITE_VALUES = {"0": "1", "1": "0"}
+_OPPOSITE_VALUES = {"0": "1", "1": "0", "false": "true", "true": "false"}
 
 
 def _opposite(test: Test) -> Test:

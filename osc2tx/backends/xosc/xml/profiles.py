@@ -82,6 +82,7 @@ _SCENARIO_RUNNER_IGNORES = {
     "SpeedActionDynamics/rate": "the rate is taken for a time",
     "RoutePosition": "it raises an error",
     "SpeedProfileAction": "the action is not known",
+    "UserDefinedValueCondition": "it raises an error",
     "VisibilityAction": "the action is not known",
     "LongitudinalDistanceAction/rigid": "it wants to know a highest speed",
     "LongitudinalDistanceAction/timeGap": "it raises an error",
