@@ -69,6 +69,7 @@ def lower(
     actions: list[sym.ActionSymbol] = []
     applied: list[sym.ModifierSymbol] = []
     pending: list[Composed] = list(model.scenarios)
+    composed: list[Composed] = []
     program = LoweringContext(
         model,
         analysis,
@@ -101,10 +102,11 @@ def lower(
             same_actors(analysis.types[scenario]),
         )
         is_imported = scenario not in model.scenarios
+        composed.append(scenario)
         lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)
         pending.extend(ctx.invoked)
         invoked.update(map(id, ctx.invoked))
-    report_unsupported_members(program, used, actions)
+    report_unsupported_members(program, used, actions, composed)
     scenarios = present(
         [
             scenario and replace(scenario, is_invoked=key in invoked)

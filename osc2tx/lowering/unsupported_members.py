@@ -16,7 +16,10 @@ from osc2tx.syntax import ast
 
 
 def report_unsupported_members(
-    ctx: LoweringContext, used: Iterable[sym.TypeSymbol], actions: Iterable[sym.ActionSymbol]
+    ctx: LoweringContext,
+    used: Iterable[sym.TypeSymbol],
+    actions: Iterable[sym.ActionSymbol],
+    scenarios: Iterable[sym.TypeSymbol],
 ) -> None:
     """Report members of types in use that would have no effect, each of them once.
 
@@ -24,6 +27,7 @@ def report_unsupported_members(
         ctx: The checked program.
         used: Types of declared objects.
         actions: Actions that are invoked.
+        scenarios: Behaviors that the module has classes for.
     """
     found: dict[sym.TypeSymbol, None] = {}
     for symbol in (*used, *actions):
@@ -31,6 +35,31 @@ def report_unsupported_members(
     for symbol in found:
         for statement in symbol.statements:
             _report(ctx, symbol, statement)
+    for owner in dict.fromkeys((*found, *(t for each in scenarios for t in supertypes(each)))):
+        _report_namesakes(ctx, owner)
+
+
+def _report_namesakes(ctx: LoweringContext, owner: sym.TypeSymbol) -> None:
+    """Report members that only their namespaces tell apart: a class knows them by their names."""
+    lineage = list(reversed(list(supertypes(owner))))
+    for name in {member.name: None for member in owner.members.values()}:
+        candidates = [each for ancestor in lineage for each in ancestor.named(name)]
+        others = [each for each in candidates if each.namespace != candidates[0].namespace]
+        for other in others:
+            if other not in owner.named(name) or not _share_a_name(candidates[0], other):
+                continue
+            ctx.unsupported(
+                "OSC501",
+                other.span,
+                f"another member of `{owner.name}` has the name `{name}`",
+                help="members of one type share their names, whatever their namespace: rename one",
+            )
+
+
+def _share_a_name(one: sym.Member, other: sym.Member) -> bool:
+    """Whether a module would take one for the other; methods of the library are functions of it."""
+    is_method = isinstance(one, sym.MethodSymbol) and isinstance(other, sym.MethodSymbol)
+    return other.origin == "user" and not (is_method and one.origin == "library")
 
 
 def _add(symbol: sym.TypeSymbol, found: dict[sym.TypeSymbol, None]) -> None:

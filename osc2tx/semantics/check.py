@@ -208,11 +208,12 @@ def _declared_by(
     r: Resolution, owner: TypeSymbol, node: ast.MethodDeclaration
 ) -> MethodSymbol | None:
     """Return the method that a declaration makes, also one that an extension replaces."""
-    symbol = owner.members.get(node.name.text)
-    while isinstance(symbol, MethodSymbol):
-        if symbol.node is node:
-            return symbol
-        symbol = r.scope.overridden.get(symbol)
+    for member in owner.named(node.name.text):
+        method = member if isinstance(member, MethodSymbol) else None
+        while method is not None:
+            if method.node is node:
+                return method
+            method = r.scope.overridden.get(method)
     return None
 
 

@@ -249,7 +249,18 @@ class Collector:
             self.scope.contexts[statement] = context
             owner.statements.append(statement)
             for member in members_of(statement, owner, context, self.origin):
+                if extends:
+                    self._take_namespace(owner, member, context)
                 self._add_member(owner, member, extends)
+
+    def _take_namespace(self, owner: TypeSymbol, member: Member, context: Context) -> None:
+        """Take the name of a method that overrides one of a used namespace for that one's."""
+        if not isinstance(member, MethodSymbol) or member.node is None or not member.node.is_only:
+            return
+        methods = [each for each in owner.named(member.name) if isinstance(each, MethodSymbol)]
+        meant = self.scope.select(methods, member.node.name, context)
+        if len({each.namespace for each in meant}) == 1:
+            member.namespace = meant[0].namespace
 
     def _check_parameters(self, member: Member) -> None:
         """Report parameters of a method or event that have the same name."""
