@@ -34,7 +34,7 @@ from .tracking import Tracking
 
 __all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
 
-STEADY = frozenset({type(None), ConstantAcceleration, HoldOffset, ProfileRun, Shift})
+STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset, ProfileRun, Shift})
 """Kinds of commands at work that cannot fail."""
 
 

@@ -204,8 +204,11 @@ class MovingActor:
 
     def _stays(self) -> bool:
         """Whether one who stands does so until it is told something."""
-        held = self._speed is None or (
-            isinstance(self._speed, ProfileRun) and self._speed.progress().done
+        run = self._speed
+        held = (
+            run is None
+            or isinstance(run, AssignedSpeed)
+            or (isinstance(run, ProfileRun) and run.progress().done)
         )
         return held and self.is_steady() and isinstance(self._side, HoldOffset)
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from .state import ActorState
 
-__all__ = ["Box", "box_of", "contact_interval", "overlapping", "swept_contacts"]
+__all__ = ["Box", "Standing", "box_of", "contact_interval", "overlapping", "swept_contacts"]
 
 _NEAR = 1e-4  # m to which contacts of turning boxes are found
 
@@ -178,22 +179,51 @@ def _turn(begin: Box, end: Box) -> float:
     return math.atan2(sin, begin.cos * end.cos + begin.sin * end.sin)
 
 
-def swept_contacts(begin: Sequence[Box], end: Sequence[Box]) -> list[tuple[int, int]]:
+class Standing:
+    """Boxes that stand, found by place.
+
+    Args:
+        boxes: All boxes.
+        who: Indices of those that stand.
+    """
+
+    def __init__(self, boxes: Sequence[Box], who: Iterable[int]) -> None:
+        self._spans = sorted(_span(boxes[i], boxes[i], i) for i in who)
+        self._lefts = [span[0] for span in self._spans]
+        self._widest = _NEAR + max((right - left for left, right, *_ in self._spans), default=0.0)
+
+    def beside(self, left: float, right: float) -> list[_Span]:
+        """Return what those cover that reach between two places on the x axis (m)."""
+        first = bisect_left(self._lefts, left - self._widest)
+        last = bisect_right(self._lefts, right)
+        return [span for span in self._spans[first:last] if span[1] >= left]
+
+
+def swept_contacts(
+    begin: Sequence[Box],
+    end: Sequence[Box],
+    who: Iterable[int] | None = None,
+    standing: Standing | None = None,
+) -> list[tuple[int, int]]:
     """Pairs of boxes (indices, lower first) that touch during a step, sorted.
 
     Args:
         begin: Boxes at the begin of the step.
         end: Boxes at its end, in the same order.
+        who: Indices of those that are looked at; by default all.
+        standing: Those that they are looked at with, beside each other.
     """
     # Sorted by their left ends, so that only those are compared that overlap in x; most of them,
     # in the lane beside, do not overlap in y.
-    spans = sorted(_span(b, e, i) for i, (b, e) in enumerate(zip(begin, end, strict=True)))
+    chosen = range(len(begin)) if who is None else who
+    spans = sorted([_span(begin[i], end[i], i) for i in chosen])
     active: list[_Span] = []
     found: list[tuple[int, int]] = []
     for span in spans:
-        left, _, low, high, i = span
+        left, right, low, high, i = span
         active = [other for other in active if other[1] >= left]
-        for _, _, other_low, other_high, j in active:
+        others = active if standing is None else active + standing.beside(left, right)
+        for _, _, other_low, other_high, j in others:
             if (
                 other_low <= high
                 and low <= other_high

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from operator import is_
+from itertools import compress, count
+from operator import is_not
 
-from .collision import Box, box_of, swept_contacts
+from .collision import Box, Standing, box_of, swept_contacts
 from .state import ActorState
 
 __all__ = ["Contacts"]
@@ -23,18 +24,21 @@ class Contacts:
         self._boxes: list[Box] = []
         self._states: list[ActorState] = []  # to which the boxes belong
         self._touching: frozenset[tuple[int, int]] = frozenset()
-        self._stand = False  # nobody moved in the last step
+        self._moved: set[int] = set()  # who moved in the last step
+        self._looked_at: set[int] = set()  # all but those who stand
+        self._standing: Standing | None = None
 
     def begin(self, states: Mapping[str, ActorState]) -> None:
         """Take the places before step 0."""
         self._states = list(states.values())
         self._boxes = [box_of(state) for state in self._states]
-        self._stand = False
+        self._moved = self._looked_at = set(range(len(self._states)))
+        self._standing = None
 
     def put(self, index: int, state: ActorState) -> None:
         """Take a new place of an actor, by its number in the cast, between two steps."""
         self._boxes[index], self._states[index] = box_of(state), state
-        self._stand = False
+        self._moved.add(index)
 
     def step(
         self,
@@ -45,27 +49,33 @@ class Contacts:
     ) -> None:
         """Find the contacts of one step.
 
+        Two who have not moved again touch if they did before, so only the others are looked at.
+
         Args:
             before: States at its begin, by the ids of the actors.
             states: Those at its end, in the same order.
             jumped: Who was put somewhere, and touches nothing on its way.
             coupled: Pairs that may touch.
         """
-        stood, self._stand = self._stand, not jumped and all(map(is_, states, self._states))
-        if stood and self._stand:
-            self.new = ()  # nobody has moved again, so the contacts are those of before
+        moved = set(compress(count(), map(is_not, states, self._states)))
+        looked_at, self._moved = moved | self._moved, moved
+        self.new = ()
+        if not looked_at:
             return
-        boxes = []
-        for i, (actor, state) in enumerate(zip(before, states, strict=True)):
-            boxes.append(self._boxes[i] if state is self._states[i] else box_of(state))
-            if actor in jumped:
+        ids, boxes = tuple(before), self._boxes.copy()
+        for i in moved:
+            boxes[i] = box_of(states[i])
+            if ids[i] in jumped:
                 self._boxes[i] = boxes[i]
-        touching = swept_contacts(self._boxes, boxes)
+        if looked_at != self._looked_at:
+            self._looked_at = looked_at
+            standing = [i for i in range(len(boxes)) if i not in looked_at]
+            self._standing = Standing(boxes, standing) if standing else None
+        touching = swept_contacts(self._boxes, boxes, looked_at, self._standing)
         self._boxes, self._states = boxes, list(states)
         if touching or self._touching:
-            self._compare(tuple(before), touching, coupled)
-        else:
-            self.new = ()
+            stay = [pair for pair in self._touching if looked_at.isdisjoint(pair)]
+            self._compare(ids, [*touching, *stay], coupled)
 
     def _compare(
         self,

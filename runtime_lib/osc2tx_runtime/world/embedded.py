@@ -324,13 +324,8 @@ class EmbeddedWorld:
         members = tuple(self._cast.values())
         # All read the snapshot; none is replaced before every actor has moved.
         before = {actor: member.state for actor, member in self._cast.items()}
-        road_map, towed = self.map, self._couplings.towed()  # drawn along by what tows it
         wished = [
-            (
-                member.moved(self, road_map)
-                if member.follows and member.spec.movable and member.spec.id not in towed
-                else member.state
-            )
+            member.reference if member.still and member.steady else self._wish(member)
             for member in members
         ]
         self._couplings.draw(self._cast, wished, self.dt, self.map)
@@ -352,6 +347,12 @@ class EmbeddedWorld:
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)
+
+    def _wish(self, member: CommandedActor) -> ActorState:
+        """State that an actor is to have at the next step; trailers are drawn along later."""
+        if member.follows and member.spec.movable and not self._couplings.is_towed(member.spec.id):
+            return member.moved(self, self.map)
+        return member.state
 
     def _member(self, actor: str) -> CommandedActor:
         member = self._cast.get(actor)
