@@ -46,6 +46,11 @@ def _with_additions(root: Any) -> Any:
             enum.set("base", "xsd:string")
         for literal in literals:
             etree.SubElement(enum, f"{XSD}enumeration", value=literal)
+    for name, literals in new["deprecated"].items():
+        for literal in _named(root, "simpleType", name).iter(f"{XSD}enumeration"):
+            if literal.get("value") in literals:
+                note = etree.SubElement(literal, f"{XSD}annotation")
+                etree.SubElement(note, f"{XSD}appinfo").text = "deprecated"
     for name, children in new["children"].items():
         type_ = _named(root, "complexType", name)
         if type_.find(f"{XSD}sequence") is None:

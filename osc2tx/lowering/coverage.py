@@ -8,13 +8,13 @@ from osc2tx import ir
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.coverage_buckets import Sampled, with_buckets
+from osc2tx.lowering.coverage_owners import CoverageOwner, coverage_owners
 from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.triggers import declares_event
-from osc2tx.lowering.value_types import lower_type, lower_unit, number_in
+from osc2tx.lowering.triggers import declares_event, event_of_object
+from osc2tx.lowering.value_types import lower_unit, number_in
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import to_si
-from osc2tx.semantics.coverage_items import Item, all_items_of, text_of
-from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.coverage_items import Item, text_of
 from osc2tx.semantics.types import ERROR
 from osc2tx.syntax import ast
 
@@ -22,25 +22,38 @@ MOMENTS = {"start": ir.Moment.START, "end": ir.Moment.END, "fail": ir.Moment.FAI
 
 
 def lower_coverage(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Coverage, ...]:
-    """Return the items of a scenario, inherited ones included, that are not switched off."""
-    overrides = dict(_overrides(scenario))
-    lowered: list[Sampled] = []
-    for item in all_items_of(scenario):
-        arguments = {**item.arguments, **overrides.get(item.name, {})}
-        if _is_true(arguments.get("disable")):
-            continue
-        sampled = _lower(ctx, scenario, item, arguments)
-        if sampled is not None:
-            lowered.append(sampled)
-    return tuple(with_buckets(ctx, scenario, lowered))
+    """Return the items of a scenario and of its objects that are not switched off."""
+    lowered: dict[str, Sampled] = {}
+    for owner in coverage_owners(ctx, scenario):
+        overrides = dict(_overrides(owner))
+        for item in owner.items():
+            arguments = {**item.arguments, **overrides.get(item.name, {})}
+            if _is_true(arguments.get("disable")):
+                continue
+            sampled = _lower(owner, item, arguments)
+            if sampled is None:
+                continue
+            name = sampled.coverage.name
+            if lowered.setdefault(name, sampled) is not sampled:
+                _report_name(ctx, item)
+    return tuple(with_buckets(ctx, scenario, list(lowered.values())))
+
+
+def _report_name(ctx: LoweringContext, item: Item) -> None:
+    ctx.unsupported(
+        "OSC501",
+        item.node.span,
+        f"another item has the name `{item.name}`, sampled by another event",
+        help=f"give it a name of its own: `{item.node.kind}(…, expression: {item.name})`",
+    )
 
 
 def _overrides(
-    scenario: Composed,
+    owner: CoverageOwner,
 ) -> Iterator[tuple[str, dict[str, ast.Expression]]]:
     """Yield what overrides say, by item; the last word on an argument counts (§7.5.6)."""
     merged: dict[str, dict[str, ast.Expression]] = {}
-    for ancestor in reversed(list(supertypes(scenario))):
+    for ancestor in reversed(owner.lineage):
         for statement in ancestor.statements:
             if isinstance(statement, ast.CoverageDeclaration):
                 given = {a.name.text: a.value for a in statement.arguments if a.name is not None}
@@ -51,21 +64,18 @@ def _overrides(
 
 
 def _lower(
-    ctx: LoweringContext,
-    scenario: Composed,
-    item: Item,
-    arguments: dict[str, ast.Expression],
+    owner: CoverageOwner, item: Item, arguments: dict[str, ast.Expression]
 ) -> Sampled | None:
-    node, source = item.node, item.expression
+    ctx, node, source = owner.ctx, item.node, item.expression
     crossed = arguments.get("items")
     elements = crossed.elements if isinstance(crossed, ast.ListLiteral) else ()
     items = tuple(name for e in elements if (name := text_of(e)) is not None)
     # One event samples all items of a cross (§7.5.4).
-    group = [i.arguments.get("event") for i in all_items_of(scenario) if i.name in items]
+    group = [i.arguments.get("event") for i in owner.items() if i.name in items]
     event = _event(ctx, arguments.get("event", group[0] if group else None))
     expression = None
     if source is not None:
-        inner = _it_of(ctx, scenario, item)
+        inner = _it_of(owner, item)
         expression = lower_expression(inner, source)
     if event is None or (source is not None and expression is None):
         return None
@@ -75,10 +85,10 @@ def _lower(
     target = number.of(arguments.get("target"))
     coverage = ir.Coverage(
         kind=node.kind,
-        name=item.name,
+        name=f"{owner.prefix}{item.name}",
         span=node.span,
         expression=expression,
-        items=items,
+        items=tuple(f"{owner.prefix}{each}" for each in items),
         event=event,
         unit=None if unit is None else lower_unit(unit),
         within=number.range_of(arguments.get("range")),
@@ -91,20 +101,16 @@ def _lower(
         comments=statement_comments(node),
     )
     type_ = ERROR if source is None else ctx.model.type_of(source)
-    return Sampled(item, coverage, type_, unit, arguments.get("ignore"))
+    return Sampled(item, coverage, type_, unit, arguments.get("ignore"), owner)
 
 
-def _it_of(ctx: LoweringContext, scenario: Composed, item: Item) -> LoweringContext:
+def _it_of(owner: CoverageOwner, item: Item) -> LoweringContext:
     """Return the context of an item in the `with` of a field: `it` is the field."""
-    for ancestor in supertypes(scenario):
-        field = ancestor.members.get(item.name)
-        if not isinstance(field, sym.FieldSymbol):
-            continue
-        node = field.node
-        if isinstance(node, ast.ParameterDeclaration) and item.node in node.constraints:
-            span, type_ = item.node.span, lower_type(field.type)
-            return ctx.with_it(ir.FieldRef(span=span, type=type_, name=field.name))
-    return ctx
+    field = owner.field(item.name)
+    node = None if field is None else field.node
+    if field and isinstance(node, ast.ParameterDeclaration) and item.node in node.constraints:
+        return owner.ctx.with_it(owner.value_of(field, item))
+    return owner.ctx
 
 
 def _event(ctx: LoweringContext, event: ast.Expression | None) -> ir.EventRef | ir.Moment | None:
@@ -112,6 +118,9 @@ def _event(ctx: LoweringContext, event: ast.Expression | None) -> ir.EventRef | 
         return ir.Moment.END
     symbol = ctx.model.symbol_of(event)
     if isinstance(symbol, sym.EventSymbol) and declares_event(symbol):
+        is_of_object = isinstance(symbol.owner, sym.ActorSymbol | sym.StructSymbol)
+        if is_of_object:
+            return event_of_object(ctx, event, symbol)
         return ir.EventRef(span=event.span, name=symbol.name)
     if symbol is not None and symbol.name in MOMENTS and symbol.name != "fail":
         return MOMENTS[symbol.name]

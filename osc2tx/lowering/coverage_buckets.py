@@ -19,11 +19,11 @@ from osc2tx.analysis.parameter_lookup import Place
 from osc2tx.analysis.solver import solve, values_on
 from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.coverage_owners import CoverageOwner
 from osc2tx.lowering.value_types import number_in
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.coverage_items import Item
-from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 from osc2tx_classes import dataclass, replace
 
@@ -44,6 +44,7 @@ class Sampled:
         type: Of its values.
         unit: In which they count.
         ignore: The condition for what does not count.
+        owner: What it is a member of.
     """
 
     item: Item
@@ -51,6 +52,7 @@ class Sampled:
     type: types.Type
     unit: sym.UnitSymbol | None
     ignore: ast.Expression | None
+    owner: CoverageOwner
 
 
 def with_buckets(
@@ -86,7 +88,7 @@ class _Grading:
     """
 
     def __init__(self, ctx: LoweringContext, scenario: Composed) -> None:
-        self._ctx, self._scenario = ctx, scenario
+        self._ctx = ctx
         self._found: TypeConstraints = ctx.analysis.types[scenario]
         self._domains = self._found.domains_to_set()
         self._writer = OperationListBuilder(ctx.model)
@@ -180,21 +182,21 @@ class _Grading:
     def _key(self, sampled: Sampled) -> Key | None:
         expression = sampled.item.expression
         if isinstance(expression, ast.ItExpression):
-            for ancestor in supertypes(self._scenario):
-                field = ancestor.members.get(sampled.item.name)
-                if isinstance(field, sym.FieldSymbol):
-                    return (field,)
-        return None if expression is None else self._place(None).locate(expression)
+            field = sampled.owner.field(sampled.item.name)
+            if field is not None:
+                return (*sampled.owner.key, field)
+        return None if expression is None else self._place(sampled, None).locate(expression)
 
-    def _place(self, it: Key | None) -> Place:
-        return Place(model=self._ctx.model, owner=self._scenario, prefix=(), it=it)
+    def _place(self, sampled: Sampled, it: Key | None) -> Place:
+        owner = sampled.owner
+        return Place(model=self._ctx.model, owner=owner.lineage[0], prefix=owner.key, it=it)
 
     def _is_ignored(self, sampled: Sampled, bucket: ir.Bucket) -> bool:
         """Whether all values of a bucket surely do not count."""
         if sampled.ignore is None:
             return False
         key = self._key(sampled) or (sampled.item.node,)
-        place = self._place(key)
+        place = self._place(sampled, key)
         operations = self._writer.write(sampled.ignore, place.locate)
         return values_on(operations, {key: _domain(sampled, bucket)})[-1] == TRUE
 

@@ -132,8 +132,13 @@ class FieldLowering:
         self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
     ) -> ir.Parameter | None:
         """Lower a list that constraints describe by its elements."""
-        is_list = isinstance(symbol.type, types.ListType)
-        value = lower_list(self._ctx, symbol, self._constraints) if is_list else None
+        elements = self._ctx.model.elements.get(symbol, ())
+        if elements:
+            value = self._list_of_objects(symbol, elements)
+        elif isinstance(symbol.type, types.ListType):
+            value = lower_list(self._ctx, symbol, self._constraints)
+        else:
+            value = None
         if value is None:
             self._ctx.unsupported(
                 "OSC501",
@@ -151,6 +156,21 @@ class FieldLowering:
             domain=None,
             is_fixed=False,
         )
+
+    def _list_of_objects(
+        self, symbol: sym.FieldSymbol, elements: tuple[sym.FieldSymbol, ...]
+    ) -> ir.ListValue | None:
+        """Declare the elements of a list, and return the list of them."""
+        references = []
+        for element in elements:
+            declared = self.lower(element, element.span, ())
+            if declared is None:
+                return None
+            self._ctx.drawn.append(declared)
+            type_ = lower_type(element.type)
+            references.append(ir.FieldRef(span=element.span, type=type_, name=element.name))
+        type_ = lower_type(symbol.type)
+        return ir.ListValue(span=symbol.span, type=type_, elements=tuple(references))
 
     def _is_given(self, symbol: sym.FieldSymbol) -> bool:
         """Whether some invocation of the scenario gives a parameter a value."""

@@ -62,7 +62,7 @@ def _lower_event(
     if isinstance(symbol, sym.EventSymbol) and isinstance(
         symbol.owner, sym.ActorSymbol | sym.StructSymbol
     ):
-        return _event_of_object(ctx, path, symbol)
+        return event_of_object(ctx, path, symbol)
     if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
         if declares_event(symbol):
             return ir.EventRef(span=path.span, name=symbol.name)
@@ -132,7 +132,7 @@ def _invoked_by(ctx: LoweringContext, label: sym.LabelSymbol) -> sym.Symbol | No
     return None if binding is None else binding.callee
 
 
-def _event_of_object(
+def event_of_object(
     ctx: LoweringContext, path: ast.Expression, symbol: sym.EventSymbol
 ) -> ir.EventRef | None:
     """Return an event that an actor or struct declares, as an event of the scenario."""

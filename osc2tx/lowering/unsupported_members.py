@@ -75,21 +75,16 @@ def _add(symbol: sym.TypeSymbol, found: dict[sym.TypeSymbol, None]) -> None:
 
 
 def _report(ctx: LoweringContext, owner: sym.TypeSymbol, statement: ast.Statement) -> None:
-    what = {
-        sym.ActorSymbol: "an actor",
-        sym.StructSymbol: "a struct",
-        sym.ActionSymbol: "an action",
-    }.get(type(owner), "a type")
+    if not isinstance(owner, sym.ActionSymbol):
+        return
     for item in _items(statement):
         ctx.unsupported(
             "OSC501",
             item.span,
-            f"`{item.kind}` in {what} is not supported yet",
+            f"`{item.kind}` in an action is not supported yet",
             help="sample it in the scenario, `cover(name, expression: object.member)`",
         )
-    if isinstance(owner, sym.ActionSymbol) and isinstance(
-        statement, ast.DoDirective | ast.OnDirective
-    ):
+    if isinstance(statement, ast.DoDirective | ast.OnDirective):
         word = "do" if isinstance(statement, ast.DoDirective) else "on"
         ctx.unsupported(
             "OSC506",

@@ -15,7 +15,9 @@ from osc2tx.lowering.expressions import lower_expression
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.semantics.coverage_items import items_of
 from osc2tx.semantics.model import SemanticModel
+from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
 TypeSymbol: TypeAlias = sym.ActorSymbol | sym.StructSymbol
@@ -30,14 +32,37 @@ _OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
 
 
 def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset[str]]:
-    """Return the fields that some expression of a program speaks of, and the names of its files."""
+    """Return the fields that some expression of a program speaks of, and the names of its files.
+
+    Coverage items of an object speak of it.
+    """
     found: dict[sym.FieldSymbol, set[str]] = {}
     for node, symbol in model.references.items():
         if isinstance(symbol, sym.FieldSymbol) and isinstance(
             node, ast.NameExpression | ast.MemberAccess
         ):
             found.setdefault(symbol, set()).add(node.span.source.name)
+    owners = (each for each in model.symbols if isinstance(each, sym.TypeSymbol))
+    for member in (each for owner in owners for each in owner.members.values()):
+        if isinstance(member, sym.FieldSymbol) and _is_sampled(member.type):
+            found.setdefault(member, set()).add(member.span.source.name)
     return {symbol: frozenset(names) for symbol, names in found.items()}
+
+
+def _is_sampled(type_: types.Type) -> bool:
+    """Whether objects of a type, or objects in them, have coverage items."""
+    pending, seen = [type_], set[types.Type]()
+    while pending:
+        current = pending.pop()
+        if current in seen or not isinstance(current, types.ActorType | types.StructType):
+            continue
+        seen.add(current)
+        for each in supertypes(current.symbol):
+            if any(True for _ in items_of(each)):
+                return True
+            fields = (m for m in each.members.values() if isinstance(m, sym.FieldSymbol))
+            pending += [field.type for field in fields if each.origin == "user"]
+    return False
 
 
 def user_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:

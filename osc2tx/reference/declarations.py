@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 
 from osc2tx.stdlib import DOMAIN, TYPES, library_file, member_meanings
 from osc2tx.syntax import ast
@@ -123,8 +123,14 @@ def _declaration(
 ) -> Declaration | None:
     match statement:
         case ast.EnumDeclaration():
+            means = partial(member_meanings().of_value, str(statement.name))
             members = tuple(
-                Member(kind="value", name=str(each.name), default=_source(each.value))
+                Member(
+                    kind="value",
+                    name=str(each.name),
+                    default=_source(each.value),
+                    meaning=means(str(each.name)),
+                )
                 for each in statement.members
             )
             return _made("enum", statement, "", members)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from textwrap import indent
 from typing import Any
 
@@ -133,14 +134,22 @@ def _meaning(member: Member) -> str:
 
 def _table(declaration: Declaration) -> str:
     if declaration.kind == "enum":
-        names = [f"`{each.name}`{_note(each)}" for each in declaration.members]
-        return ", ".join(names)
+        return _values(declaration.members)
     rows = ["| name | type | default | meaning |", "|---|---|---|---|"]
     for each in declaration.members:
         default = f"`{each.default}`" if each.default else ""
         kind = f"`{each.type}`" if each.type else ""
         call = "()" if each.kind == "method" else ""
         rows.append(f"| `{each.name}{call}` | {kind} | {default} | {_cell(_meaning(each))} |")
+    return "\n".join(rows)
+
+
+def _values(members: Sequence[Member]) -> str:
+    names = [f"`{each.name}`{_note(each)}" for each in members]
+    if not any(each.meaning for each in members):
+        return ", ".join(names)
+    rows = ["| value | meaning |", "|---|---|"]
+    rows += [f"| {name} | {each.meaning} |" for name, each in zip(names, members, strict=True)]
     return "\n".join(rows)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from osc2tx.diagnostics import Label
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.assignability import check_condition, check_value
 from osc2tx.semantics.constraints import paths_of, root_of
@@ -18,6 +19,7 @@ from osc2tx.semantics.coverage_items import (
 from osc2tx.semantics.coverage_slices import check_slices
 from osc2tx.semantics.events import resolve_event_path
 from osc2tx.semantics.resolution import Environment, Resolution
+from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import EnumMemberSymbol, ParameterSymbol
 from osc2tx.semantics.types import (
     ERROR,
@@ -46,6 +48,7 @@ def check_coverage(r: Resolution, node: ast.CoverageDeclaration, env: Environmen
     else:
         name, item = text_of(arguments.get("name")), _item_type(r, arguments, env)
         _check_unit(r, node, arguments, item)
+    _check_unique(r, node, env)
     _check_simple(r, node, arguments, env)
     check_slices(r, arguments, item, env)
     for key in ("ignore", "illegal"):
@@ -73,6 +76,21 @@ def _by_name(r: Resolution, node: ast.CoverageDeclaration) -> dict[str, ast.Expr
     if "name" not in found and "override" not in found:
         r.report("OSC404", node.span, f"`{node.kind}` misses its argument `name`")
     return found
+
+
+def _check_unique(r: Resolution, node: ast.CoverageDeclaration, env: Environment) -> None:
+    """Check that no other item of its metric group has the name: overrides go by it (§7.5.6)."""
+    earlier: dict[tuple[str, str], Item] = {}
+    lineage = () if env.owner is None else reversed(list(supertypes(env.owner)))
+    for item in (each for type_ in lineage for each in items_of(type_)):
+        first = earlier.setdefault((item.name, item.event), item)
+        if item.node is node and first is not item:
+            r.report(
+                "OSC412",
+                node.span,
+                f"item `{item.name}` of event `{item.event}` is declared twice",
+                labels=[Label(first.node.span, "first declared here")],
+            )
 
 
 def _item_type(r: Resolution, arguments: Arguments, env: Environment) -> Type:

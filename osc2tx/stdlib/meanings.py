@@ -28,6 +28,10 @@ class Meanings:
         own = self.tables.get(owner, {}).get(member)
         return own if own is not None else self.tables[COMMON].get(member, "")
 
+    def of_value(self, enum: str, value: str) -> str:
+        """Return the meaning of a value of an enum; empty if its name is the meaning."""
+        return self.tables.get(enum, {}).get(value, "")
+
     def of_declaration(self, name: str) -> str:
         """Return the meaning of a declaration; empty if there is none."""
         return self.tables[DECLARATIONS].get(name, "")

@@ -166,3 +166,57 @@ scenario sampled:
     trace = run(load(draft(asam(text, tmp_path))), RunSettings(max_time=5.0))
     assert trace.status == "timeout"
     assert not list(trace.of_kind("cover"))
+
+
+def test_items_of_actors_and_structs(load: Load, tmp_path: Path) -> None:
+    """They are sampled for each object, where it is declared, by its own events or at the end."""
+    text = """import osc.standard
+
+struct load:
+    weight: mass = 3kg
+    cover(weight, unit: kg)
+
+actor robot inherits vehicle:
+    gear: int with:
+        keep(it in [1..3])
+        cover(it, event: late)
+    box: load
+    event late is elapsed(0.98s)
+    record(v, expression: speed, unit: kph, event: late)
+    cover(both, items: [gear, v], event: late)
+    cover(override: gear, text: "the gear")
+
+scenario robot.leg:
+    other: robot
+    do drive(duration: 1s) with:
+        speed(36kph)
+
+scenario sampled:
+    one: robot with:
+        keep(it.gear == 2)
+    two: robot with:
+        keep(it.gear == 3)
+    open: robot
+    do one.leg(other: two)
+"""
+    module = asam(text, tmp_path)
+    items = {item.name: item for item in module.scenarios[-1].coverage}
+    assert items["one.gear"].text == "the gear"
+    assert [bucket.value for bucket in items["two.gear"].graded] == [3]
+    assert [bucket.value for bucket in items["open.gear"].graded] == [1, 2, 3]
+    trace = run(load(draft(module)))
+    found = [
+        (line["t"], line["name"], line["value"])
+        for kind in ("cover", "record")
+        for line in trace.of_kind(kind)
+        if line["name"] not in ("one.both", "two.both") and not line["name"].startswith("open")
+    ]
+    values = {
+        "one": {"box.weight": 3.0, "gear": 2, "v": 36.0},
+        "two": {"box.weight": 3.0, "gear": 3, "v": 0.0},
+    }
+    assert sorted(found) == [
+        (1.0, f"{name}.{item}", pytest.approx(value))
+        for name, of_object in values.items()
+        for item, value in of_object.items()
+    ]

@@ -133,3 +133,35 @@ def test_what_nothing_can_be_is_said(drawn: Drawn) -> None:
     members = parameters("i", "j", "k", type_="int", values="[0..5]")
     with pytest.raises(ScenarioError, match=r"does not hold in 1000 draws"):
         drawn(members + "    keep(i * i + j * j + k * k == 7)\n", 1)
+
+
+BALL = parameters("a", "b", "c", "d", type_="float", values="[0.0..10.0]")
+
+
+@pytest.mark.parametrize(
+    ("relations", "broken", "rivals"),
+    [
+        (["a * a + b * b <= 9.0", "c > d", "a + b > 5.0"], "a + b > 5.0", [0]),
+        (["c > d", "a + b > 5.0", "a * a + b * b <= 9.0"], "a * a + b * b <= 9.0", [1]),
+        (
+            ["a * a + b * b + c * c <= 9.0", "a > d", "a + b > 3.5", "c > 2.0 or d > 9.0"],
+            "c > 2.0 or d > 9.0",
+            [0, 1, 2],  # without `a > d`, `d` may be above 9
+        ),
+        (["i * i + j * j == 7", "i < 4"], "i * i + j * j == 7", []),  # at odds with itself
+    ],
+)
+def test_relations_that_contradict_each_other_are_named(
+    drawn: Drawn, relations: list[str], broken: str, rivals: list[int]
+) -> None:
+    members = BALL + parameters("i", "j", type_="int", values="[0..5]")
+    first = (HEAD + members).count("\n") + 1
+    keeps = "".join(f"    keep({each})\n" for each in relations)
+    with pytest.raises(ScenarioError) as error:
+        drawn(members + keeps, 1)
+    assert error.value.source is not None
+    assert error.value.source.endswith(f":{first + relations.index(broken)}")
+    said = error.value.message.partition(" (the last values")[0]
+    named = [f"`{relations[each]}` (case.osc:{first + each})" for each in rivals]
+    together = f" together with {' and '.join(named)}" if named else ""
+    assert said == f"`{broken}` does not hold in 1000 draws{together}"

@@ -17,6 +17,7 @@ from osc2tx_runtime import RunSettings
 from tests.golden.test_xosc import CASES
 from tests.golden.test_xosc import given as stated
 from tests.unit.backends.xosc.checks import schema_errors
+from tests.unit.backends.xosc.deprecations import deprecated
 from tests.xosc.parity import (
     FINE,
     Given,
@@ -141,6 +142,7 @@ def test_all_versions_and_profiles(path: Path, profile: XmlProfile, version: Xml
     for document in scenarios(source):
         if document.xml is not None:
             assert schema_errors(document.xml, version) == []
+            assert deprecated(document.xml, version) == set()
         check_document(path, source, document)
 
 

@@ -10,9 +10,10 @@ from collections import Counter
 from enum import Enum
 from math import ceil, floor, inf, log10
 
+from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
-from osc2tx_classes import dataclass
+from osc2tx_classes import dataclass, replace
 
 
 class Grade(Enum):
@@ -29,13 +30,15 @@ class Remedy:
 
     Attributes:
         version: The lowest version of OpenSCENARIO XML that could.
-        profile: A profile of a tool that could.
+        profile: A profile of a tool that could; with a version it takes both.
         instead: What else to write in the scenario, which the XML says exactly; a clause.
+        asks: What that asks of a tool, as in `ToolProfile.unsupported` and `deviates`.
     """
 
     version: str | None = None
     profile: str | None = None
     instead: str = ""
+    asks: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         parts = []
@@ -43,7 +46,17 @@ class Remedy:
             parts.append(f"OpenSCENARIO XML {self.version}")
         if self.profile is not None:
             parts.append(f"profile {self.profile}")
-        return " or ".join(parts)
+        return " in ".join(parts)
+
+    def with_tool(self, tool: ToolProfile) -> Remedy:
+        """Return what of it helps who writes for a tool: another one may read other versions."""
+        is_read = self.version is None or self.version in tool.versions
+        is_exact = not any(what in tool.unsupported or what in tool.deviates for what in self.asks)
+        return replace(
+            self,
+            profile=self.profile if is_read else "generic",
+            instead=self.instead if is_exact else "",
+        )
 
 
 NOTHING = Remedy()
@@ -143,6 +156,7 @@ class LossReport:
     def __init__(self, options: XmlOptions) -> None:
         """Start with nothing."""
         self.options = options
+        self._tool = PROFILES[options.profile]
         self._entries: dict[tuple[str, Span], list[Entry]] = {}
 
     def exact(self, construct: str, span: Span, note: str = "") -> None:
@@ -166,14 +180,21 @@ class LossReport:
                 grade=grade,
                 reason=reason,
                 bound=bound,
-                remedy=remedy,
+                remedy=remedy.with_tool(self._tool),
             )
         )
 
     def cannot(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
         """Note that a construct cannot be written down."""
-        grade = Grade.INEXPRESSIBLE
-        self._add(Entry(construct=construct, span=span, grade=grade, reason=reason, remedy=remedy))
+        self._add(
+            Entry(
+                construct=construct,
+                span=span,
+                grade=Grade.INEXPRESSIBLE,
+                reason=reason,
+                remedy=remedy.with_tool(self._tool),
+            )
+        )
 
     def _add(self, entry: Entry) -> None:
         """Add an entry; what is not exact stands instead of what is."""

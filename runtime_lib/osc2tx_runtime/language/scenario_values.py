@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar, Unpack, overload
 
@@ -10,23 +9,15 @@ from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.source_map import SourceMap
-from osc2tx_runtime.language.tree.broken_values import (
-    NO_RESULT,
-    NoResult,
-    NotKeptError,
-    not_computed,
-    not_kept,
-)
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
+from osc2tx_runtime.language.tree.drawing import ATTEMPTS, Drawing
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
-from osc2tx_runtime.language.tree.walks import Draws, Walk
+from osc2tx_runtime.language.tree.walks import Draws
 from osc2tx_runtime.language.tree.written_units import AnyUnit, Unit, unit_named
 
-__all__ = ["ATTEMPTS", "ScenarioValues"]
+__all__ = ["ScenarioValues"]
 
 AnyT = TypeVar("AnyT")
-
-ATTEMPTS = 1000  # draws of all values before constraints between them count as contradictory
 
 
 class ScenarioValues:
@@ -70,13 +61,16 @@ class ScenarioValues:
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
-        self._attempt = 0
         self._first: ScenarioValues = self if caller is None else caller._first
         self.has_drawn_values = False
-        self._draws = False  # whether a value was drawn, so that another draw may help
-        self._kept = 0
-        self._broken: NoResult | NotKeptError | None = None  # by the last draw
-        self._walk: Walk | None = None  # after that many draws in vain
+        self._drawing = Drawing(
+            settings.draws_from,
+            key,
+            source_map,
+            self.parameters,
+            self.parameter_units,
+            ATTEMPTS if settings.draws is None else 1,
+        )
         self._items: dict[str, CoverageItem] = {}
 
     # --- used by generated classes ---
@@ -203,9 +197,7 @@ class ScenarioValues:
         If it does not hold, all values that are drawn are drawn anew; after a thousand draws, or
         if none is drawn, the scenario cannot run.
         """
-        if not holds:
-            raise NotKeptError(self._source_map.of_constraint(self._kept))
-        self._kept += 1
+        self._drawing.demand(holds)
 
     @overload
     def external(self, path: str) -> Callable[..., object]: ...
@@ -249,44 +241,20 @@ class ScenarioValues:
         members, shared = set(vars(self)), dict(self._shared)
         objects = dict(self._shared_objects)
 
-        def height() -> int | None:
-            """Declare all anew; return how many constraints hold, None if all do."""
+        def declare_anew() -> None:
             for name in vars(self).keys() - members:
                 del self.__dict__[name]
             self.parameters.clear()
             for kept, before in ((self._shared, shared), (self._shared_objects, objects)):
                 kept.clear()
                 kept.update(before)
-            self._kept, self._draws = 0, False
-            try:
-                declare()
-            except (*NO_RESULT, NotKeptError) as error:
-                self._broken = error
-                return self._kept
-            return None
+            declare()
 
-        for self._attempt in range(ATTEMPTS):
-            if height() is None:
-                return
-            if not self._draws:
-                raise self._error()
-        self._walk = Walk(random.Random(f"{self.settings.draws_from}/{self._key}/walk"), height)
-        if not self._walk.arrive():
-            raise self._error()
-
-    def _error(self) -> ScenarioError:
-        """Return what to say of the constraint or value that does not hold."""
-        tried = f" in {ATTEMPTS} draws" if self._walk is not None else ""
-        if isinstance(self._broken, NotKeptError):
-            return not_kept(self._broken, self.parameters, self.parameter_units, tried)
-        assert self._broken is not None
-        error = not_computed(self._broken, self._source_map, self._kept, tried)
-        error.__cause__ = self._broken
-        return error
+        self._drawing.settle(declare_anew)
 
     def _own(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
         path = f"{self._path}.{name}" if self._path else name
-        generator = self._draws_for(f"{self._key}/{name}")
+        generator = self._drawing.draws_for(f"{self._key}/{name}")
         given = self._arguments.get(name)
         if unit:
             self.parameter_units[name] = self._first.parameter_units[path] = unit_named(unit)
@@ -298,7 +266,7 @@ class ScenarioValues:
         if unit:
             self._first.parameter_units[name] = unit_named(unit)
         if name not in self._shared:
-            generator = self._draws_for(f"global/{name}")
+            generator = self._drawing.draws_for(f"global/{name}")
             self._shared[name] = self._choose(name, name, default, domain, generator, None)
         return self._shared[name]
 
@@ -316,17 +284,10 @@ class ScenarioValues:
             generator = self.settings.draws(path)
         is_open = given is None and path not in chosen
         if isinstance(default if is_open else given, Range | Choice):
-            self._draws = self._first.has_drawn_values = True
+            self._drawing.has_drawn = self._first.has_drawn_values = True
         unit = self._first.parameter_units.get(path)
         try:
             return choose(path, default, domain, generator, given=given, settings=chosen, unit=unit)
         except ScenarioError as error:
             error.source = error.source or self._source_map.of_field(name)
             raise
-
-    def _draws_for(self, what: str) -> Draws:
-        """Return draws that depend on the seed and on what is drawn, not on an order."""
-        if self._walk is not None:
-            return self._walk.draws_for(what)
-        again = f"/{self._attempt}" if self._attempt else ""
-        return random.Random(f"{self.settings.draws_from}/{what}{again}")

@@ -184,24 +184,37 @@ def test_compound_lanes_side_by_side(load_map: Load) -> None:
     assert (one.found.lane, other.found.lane) == (-4, -3)
 
 
-def test_overlaps(load_map: Load) -> None:
-    """A map whose road has several sections: a section overlaps a part of it."""
+@pytest.mark.parametrize(
+    ("kind", "parts", "wholes"),
+    [
+        ("start", {0}, {0}),
+        ("end", {2}, {2}),
+        ("other", {1}, set()),
+        ("equal", set(), set()),
+        ("inside", set(), {0, 1, 2}),
+        ("any", {0, 1, 2}, {0, 1, 2}),
+    ],
+)
+def test_overlaps(load_map: Load, kind: Any, parts: set[int], wholes: set[int]) -> None:
+    """Of a road with the sections that it consists of: those may be the second route, the first.
+
+    `start`, `end` and `equal` are about the points where routes begin and end (DSL 8.12.23).
+    """
     merge = load_map("merge")
-    road = next(r for r in merge.roads.values() if len(r.sections) > 1 and r.junction is None)
-    cases = {"start": len(road.sections) - 1, "end": 0}
-    for kind in ("start", "end", "equal", "inside", "other"):
-        whole, piece = Road(anchors=[road.id]), LaneSection()
-        relation = routes_overlap(whole, piece, kind)
-        if kind in cases:
-            solve(merge, [whole, piece], relation)
-            section = merge.roads[road.id].sections[piece.found.section or 0]
-            touched = section.begin == 0.0 if kind == "start" else section.end == road.length
-            assert touched and section.end - section.begin < road.length
-        elif kind in ("equal", "other"):
-            with pytest.raises(ScenarioError, match="for which routes_overlap hold"):
-                solve(merge, [whole, piece], relation)
-        piece, outer = LaneSection(road=whole), Road(anchors=[road.id])
-        solve(merge, [whole, piece, outer], routes_overlap(piece, whole, "other"))
+
+    def holds(number: int, is_first: bool) -> bool:
+        sections = [LaneSection(), LaneSection(), LaneSection()]
+        road = Road(anchors=["2"], s_positive=sections)
+        pair = (sections[number], road) if is_first else (road, sections[number])
+        try:
+            solve(merge, [*sections, road], routes_overlap(*pair, kind))
+        except ScenarioError as error:
+            assert "for which routes_overlap" in str(error)
+            return False
+        return True
+
+    assert {number for number in range(3) if holds(number, is_first=False)} == parts
+    assert {number for number in range(3) if holds(number, is_first=True)} == wholes
 
 
 def test_several_modifiers_are_solved_together(load_map: Load) -> None:

@@ -52,7 +52,7 @@ OBJECT = {
     ast.MethodDeclaration: Case(
         "def y() -> int is expression x * 44", text="* 44", do="wait it_.y() > 1"
     ),
-    ast.CoverageDeclaration: Case("cover(x)", code="OSC501"),
+    ast.CoverageDeclaration: Case("cover(x)", text='self.cover("it_.x"'),
 }
 
 CASES = {

@@ -21,4 +21,6 @@ def check_model(ctx: Context, member: CastMember) -> None:
 def no_model(what: str, span: Span) -> Inexpressible:
     """Return why a behavioral model cannot be written."""
     reason = f"{what} is up to the controllers of a tool; the XML cannot say it"
-    return Inexpressible(reason, span, Remedy(instead="actions that say speed and lane are exact"))
+    asks = ("SpeedActionDynamics", "LaneChangeActionDynamics")
+    saying = Remedy(instead="actions that say speed and lane are exact", asks=asks)
+    return Inexpressible(reason, span, saying)

@@ -10,6 +10,7 @@ from math import inf
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed_changes import longitudinal
+from osc2tx.backends.xosc.actions.speed_notes import GENERIC
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
@@ -59,7 +60,8 @@ class Gap:
 
 ARRIVING = Remedy(
     instead="`drive(duration: …)` with `position(…, at: end)`, while the other one keeps its speed,"
-    " is exact"
+    " is exact",
+    asks=("SpeedActionDynamics",),
 )
 
 
@@ -144,8 +146,18 @@ def hold(
 
 def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bool:
     """Whether a gap is kept that is there; else report that the way to it is up to the tool."""
-    is_carried_out = "LongitudinalDistanceAction/rigid" not in leaf.ctx.profile.unsupported
-    if keeps and missing is not None and missing <= SURE and is_carried_out:
+    tool = leaf.ctx.profile
+    is_there = keeps and missing is not None and missing <= SURE
+    if is_there and "LongitudinalDistanceAction/rigid" in tool.unsupported:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            f"{tool.name} keeps a distance by a control of its own, not exactly",
+            "by as much as that control lets it change",
+            GENERIC,
+        )
+        return False
+    if is_there:
         mine, theirs = leaf.limits, gap.reference.limits
         if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
             leaf.ctx.report.approximate(

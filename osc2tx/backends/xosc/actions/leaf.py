@@ -66,6 +66,19 @@ class Performance:
     reached: tuple[Element, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Uneven:
+    """How an even change of the speed differs from that of the world.
+
+    Attributes:
+        speed: By how much (m/s) at most.
+        length: Seconds after which the speeds are the same; `None`: where the change is complete.
+    """
+
+    speed: float
+    length: float | None
+
+
 class Arguments:
     """Arguments of an action or modifier by parameter, as constants."""
 
@@ -142,6 +155,7 @@ class Leaf:
         course: Of the speed, where the changes say it.
         distance: Metres after which it is over; `None` if no distance ends it.
         reached: Conditions that hold when it is over.
+        uneven: How its change of the speed differs, where it only is an even one.
         others: Who does what from its end on, and a word for it.
     """
 
@@ -166,6 +180,7 @@ class Leaf:
         self.course: Course | None = None
         self.distance: float | None = None
         self.reached: tuple[Element, ...] = ()
+        self.uneven: Uneven | None = None
         self.others: list[tuple[CastMember, Element, str]] = []
 
     def on_me(self, condition: Element) -> Element:

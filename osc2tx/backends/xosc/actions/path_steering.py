@@ -18,10 +18,12 @@ NEAR = 0.05
 """Metres beside its line that count as on it."""
 
 ON_THE_LINE = Remedy(
-    instead="`replay_path`, or `physical_movement(prefer_non_physical)`, is on the line exactly"
+    instead="`replay_path`, or `physical_movement(prefer_non_physical)`, is on the line exactly",
+    asks=("FollowTrajectoryAction",),
 )
 JUMPING = Remedy(
-    instead="`replay_trajectory`, or `physical_movement(prefer_non_physical)`, jumps like the XML"
+    instead="`replay_trajectory`, or `physical_movement(prefer_non_physical)`, jumps like the XML",
+    asks=("FollowTrajectoryAction",),
 )
 
 

@@ -64,7 +64,8 @@ def change_speed(
         course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
         leaf.course = course
         leaf.demand(fastest(course))
-        action = _from_known(leaf, course, target, profile, peak)
+        lasting = leaf.duration if duration is None else None
+        action = _from_known(leaf, course, target, profile, peak, lasting)
         return Change(LONGITUDINAL, (action,), course.duration, during, after)
     if peak is not None:
         leaf.demand(peak)
@@ -91,8 +92,14 @@ def _is_changing(state: ActorState) -> bool:
 
 
 def _from_known(
-    leaf: Leaf, course: Profile, target: float, profile: str, peak: float | None
+    leaf: Leaf,
+    course: Profile,
+    target: float,
+    profile: str,
+    peak: float | None,
+    lasting: float | None,
 ) -> Element:
+    """Return the change from a speed that is known, whose action may last shorter than it."""
     if isinstance(course, Linear):
         return speed_action(target, "linear", "time", course.duration)
     if isinstance(course, Cosine):
@@ -100,10 +107,11 @@ def _from_known(
     note_acceleration(leaf, target, profile, peak)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, profile, peak)
-    even = Linear(course.value(0.0), target, course.duration)
+    length = course.duration if lasting is None else min(lasting, course.duration)
+    even = Linear(course.value(0.0), course.value(length), length)
     if leaf.ctx.profile.has_shapes:  # others are reported for all changes
-        note_even_change(leaf, [(course, even)])
-    return speed_action(target, "linear", "time", course.duration)
+        note_even_change(leaf, [(course, even)], length)
+    return speed_action(even.end, "linear", "time", length)
 
 
 def _accelerations(leaf: Leaf, target: float, profile: str, peak: float | None) -> Interval:
@@ -135,7 +143,7 @@ def _from_unknown(
     shape = "sinusoidal" if profile == "smooth" else "linear"
     if leaf.ctx.can(RATE, "1.0"):
         if profile in ("none", "asap"):
-            note_even_change(leaf, _even_courses(leaf, target, profile, peak, rate))
+            note_even_change(leaf, _even_courses(leaf, target, profile, peak, rate), None)
         return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
     return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
 

@@ -52,7 +52,10 @@ def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
             "the XML cannot ask for caution; only controllers of the tool may have it",
             "speed and place are those of the other modifiers, without braking for others or for"
             " red lights",
-            Remedy(instead="`change_speed` at a condition says when it brakes, and how, exactly"),
+            Remedy(
+                instead="`change_speed` at a condition says when it brakes, and how, exactly",
+                asks=("SpeedActionDynamics",),
+            ),
         )
     return ()
 
@@ -75,7 +78,7 @@ def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> t
 def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if arguments.member("direction", "longitudinal") != "longitudinal":
         instead = "`change_lane` or `lateral(…)` with a duration moves across the road exactly"
-        remedy = Remedy(instead=instead)
+        remedy = Remedy(instead=instead, asks=("LaneChangeActionDynamics",))
         raise Inexpressible("there is no action on a speed across the road", call.span, remedy)
     own = user_shape(arguments)
     if own is not None and call.at == "all":
@@ -195,7 +198,7 @@ def _rate_towards(
         f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
         " the XML, and another one for braking in the world",
         bound,
-        Remedy(instead="`speed` with the speed itself is exact"),
+        Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",)),
     )
     return min(faster, slower)
 

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from osc2tx.backends.xosc.actions.leaf import Leaf
+from osc2tx.backends.xosc.actions.leaf import Leaf, Uneven
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts.actors import Course, Linear, way_between, way_by_acceleration
+from osc2tx.backends.xosc.facts.actors import (
+    Course,
+    Linear,
+    apart,
+    way_between,
+    way_by_acceleration,
+)
 from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
 
@@ -43,20 +49,44 @@ def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | Non
     )
 
 
-def note_even_change(leaf: Leaf, courses: Iterable[tuple[Course, Linear]]) -> None:
+def note_even_change(
+    leaf: Leaf, courses: Iterable[tuple[Course, Linear]], length: float | None
+) -> None:
     """Report that a change with limited jerk is an even one in the XML.
 
     Args:
         leaf: The invocation.
         courses: The courses of the speed that the world may drive, with those of the XML.
+        length: Seconds after which both have the same speed; `None`: at their ends.
     """
-    apart = max(way_between(world, even) for world, even in courses)
-    if apart > NEAR:
+    known = tuple(courses)
+    off = max(way_between(world, even, length) for world, even in known)
+    leaf.uneven = Uneven(max(apart(world, even) for world, even in known), length)
+    if off > NEAR:
         version = leaf.ctx.version
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
             f"OpenSCENARIO XML {version} has no limits of the jerk: the speed changes evenly",
-            Metres(apart, "ahead or behind"),
+            Metres(off, "ahead or behind"),
             SINCE_PROFILES,
         )
+
+
+def note_cut(leaf: Leaf, *, is_by_duration: bool) -> None:
+    """Report that an even change has another speed than that of the world where it is cut short.
+
+    Args:
+        leaf: The invocation, which may be over before its change.
+        is_by_duration: Only its duration ends it.
+    """
+    uneven = leaf.uneven
+    if uneven is None or (is_by_duration and uneven.length == leaf.duration):
+        return
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        "what cuts the even change short leaves it at another speed",
+        f"at most {uneven.speed:.2g} m/s off from then on, until it has a new speed",
+        SINCE_PROFILES,
+    )

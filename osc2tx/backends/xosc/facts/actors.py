@@ -126,9 +126,15 @@ def way_by_acceleration(
     return max(way_between(speed_profile(change, speed, limits, rate), at_rest) for rate in rates)
 
 
-def way_between(one: Course, other: Course) -> float:
-    """Return how far (m) two courses of the speed are from each other at most, on the way."""
-    step = max(one.duration, other.duration) / STEPS
+def way_between(one: Course, other: Course, within: float | None = None) -> float:
+    """Return how far (m) two courses of the speed are from each other at most, on the way.
+
+    Args:
+        one: A course.
+        other: Another one.
+        within: Seconds to look at; `None`: until both are over.
+    """
+    step = (max(one.duration, other.duration) if within is None else within) / STEPS
     apart = farthest = 0.0
     for index in range(STEPS):
         middle = (index + 0.5) * step
@@ -162,7 +168,7 @@ def course_of_shift(
     return shift_profile(0.0, distance, rate, (_known(profile), peak, duration), limits)
 
 
-def apart(one: Profile, other: Profile) -> float:
+def apart(one: Course, other: Course) -> float:
     """Return by how much two courses differ at most."""
     step = max(one.duration, other.duration) / STEPS
     times = (index * step for index in range(STEPS + 1))

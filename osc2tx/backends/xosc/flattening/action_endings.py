@@ -113,7 +113,10 @@ def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Beha
     )
     bound = Metres(_beside(builder, actor), "beside, while it returns")
     construct = "a change of lane that is cut short"
-    finishing = Remedy(instead="a change of lane that nothing cuts short is exact")
+    finishing = Remedy(
+        instead="a change of lane that nothing cuts short is exact",
+        asks=("LaneChangeActionDynamics",),
+    )
     builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
     return element(
         "PrivateAction",

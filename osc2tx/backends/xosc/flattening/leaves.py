@@ -7,6 +7,7 @@ from math import inf
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
+from osc2tx.backends.xosc.actions.speed_notes import note_cut
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
@@ -54,8 +55,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         leaf.arguments.finish()
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
+    is_cut = bool(node.until or overriding or builder.is_race)
     if actions:
-        is_cut = bool(node.until or overriding or builder.is_race)
         length = 0.0 if is_cut else _event_length(performance)
         goal = builder.add(name, actions, start, actor=member.name, lasting=length)
         for other, action, word in leaf.others:
@@ -67,9 +68,10 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     lasting = _least_length(builder, node, performance)
     successors = builder.claimed_by(overriding)
     for change in performance.changes:
-        record_end_state(
-            builder, leaf, change, is_over=not overriding and _is_over(change, lasting)
-        )
+        is_over = not overriding and _is_over(change, lasting)
+        record_end_state(builder, leaf, change, is_over=is_over)
+        if not is_over and change.domain == LONGITUDINAL:
+            note_cut(leaf, is_by_duration=not is_cut)
         if (member.name, change.domain) in successors:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import TypeAlias
 
 from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.routes.map_segments import MapSegment
@@ -17,6 +18,8 @@ from .registry import modifier
 
 __all__ = ["RoadsFollowInJunction", "RoutesAreInSequence", "RoutesAreOpposite", "RoutesOverlap"]
 
+
+_Ranges: TypeAlias = Mapping[str, tuple[float, float]]
 
 _WITHIN = math.radians(10.0)  # of a direction at a junction (DSL 8.12.22)
 _TURNS: Mapping[JunctionDirection, float] = {
@@ -163,10 +166,10 @@ class RoutesOverlap(MapModifier):
     """Two routes run side by side, or one on the other, over a part of the same road.
 
     Attributes:
-        route1: The first; the kinds of overlap are seen from it.
+        route1: The first; the kinds of overlap are seen from it, in its direction.
         route2: The second.
-        overlap_kind: Which part of the first: all of it with all of the second (`equal`), its
-            start, its end, a part `inside` of it; `other`: more than that.
+        overlap_kind: Both share their start (`start`), their end (`end`) or both of them
+            (`equal`); the first lies within the second (`inside`); in another way (`other`).
     """
 
     route1: RoadPart
@@ -177,43 +180,47 @@ class RoutesOverlap(MapModifier):
         """Pairs that overlap so."""
         for first in self.candidates(graph, known, "route1"):
             for second in self.candidates(graph, known, "route2"):
-                if self._overlaps(_extent(graph, first), _extent(graph, second), first.forwards):
+                kinds = _kinds_of_overlap(graph, first, second)
+                if self.overlap_kind in kinds:
                     yield {"route1": first, "route2": second}
 
-    def _overlaps(
-        self, one: Mapping[str, tuple[float, float]], other: Mapping[str, tuple[float, float]],
-        forwards: bool,
-    ) -> bool:  # fmt: skip
-        shared = [road for road in one if road in other]
-        if len(one) > 1 or len(other) > 1:  # compound: only whole roads in common are told apart
-            if not shared:
-                return False
-            return self.overlap_kind == "any" or (self.overlap_kind == "equal") == (
-                one.keys() == other.keys()
-            )
-        if not shared:
-            return False
-        (begin, end), (other_begin, other_end) = one[shared[0]], other[shared[0]]
-        if min(end, other_end) <= max(begin, other_begin):
-            return False
-        at_begin, at_end = other_begin <= begin, other_end >= end
-        if not forwards:
-            at_begin, at_end = at_end, at_begin
-        match self.overlap_kind:
-            case "any":
-                return True
-            case "equal":
-                return (begin, end) == (other_begin, other_end)
-            case "start":
-                return at_begin and not at_end
-            case "end":
-                return at_end and not at_begin
-            case "inside":
-                return not at_begin and not at_end
-        return at_begin and at_end and (begin, end) != (other_begin, other_end)
+
+def _kinds_of_overlap(
+    graph: RoadGraph, first: MapSegment, second: MapSegment
+) -> set[RouteOverlapKind]:
+    """What `route_overlap_kind` says of two routes (DSL 8.12.23); nothing if they share nothing."""
+    one, other = _ranges(graph, first), _ranges(graph, second)
+    shared = [r for r in one if r in other and min(one[r][1], other[r][1]) > _begin(one, other, r)]
+    if not shared:
+        return set()
+    found: set[RouteOverlapKind] = set()
+    start, end = _ends(one, first)
+    points = _ends(other, second)
+    if start in points:
+        found.add("start")
+    if end in points:
+        found.add("end")
+    if len(found) == 2:
+        found.add("equal")
+    if all(r in other and other[r][0] <= one[r][0] and one[r][1] <= other[r][1] for r in one):
+        found.add("inside")
+    return {"any", *(found or ("other",))}
 
 
-def _extent(graph: RoadGraph, segment: MapSegment) -> dict[str, tuple[float, float]]:
+def _begin(one: _Ranges, other: _Ranges, road: str) -> float:
+    return max(one[road][0], other[road][0])
+
+
+def _ends(ranges: _Ranges, segment: MapSegment) -> tuple[tuple[str, float], tuple[str, float]]:
+    """Road and s of its start and of its end, in its direction."""
+    parts = [each for each in segment.parts if each.road in ranges] or [segment]
+    first, last = parts[0], parts[-1]
+    start = ranges[first.road][0 if first.forwards else 1]
+    end = ranges[last.road][1 if last.forwards else 0]
+    return (first.road, start), (last.road, end)
+
+
+def _ranges(graph: RoadGraph, segment: MapSegment) -> _Ranges:
     """Range of s by road."""
     if segment.kind == "compound_route":
         return {part.road: (0.0, graph.map.roads[part.road].length) for part in segment.parts}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from osc2tx_runtime.errors import ScenarioError
@@ -32,7 +32,11 @@ class NotKeptError(Exception):
 
 
 def not_kept(
-    broken: NotKeptError, parameters: Mapping[str, Any], units: Mapping[str, Unit], tried: str
+    broken: NotKeptError,
+    parameters: Mapping[str, Any],
+    units: Mapping[str, Unit],
+    tried: str,
+    rivals: Sequence[NotKeptError] = (),
 ) -> ScenarioError:
     """Return what to say of a relation, with the values that it is about.
 
@@ -41,8 +45,9 @@ def not_kept(
         parameters: All values.
         units: Those of them that have one.
         tried: How often others were drawn, ` in 1000 draws`; empty if none were.
+        rivals: Relations that it contradicts.
     """
-    text = failing_part(broken)[0].removeprefix("keep(").removesuffix(")")
+    text = _relation(broken)
     words = set(re.findall(r"\w+", text))
     about = {name: v for name, v in parameters.items() if name in words}
     values = ", ".join(
@@ -50,7 +55,13 @@ def not_kept(
     )
     help_ = f" (the last values: {values})" if tried else f" ({values})" if values else ""
     what = f"`{text}`" if text else "a constraint"
-    return ScenarioError(f"{what} does not hold{tried}{help_}", broken.place)
+    beside = " and ".join(f"`{_relation(each)}` ({each.place})" for each in rivals)
+    together = f" together with {beside}" if beside else ""
+    return ScenarioError(f"{what} does not hold{tried}{together}{help_}", broken.place)
+
+
+def _relation(broken: NotKeptError) -> str:
+    return failing_part(broken)[0].removeprefix("keep(").removesuffix(")")
 
 
 def not_computed(

@@ -17,6 +17,7 @@ __all__ = ["Draws", "Walk"]
 
 EXCHANGES = 5_000  # pairs that are tried
 CLIMB = 10_000  # tries after which demands count as contradictory
+SHORT_CLIMB = 1_000  # tries of one that asks which demands contradict each other
 SWEEPS = 30  # moves of each share, once it is there
 NARROW = 1e-12  # an interval in which nothing else is found
 
@@ -90,6 +91,15 @@ class Walk:
                 self._slide({name: 1.0}, None)
             self._slide({name: self._generator.gauss(0.0, 1.0) for name in self._shares}, None)
         return self._height() is None
+
+    def can_rise(self, height: int) -> bool:
+        """Whether a short climb from here, where so many demands hold, leads to more of them."""
+        here, self._tries = dict(self._shares), 0
+        reached: int | None = height
+        while reached == height and self._tries < SHORT_CLIMB:
+            reached = self._climb(height)
+        self._shares = here
+        return reached != height
 
     def _exchange(self, height: int | None) -> int | None:
         """Exchange shares, never down; return the height after it.

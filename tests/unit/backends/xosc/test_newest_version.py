@@ -10,6 +10,7 @@ from osc2tx.backends.xosc import XmlScenario
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, Standard, XmlOptions, XmlVersion
 from tests.unit.backends.xosc.checks import schema_errors
+from tests.unit.backends.xosc.deprecations import deprecated
 from tests.unit.backends.xosc.documents import documents
 from tests.unit.backends.xosc.schemas import TOOL
 
@@ -104,6 +105,16 @@ def test_roles_have_their_own_literals(role: str, tmp_path: Path) -> None:
 def test_the_tables_have_all_new_literals() -> None:
     assert set(NEW["literals"]["VehicleCategory"]) <= set(CATEGORIES.values())
     assert set(NEW["literals"]["Role"]) <= set(ROLES.values())
+
+
+def test_literals_that_it_deprecates_are_those_of_older_versions(tmp_path: Path) -> None:
+    text = ACTOR.format(keep="it.vehicle_category == motorcycle").replace(
+        "    do ", "        keep(it.role == fire_brigade)\n    do "
+    )
+    older, newest = (written(tmp_path, text, version).xml for version in ("1.3", "1.4"))
+    assert older is not None and newest is not None
+    assert deprecated(older, "1.4") == {"VehicleCategory motorbike", "Role fire"}
+    assert deprecated(older, "1.3") == deprecated(newest, "1.4") == set()
 
 
 @pytest.mark.parametrize(

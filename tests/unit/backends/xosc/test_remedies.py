@@ -1,0 +1,37 @@
+"""What reports say that would help is of use for the chosen tool."""
+
+import pytest
+
+from osc2tx.backends.xosc.report import Remedy
+from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
+from osc2tx.options import XmlOptions, XmlProfile
+from tests.unit.backends.xosc.documents import compiled, documents
+from tests.xosc.test_parity import SCENARIOS
+
+NEWER = Remedy(version="1.1")
+MOVING = Remedy(instead="`change_speed` is exact", asks=("SpeedActionDynamics",))
+
+
+@pytest.mark.parametrize("tool", PROFILES.values(), ids=PROFILES)
+def test_a_version_is_one_that_the_tool_reads(tool: ToolProfile) -> None:
+    words = str(NEWER.with_tool(tool))
+    if "1.1" in tool.versions:
+        assert words == "OpenSCENARIO XML 1.1"
+    else:
+        assert words == "OpenSCENARIO XML 1.1 in profile generic"
+
+
+def test_nothing_is_called_exact_that_the_tool_carries_out_in_another_way() -> None:
+    assert MOVING.with_tool(PROFILES["esmini"]) == MOVING
+    assert MOVING.with_tool(PROFILES["scenario_runner"]).instead == ""
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_a_gap_that_is_there_has_nothing_to_close(profile: XmlProfile) -> None:
+    path = SCENARIOS / "capabilities" / "C14_space_gap.osc"
+    options = XmlOptions(version="1.0", profile=profile)
+    (document,) = documents(compiled(path), options)
+    kept = [e for e in document.report.losses if e.construct == "action keep_space_gap"]
+    control = ["scenario_runner keeps a distance by a control of its own, not exactly"]
+    assert [e.reason for e in kept] == (control if profile == "scenario_runner" else [])
+    assert all("`drive" not in str(e.help) for e in kept)
