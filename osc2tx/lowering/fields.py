@@ -48,6 +48,8 @@ class FieldLowering:
         match symbol.type:
             case types.ActorType() if (other := other_actor(self._ctx, symbol)) is not None:
                 return self._other_actor(symbol, other, span, comments)
+            case types.ActorType() if self._is_one_of_several(symbol):
+                return None
             case types.ActorType():
                 actor = self._objects.types_of(symbol)
                 add_types(self._ctx, actor, span)
@@ -112,6 +114,21 @@ class FieldLowering:
             domain=None,
             is_fixed=False,
         )
+
+    def _is_one_of_several(self, symbol: sym.FieldSymbol) -> bool:
+        """Report an actor of which constraints only say among which others it is."""
+        about = self._constraints.found.by_key.get((symbol,), ())
+        own = (c for c in about if c.subject == (symbol,) and not c.place.prefix)
+        listed = (c for c in own if c.is_range and not self._is_given(symbol))
+        constraint = next(listed, None)
+        if constraint is not None:
+            self._ctx.unsupported(
+                "OSC501",
+                constraint.span,
+                f"which of several actors `{symbol.name}` is, is open until the run",
+                help=f"say which one: `keep({symbol.name} == …)`",
+            )
+        return constraint is not None
 
     def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
         """Whether nothing but an invocation says what a struct is."""
