@@ -176,6 +176,8 @@ class Collector:
         is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
             t.origin != "library" for t in supertypes(type_)
         )
+        for element in self._model.elements.get(field, ()) if len(key) == 1 else ():
+            yield from self._of_element(place, element, depth)
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
             inner = replace(place, owner=type_, prefix=key, it=key)
             yield from self._of_type(inner, type_, depth + 1)
@@ -188,6 +190,15 @@ class Collector:
         if node.default is not None and node.default not in self._model.quantities:
             yield self._setting(place, key, field.type, node.default, "default value")
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+
+    def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
+        """Yield what the type of an element of a list demands of it."""
+        type_, key = symbol_of(element.type), (element,)
+        if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
+            self.objects[key] = type_
+        if type_ is not None and any(each.origin != "library" for each in supertypes(type_)):
+            inner = replace(place, owner=type_, prefix=key, it=key)
+            yield from self._of_type(inner, type_, depth + 1)
 
     def _of_with_field(self, inside: Place, node: ast.ParameterDeclaration) -> Iterator[Entry]:
         for rule in node.constraints:

@@ -8,7 +8,7 @@ from contextlib import closing
 from osc2tx.campaigns.engine import Engine
 from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import Texts, identity_of, plan_to
-from osc2tx.campaigns.planner import Planner, columns_of, is_allowed
+from osc2tx.campaigns.planner import Planner, columns_of, why_left_out
 from osc2tx.campaigns.samplers import sampler_by_name
 from osc2tx.campaigns.sampling import Findings, Sampler, Wanted
 from osc2tx.campaigns.store import Store
@@ -108,7 +108,7 @@ def make_sampler(executor: Executor, wanted: Wanted, findings: Findings) -> Samp
         raise CampaignError("say how many rows there are to be: --samples 1000")
 
     def allows(row: Row) -> bool:
-        return is_allowed(executor, row)
+        return why_left_out(executor, row) is None
 
     needs_columns = wanted.name.partition(":")[0] not in ("random", "table")
     columns = columns_of(executor) if needs_columns else []

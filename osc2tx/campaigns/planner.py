@@ -7,11 +7,11 @@ from collections.abc import Container, Iterator
 from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.sampling import Sampler
 from osc2tx_runtime import ScenarioError
-from osc2tx_runtime.campaigns import Executor, LeftOut, Row
+from osc2tx_runtime.campaigns import Executor, Row
 from osc2tx_runtime.campaigns.points import Column
 from osc2tx_runtime.errors import SettingsError
 
-__all__ = ["Planner", "columns_of", "is_allowed"]
+__all__ = ["Planner", "columns_of", "why_left_out"]
 
 ATTEMPTS = 1000  # points that are tried
 MOST_LEFT_OUT = 10_000  # in a row: then a sequence is given up
@@ -21,31 +21,43 @@ def columns_of(executor: Executor) -> list[Column]:
     """Return the parameters that a scenario draws, in order.
 
     Raises:
+        CampaignError: Hardly any point keeps the constraints.
         ScenarioError: It can have no values at all.
     """
     executor.values_of(Row(0, 0))  # by a seed there are values, or it says why not
     for seed in range(ATTEMPTS):
         try:
             _, point = executor.values_of(Row(0, seed, {}))
-        except LeftOut:
+        except ScenarioError as error:
+            last = error
             continue
         assert point is not None
         return list(point.columns.values())
-    raise CampaignError(
-        f"none of {ATTEMPTS} points of the domain keeps the constraints: the set of values is too"
-        " thin for this sampler, use --sampler random"
-    )
+    raise too_thin(f"none of {ATTEMPTS} points of the domain keeps the constraints", last)
 
 
-def is_allowed(executor: Executor, row: Row) -> bool:
-    """Whether the values of a row keep the constraints."""
+def why_left_out(executor: Executor, row: Row) -> ScenarioError | None:
+    """Return which constraint the values of a row break, or what has no result; None if none."""
     try:
         executor.values_of(row)
     except SettingsError:
         raise
-    except (LeftOut, ScenarioError):  # they break a constraint, or have no result
-        return False
-    return True
+    except ScenarioError as error:
+        return error
+    return None
+
+
+def too_thin(what: str, example: ScenarioError) -> CampaignError:
+    """Return what to say where hardly any point is left.
+
+    Args:
+        what: How many points were tried.
+        example: Why one of them is left out.
+    """
+    return CampaignError(
+        f"{what}: the set of values is too thin for a sampler that leaves points out; --sampler"
+        f" random finds its way into it. For one, {example.source}: {example.message}"
+    )
 
 
 class Planner:
@@ -93,19 +105,21 @@ class Planner:
                 self.accepted += 1
             elif row.number in self._left_out or not self._keeps(row):
                 in_a_row += 1
-                if in_a_row > MOST_LEFT_OUT:
-                    raise CampaignError(
-                        f"{MOST_LEFT_OUT} points one after the other break a constraint: the set"
-                        " of values is too thin for this sampler, use --sampler random"
-                    )
+                if in_a_row >= MOST_LEFT_OUT:
+                    raise self._too_thin(row.number + 1, why_left_out(self._executor, row))
                 continue
             else:
                 self.accepted += 1
                 yield row
             in_a_row = 0
 
+    def _too_thin(self, points: int, last: ScenarioError | None) -> CampaignError:
+        assert last is not None, "it was left out"
+        share = f"{self.accepted} of {points} points ({self.accepted / points:.3%})"
+        return too_thin(f"{share} keep the constraints, none of the last {MOST_LEFT_OUT}", last)
+
     def _keeps(self, row: Row) -> bool:
-        if not self._sampler.is_checked or is_allowed(self._executor, row):
+        if not self._sampler.is_checked or why_left_out(self._executor, row) is None:
             return True
         self._left_out.add(row.number)
         self.newly_left_out.append(row.number)

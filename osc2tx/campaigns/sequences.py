@@ -1,7 +1,8 @@
 """Samplers that fill the space of all parameters evenly, by `scipy.stats.qmc`.
 
 Sobol and Halton sequences go on: row 17 is the same among 100 rows as among 10,000. A Latin
-hypercube does not, its rows depend on how many there are.
+hypercube does not, its rows depend on how many there are. Where constraints leave points of it out,
+more hypercubes of the same size follow until there are enough rows.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from osc2tx_runtime.campaigns.points import Column
 
 __all__ = ["SequenceSampler"]
 
+KINDS = {"lhs": "LatinHypercube", "sobol": "Sobol", "halton": "Halton"}
 BLOCK = 1024  # a power of two: a Sobol sequence is balanced after each block
 
 
@@ -38,22 +40,18 @@ class SequenceSampler:
         return {"columns": names, "scipy": scipy.__version__, **rows}
 
     def rows(self) -> Iterator[Row]:
-        """Yield rows; without end, but for a Latin hypercube."""
+        """Yield rows without end."""
         names, seed = [column.name for column in self._columns], self._wanted.seed
         for number, shares in enumerate(self._points(len(names))):
             yield Row(number, row_seed(seed, number), dict(zip(names, shares, strict=True)))
 
     def _points(self, dimensions: int) -> Iterator[list[float]]:
         seed = self._wanted.seed
-        if self._name == "lhs":
-            yield from self._qmc.LatinHypercube(dimensions, rng=seed).random(
-                self._wanted.samples
-            ).tolist()
-            return
-        kind = self._qmc.Sobol if self._name == "sobol" else self._qmc.Halton
+        kind = getattr(self._qmc, KINDS[self._name])
         engine = kind(dimensions, scramble=True, rng=seed)
+        block = self._wanted.samples if self._name == "lhs" else BLOCK
         while True:
-            yield from engine.random(BLOCK).tolist()
+            yield from engine.random(block).tolist()
 
 
 def _qmc(name: str) -> Any:

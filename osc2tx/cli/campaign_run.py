@@ -238,7 +238,7 @@ def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterat
         share = ended.done / (ended.done + ended.left_out)
         yield (
             f"  {count_of(ended.left_out, 'point')} of the sampler break a constraint and were left"
-            f" out: {share:.1%} were accepted"
+            f" out: {share:.3%} were accepted"
         )
     best = aim and aim.best(store.measures())
     if aim and best:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from contextlib import closing
 from itertools import combinations, islice, product
@@ -43,7 +44,7 @@ def test_the_rows_of_a_hypercube_depend_on_how_many_there_are() -> None:
 @pytest.mark.parametrize("sampler", ["random", "lhs", "sobol", "halton", "grid", "pairwise"])
 def test_constraints_are_kept(sampler: str) -> None:
     found = values(TRIANGLE, sampler, 40 if sampler not in ("grid", "pairwise") else None)
-    assert len(found) == 10 if sampler in ("grid", "pairwise") else 40
+    assert len(found) == (10 if sampler in ("grid", "pairwise") else 40)
     assert all(0.0 <= each["a"] < each["b"] <= 10.0 for each in found.values())
 
 
@@ -132,6 +133,51 @@ def test_what_samplers_refuse(sampler: str, samples: int | None, message: str) -
         values(MIXED, sampler, samples)
 
 
+ORDERED = f"""import osc.standard
+
+scenario ordered:
+    a: float with:
+        keep(it in [0.0..1.0])
+    b: float with:
+        keep(it in [0.0..1.0])
+    c: float with:
+        keep(it in [0.0..1.0])
+    keep(a < b)
+    keep(b < c)
+{DRIVES}"""
+NARROW = ORDERED.replace("keep(a < b)", "keep(a - b < 0.0001)").replace(
+    "keep(b < c)", "keep(b - a < 0.0001)"
+)
+
+
+@pytest.mark.parametrize("sampler", ["lhs", "sobol", "halton"])
+def test_points_that_keep_a_thin_set_are_found(sampler: str) -> None:
+    """One in six is in order."""
+    found = values(ORDERED, sampler, 50)
+    assert len(found) == 50
+    assert all(each["a"] < each["b"] < each["c"] for each in found.values())
+    assert 0.1 < 50 / (max(found) + 1) < 0.25
+
+
+@pytest.mark.parametrize("sampler", ["lhs", "sobol", "halton"])
+def test_a_set_that_is_too_thin_is_refused_with_the_reason(sampler: str) -> None:
+    """One point in 5000 keeps the constraints, and a seed finds one."""
+    with pytest.raises(CampaignError, match="none of 1000 points") as error:
+        values(NARROW, sampler, 5)
+    assert re.search(r"case\.osc:\d+: `\w - \w < 0\.0001` does not hold \(a=", str(error.value))
+    (found,) = values(NARROW, "random", 1).values()
+    assert abs(found["a"] - found["b"]) < 0.0001
+
+
+def test_what_keeps_constraints_only_now_and_then_is_given_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("osc2tx.campaigns.planner.MOST_LEFT_OUT", 20)
+    said = r"[1-9] of \d+ points \(\d+\.\d{3}%\) keep the constraints, none of the last 20: "
+    with pytest.raises(CampaignError, match=said):
+        values(ORDERED, "halton", 500)
+
+
 def test_nothing_to_draw_is_refused() -> None:
     with pytest.raises(CampaignError, match="draws no values"):
         values(f"import osc.standard\n\nscenario plain:{DRIVES}", "sobol", 5)
@@ -170,7 +216,9 @@ def test_setting_the_values_of_a_row_gives_the_same_run() -> None:
     modules = Modules(plan.files)
     scenario = modules.load(plan.module)["mixed"]
     with closing(Executor(plan)) as executor:
-        for row in make_sampler(executor, Wanted("lhs", samples=5), Findings()).rows():
+        for row in islice(
+            make_sampler(executor, Wanted("halton", samples=5), Findings()).rows(), 5
+        ):
             drawn, _ = executor.values_of(row)
             told = {n: str(v).lower() if isinstance(v, bool) else v for n, v in drawn.items()}
             by_values = run_scenario(scenario, RunSettings(seed=row.seed, set=told))

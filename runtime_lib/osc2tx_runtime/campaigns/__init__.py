@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from .executor import Executor
 from .modules import Modules, scenarios_of
-from .points import LeftOut, Point
+from .points import Point
 from .rows import Condition, Plan, Row, RowResult
 
 __all__ = [
     "Condition",
     "Executor",
-    "LeftOut",
     "Modules",
     "Plan",
     "Point",

@@ -21,7 +21,7 @@ from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 
 from .modules import Modules, scenario_in
-from .points import LeftOut, Point
+from .points import Point
 from .rows import Plan, Row, RowResult
 
 __all__ = ["Executor", "trace_digest"]
@@ -58,8 +58,7 @@ class Executor:
         """Return the values that a row has, without running it, and what they were drawn with.
 
         Raises:
-            LeftOut: They break a constraint.
-            ScenarioError: There are none.
+            ScenarioError: There are none, or they break a constraint.
         """
         settings = self.settings_of(row)
         scenario = self._scenario(settings)
@@ -126,8 +125,6 @@ class Executor:
             status, reason = result.status, result.reason
         except ScenarioError as error:
             reason, source = error.message, error.source
-        except LeftOut as left:
-            reason = f"the values of this row break a constraint ({left})"
         except Exception as error:  # a bug of ours or of the user's code costs this row alone
             reason = f"internal error: {told(error)}"
         measures = {

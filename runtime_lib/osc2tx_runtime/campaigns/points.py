@@ -8,11 +8,7 @@ from typing import Any, Literal
 
 from osc2tx_classes import dataclass
 
-__all__ = ["Column", "LeftOut", "Point"]
-
-
-class LeftOut(Exception):
-    """Values of a point break a constraint, or cannot be computed together."""
+__all__ = ["Column", "Point"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,18 +43,10 @@ class Point:
     def __init__(self, shares: Mapping[str, float], rest: int = 0) -> None:
         self._shares = shares
         self._rest = rest
-        self._asked: set[str] = set()
         self.columns: dict[str, Column] = {}
 
     def __call__(self, name: str) -> random.Random:
-        """Return what a parameter is drawn with.
-
-        Raises:
-            LeftOut: It was drawn before: the scenario wants other values, and there are none.
-        """
-        if name in self._asked:
-            raise LeftOut(name)
-        self._asked.add(name)
+        """Return what a parameter is drawn with."""
         share = self._shares.get(name)
         if share is None:
             share = random.Random(f"{self._rest}/{name}").random()

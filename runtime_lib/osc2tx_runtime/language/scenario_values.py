@@ -10,7 +10,7 @@ from osc2tx_runtime.language.external_methods import external_function
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
-from osc2tx_runtime.language.tree.drawing import Drawing
+from osc2tx_runtime.language.tree.drawing import ATTEMPTS, Drawing
 from osc2tx_runtime.language.tree.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 from osc2tx_runtime.language.tree.walks import Draws
 from osc2tx_runtime.language.tree.written_units import AnyUnit, Unit, unit_named
@@ -64,7 +64,12 @@ class ScenarioValues:
         self._first: ScenarioValues = self if caller is None else caller._first
         self.has_drawn_values = False
         self._drawing = Drawing(
-            settings.draws_from, key, source_map, self.parameters, self.parameter_units
+            settings.draws_from,
+            key,
+            source_map,
+            self.parameters,
+            self.parameter_units,
+            ATTEMPTS if settings.draws is None else 1,
         )
         self._items: dict[str, CoverageItem] = {}
 

@@ -32,6 +32,7 @@ class Drawing:
         source_map: Where things stand in the source.
         parameters: The values, as they are declared.
         units: Those of them that have one.
+        attempts: How often values are drawn until a walk looks for some; 1 if there are no others.
 
     Attributes:
         has_drawn: Whether a value was drawn, so that another draw may help.
@@ -44,10 +45,11 @@ class Drawing:
         source_map: SourceMap,
         parameters: Mapping[str, Any],
         units: Mapping[str, Unit],
+        attempts: int = ATTEMPTS,
     ) -> None:
         self._source, self._key, self._source_map = source, key, source_map
         self._parameters, self._units = parameters, units
-        self._attempt = 0
+        self._most, self._attempt = attempts, 0
         self._walk: Walk | None = None  # after that many draws in vain
         self._held = 0  # demands that hold, in their order
         self._waived: int | None = None  # the number of one that need not hold
@@ -88,10 +90,11 @@ class Drawing:
                 return self._held
             return None
 
-        for self._attempt in range(ATTEMPTS):
+        for attempt in range(self._most):
+            self._attempt = attempt
             if height() is None:
                 return
-            if not self.has_drawn:
+            if not self.has_drawn or self._most == 1:
                 raise self._error("")
         self._walk = Walk(random.Random(f"{self._source}/{self._key}/walk"), height)
         if not self._walk.arrive():
