@@ -11,7 +11,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable
 
-from .arc_length import LaneLine
+from .arc_length import SLOWEST_RATE, LaneLine
 from .geometry import Segment
 from .lane_advance import wrap
 from .lane_line import lane_line
@@ -116,7 +116,12 @@ class LaneCursor:
             row < last and rows[row + 1][0] - aside * psi[row + 1][0] <= there
         ):
             row = line.row_of(there, aside)
-        s = line.s_in(row, there, aside)
+            s = line.s_in(row, there, aside)
+        elif aside or c or d or b <= SLOWEST_RATE:
+            s = line.s_in(row, there, aside)
+        else:  # a straight line or an arc of constant width, as `s_in` has them
+            start, end = nodes[row], nodes[row + 1] if row < last else line.end
+            s = start + min(max((there - a) / b, 0.0), end - start)
         self._row = row
         place = self._place = LanePosition(p.road, p.lane, s, offset)
         return place

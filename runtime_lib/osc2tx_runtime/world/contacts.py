@@ -102,10 +102,12 @@ class Contacts:
         self.new = ()
         if not looked_at:
             return
-        ids = tuple(before)
         if jumped:
-            begin = [states[i] if ids[i] in jumped else begin[i] for i in range(len(ids))]
-        way = max([_way(begin[i], states[i]) for i in moved], default=0.0)
+            begin = [states[i] if actor in jumped else begin[i] for i, actor in enumerate(before)]
+        way = 0.0
+        for i in moved:
+            one, other = begin[i], states[i]
+            way = max(way, abs(other.x - one.x), abs(other.y - one.y))
         if way > self._room or jumped:
             margin = max(_STEPS * way, _NARROW)
             self._reach = self._reach or [_reach_of(state.shape) for state in states]
@@ -114,7 +116,7 @@ class Contacts:
         touching = list(self._found(begin, looked_at, way))
         if touching or self._touching:
             stay = [pair for pair in self._touching if looked_at.isdisjoint(pair)]
-            self._compare(ids, [*touching, *stay], coupled)
+            self._compare(tuple(before), [*touching, *stay], coupled)
 
     def _found(
         self, begin: Sequence[ActorState], looked_at: Collection[int], way: float
@@ -154,11 +156,6 @@ class Contacts:
         pairs = ((ids[i], ids[j]) for i, j in touching)
         self.new = tuple(sorted((min(p), max(p)) for p in pairs if p not in known))
         self._touching = frozenset(touching)
-
-
-def _way(begin: ActorState, end: ActorState) -> float:
-    """Metres that an actor goes in a step, along x or along y."""
-    return max(abs(end.x - begin.x), abs(end.y - begin.y))
 
 
 def _reach_of(shape: Shape) -> float:

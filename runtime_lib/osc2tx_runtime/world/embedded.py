@@ -48,6 +48,8 @@ from .weather_effects import Lights, Surroundings
 
 __all__ = ["EmbeddedWorld"]
 
+NOBODY: frozenset[str] = frozenset()
+
 
 class EmbeddedWorld:
     """Turns commands into states in closed form, and reads what has become of them.
@@ -329,24 +331,31 @@ class EmbeddedWorld:
             for member in members
         ]
         self._couplings.draw(self._cast, wished, self.dt, self.map)
-        put = {a for a, change in self._changes.items() if change.jumps or change.turns}
-        kicked = {a for a, change in self._changes.items() if change.speed is not None}
-        jumped = {member.spec.id for member in members if member.jumped}
-        self._scene.wish(members, wished, put | jumped, kicked)
-        self._changes.clear()
+        jumped = frozenset([member.spec.id for member in members if member.jumped])
+        put, kicked = self._take_changes() if self._changes else (NOBODY, NOBODY)
+        elsewhere = put | jumped
+        self._scene.wish(members, wished, elsewhere, kicked)
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = arrive(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
+        states = arrive(self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt)
         for tow, trailer, angle in self._couplings.take_folded():
             self._scene.note_jack_knife(tow, trailer, angle)
-        self._track.add(before, frozenset(jumped))
+        self._track.add(before, jumped)
         self._contacts.step(before, states, jumped, self._couplings.pairs())
-        self._friction.step(members, put | jumped, self._surroundings.road)
+        self._friction.step(members, elsewhere, self._surroundings.road)
         for member in self._outside:
             member.observe(self)
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)
+
+    def _take_changes(self) -> tuple[frozenset[str], frozenset[str]]:
+        """Hands over who was put somewhere, or turned, and to whom a speed was assigned."""
+        changes, self._changes = self._changes, {}
+        return (
+            frozenset([each for each, change in changes.items() if change.jumps or change.turns]),
+            frozenset([each for each, change in changes.items() if change.speed is not None]),
+        )
 
     def _wish(self, member: CommandedActor) -> ActorState:
         """State that an actor is to have at the next step; trailers are drawn along later."""

@@ -33,7 +33,7 @@ def is_instant(node: ir.Behavior) -> bool:
 
 
 def is_single(node: ir.Behavior) -> bool:
-    """Whether nothing has to be stopped but one action: a leaf, or waits around it."""
+    """Whether nothing has to be stopped but one action: a leaf, or waits before and after it."""
     return _leaves(node) <= 1
 
 
@@ -48,6 +48,8 @@ def is_timed(node: ir.Behavior) -> bool:
 
 def _leaves(node: ir.Behavior) -> int:
     match node:
+        case ir.Parallel(members=members) if len(members) > 1:
+            return 2
         case ir.Serial(members=members) | ir.Parallel(members=members) | ir.OneOf(members=members):
             return sum(_leaves(member) for member in members)
         case ir.Wait():
