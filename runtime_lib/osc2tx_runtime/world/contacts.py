@@ -107,7 +107,9 @@ class Contacts:
         way = 0.0
         for i in moved:
             one, other = begin[i], states[i]
-            way = max(way, abs(other.x - one.x), abs(other.y - one.y))
+            x, y = other.x - one.x, other.y - one.y
+            if x > way or -x > way or y > way or -y > way:
+                way = max(abs(x), abs(y))
         if way > self._room or jumped:
             margin = max(_STEPS * way, _NARROW)
             self._reach = self._reach or [_reach_of(state.shape) for state in states]
