@@ -108,7 +108,7 @@ class EmbeddedWorld:
         if found:
             placed = [member.state for member in members]
             arrive(self._cast, placed, found, (), self._couplings, self.map, 0.0)
-            self._contacts.begin({member.spec.id: member.state for member in members})
+            self._contacts.begin()
 
     def close(self) -> None:
         """Leaves the simulator, if there is one."""
@@ -135,7 +135,7 @@ class EmbeddedWorld:
         self._cast[actor] = placed(self._specs[actor], start, self.map, self._surroundings.road)
         self._cast = {each: self._cast[each] for each in self._specs if each in self._cast}
         self._lights.add(actor)
-        self._contacts.begin({each: member.state for each, member in self._cast.items()})
+        self._contacts.begin()
 
     def actors(self) -> tuple[str, ...]:
         """Ids of the placed actors in the order of the cast."""
