@@ -121,7 +121,8 @@ class LaneCursor:
             s = line.s_in(row, there, aside)
         else:  # a straight line or an arc of constant width, as `s_in` has them
             start, end = nodes[row], nodes[row + 1] if row < last else line.end
-            s = start + min(max((there - a) / b, 0.0), end - start)
+            u, most = (there - a) / b, end - start
+            s = start + (0.0 if u < 0.0 else most if u > most else u)
         self._row = row
         place = self._place = new_tuple(LanePosition, (p.road, p.lane, s, offset))
         return place
