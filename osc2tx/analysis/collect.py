@@ -86,8 +86,17 @@ class Collector:
         """Return what constrains an instance of a type, in the order of the text."""
         it = None if isinstance(owner, sym.ModifierSymbol) else ()
         place = Place(model=self._model, owner=owner, prefix=(), it=it)
-        own = list(self._of_type(place, owner, depth=0))
+        own = [*self._of_own_actor(owner), *self._of_type(place, owner, depth=0)]
         return [*self._of_globals(own), *own]
+
+    def _of_own_actor(self, owner: sym.TypeSymbol) -> Iterator[Entry]:
+        """Yield what modifiers say that are members of the type of a behavior's actor."""
+        actor = owner.actor if isinstance(owner, sym.ScenarioSymbol | sym.ActionSymbol) else None
+        for ancestor in () if actor is None else supertypes(actor):
+            place = Place(model=self._model, owner=ancestor, prefix=(), it=None)
+            for statement in ancestor.statements:
+                if isinstance(statement, ast.ModifierApplication):
+                    yield from self._of_instance(place, statement, statement.arguments)
 
     def collect_global(self, parameter: sym.FieldSymbol) -> list[Entry]:
         """Return what constrains a global parameter, and those that it depends on."""

@@ -192,7 +192,12 @@ def _base_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | No
     if place is None or field.owner is None:
         return None
     if place.owner is not None and field.owner in supertypes(place.owner):
-        return lower_key(ctx, place.prefix, field.span) if place.prefix else None
+        if place.prefix:
+            return lower_key(ctx, place.prefix, field.span)
+        if isinstance(place.owner, sym.ActorSymbol):  # of the actor of the behavior
+            type_ = lower_type(types.ActorType(place.owner))
+            return ir.FieldRef(span=field.span, type=type_, name="actor")
+        return None
     if place.it and place.it_type and field.owner in supertypes(place.it_type):
         return lower_key(ctx, place.it, field.span)
     return None
