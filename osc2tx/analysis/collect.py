@@ -86,8 +86,17 @@ class Collector:
         """Return what constrains an instance of a type, in the order of the text."""
         it = None if isinstance(owner, sym.ModifierSymbol) else ()
         place = Place(model=self._model, owner=owner, prefix=(), it=it)
-        own = list(self._of_type(place, owner, depth=0))
+        own = [*self._of_own_actor(owner), *self._of_type(place, owner, depth=0)]
         return [*self._of_globals(own), *own]
+
+    def _of_own_actor(self, owner: sym.TypeSymbol) -> Iterator[Entry]:
+        """Yield what modifiers say that are members of the type of a behavior's actor."""
+        actor = owner.actor if isinstance(owner, sym.ScenarioSymbol | sym.ActionSymbol) else None
+        for ancestor in () if actor is None else supertypes(actor):
+            place = Place(model=self._model, owner=ancestor, prefix=(), it=None)
+            for statement in ancestor.statements:
+                if isinstance(statement, ast.ModifierApplication):
+                    yield from self._of_instance(place, statement, statement.arguments)
 
     def collect_global(self, parameter: sym.FieldSymbol) -> list[Entry]:
         """Return what constrains a global parameter, and those that it depends on."""
@@ -176,6 +185,8 @@ class Collector:
         is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
             t.origin != "library" for t in supertypes(type_)
         )
+        for element in self._model.elements.get(field, ()) if len(key) == 1 else ():
+            yield from self._of_element(place, element, depth)
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
             inner = replace(place, owner=type_, prefix=key, it=key)
             yield from self._of_type(inner, type_, depth + 1)
@@ -188,6 +199,15 @@ class Collector:
         if node.default is not None and node.default not in self._model.quantities:
             yield self._setting(place, key, field.type, node.default, "default value")
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+
+    def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
+        """Yield what the type of an element of a list demands of it."""
+        type_, key = symbol_of(element.type), (element,)
+        if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
+            self.objects[key] = type_
+        if type_ is not None and any(each.origin != "library" for each in supertypes(type_)):
+            inner = replace(place, owner=type_, prefix=key, it=key)
+            yield from self._of_type(inner, type_, depth + 1)
 
     def _of_with_field(self, inside: Place, node: ast.ParameterDeclaration) -> Iterator[Entry]:
         for rule in node.constraints:

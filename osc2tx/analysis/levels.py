@@ -124,7 +124,7 @@ def _open_parameters(
         if parameter.state is State.BOUNDED:
             text = f"{parameter.name} {format_range(model, parameter)}"
             yield Opening(text, root.span, Level.LOGICAL)
-        elif parameter.state is State.FREE:
+        elif parameter.state is State.FREE and root not in model.elements:
             yield Opening(format_free(model, parameter), root.span, Level.ABSTRACT)
     for key, text, span in _open_members_of_fields(model, scenario, constraints):
         yield Opening(f"{name_of(key)} {text}", span, Level.LOGICAL)

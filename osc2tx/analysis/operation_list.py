@@ -214,7 +214,7 @@ class OperationListBuilder:
                 return self._conditional(operations, node, operands)
             case ast.NameExpression() | ast.EnumLiteral() | ast.MemberAccess():
                 return self._path(operations, node, locate)
-            case ast.ItExpression():
+            case ast.ItExpression() | ast.Index():
                 return self._variable(operations, node, locate)
             case _:
                 return self._any(operations, node)

@@ -37,7 +37,13 @@ class Place:
         """Return the parameter; `None` for what is none, and for what the world changes."""
         path: list[sym.Symbol] = []
         current = expression
-        while isinstance(current, ast.MemberAccess | ast.Cast):
+        while isinstance(current, ast.MemberAccess | ast.Cast | ast.Index):
+            if isinstance(current, ast.Index):
+                base = self.locate(current.base)
+                list_ = base[0] if base is not None and len(base) == 1 else None
+                list_ = list_ if isinstance(list_, sym.Symbol) else None
+                element = self.model.element_of(list_, current.index)
+                return None if element is None else (element, *reversed(path))
             if isinstance(current, ast.Cast):  # of an object: it is the same one
                 if not path:
                     return None

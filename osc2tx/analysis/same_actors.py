@@ -27,7 +27,7 @@ class SameActor:
 
 
 def same_actors(found: TypeConstraints) -> dict[sym.FieldSymbol, SameActor]:
-    """Return the actors of a scenario that are others, which are declared above them."""
+    """Return the actors of a scenario that are others: declared above them, or more special."""
     same: dict[sym.FieldSymbol, SameActor] = {}
     for constraint in found.in_force.constraints:
         node = constraint.node
@@ -58,9 +58,10 @@ def _actor(constraint: Constraint, expression: ast.Expression) -> sym.FieldSymbo
 
 
 def _may_be(target: sym.FieldSymbol, symbol: sym.FieldSymbol) -> bool:
-    """Whether an actor stands above another one, and has its type."""
+    """Whether an actor has the type of another one, and stands above it or is more special."""
     one, other = target.type, symbol.type
     if not isinstance(one, types.ActorType) or not isinstance(other, types.ActorType):
         return False
     is_above = target.span.source == symbol.span.source and target.span.start < symbol.span.start
-    return is_above and target.owner is not None and is_subtype(one.symbol, other.symbol)
+    comes_first = is_above or one.symbol is not other.symbol
+    return comes_first and target.owner is not None and is_subtype(one.symbol, other.symbol)

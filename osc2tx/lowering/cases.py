@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.analysis.collect import Constraint
-from osc2tx.analysis.operation_list import Key
+from osc2tx.analysis.operation_list import Key, kind_of
 from osc2tx.analysis.tree_walk import nodes_below
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.expressions import lower_expression
@@ -15,12 +15,20 @@ from osc2tx.lowering.parameter_domains import all_values, as_type
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import types
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_classes import dataclass, replace
 
 Op = ast.BinaryOperator
 
 Value: TypeAlias = bool | int
 """Of an enum, or a truth value."""
+
+NUMBERS = ("int", "uint", "float")
+"""Kinds of types that have bounds."""
+
+ValueOf: TypeAlias = Callable[
+    [LoweringContext, Constraint, ast.Expression, Key, types.Type], ir.Expression | None
+]
+"""Returns what a part of a constraint says that a parameter is; `None` if it does not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +66,17 @@ def value_by_cases(cases: Sequence[Case]) -> ir.Expression | None:
 
 
 def cases_of(
-    ctx: LoweringContext, constraints: Iterable[Constraint], key: Key, type_: types.Type
+    ctx: LoweringContext,
+    constraints: Iterable[Constraint],
+    key: Key,
+    type_: types.Type,
+    value_of: ValueOf | None = None,
 ) -> list[Case]:
     """Return the cases of a parameter, if exactly one of them always holds; else nothing."""
     by_selector: dict[Key, list[Case]] = {}
     wholes: dict[Key, frozenset[Value]] = {}
     for constraint in constraints:
-        found = _case(ctx, constraint, key, type_)
+        found = _case(ctx, constraint, key, type_, value_of or _set_to)
         if found is not None:
             case, whole = found
             by_selector.setdefault(case.selector, []).append(case)
@@ -74,6 +86,34 @@ def cases_of(
         if len(covered) == len(wholes[selector]) == len(set(covered)):
             return cases
     return []
+
+
+def range_by_cases(
+    ctx: LoweringContext, constraints: Iterable[Constraint], key: Key, type_: types.Type
+) -> tuple[ir.RangeValue, list[Constraint]] | None:
+    """Return what a number is drawn from that has bounds in each case, and the cases."""
+    cases = cases_of(ctx, constraints, key, type_, _within)
+    ranges = [case.value for case in cases if isinstance(case.value, ir.RangeValue)]
+    bounds = []
+    for values in ([each.lower for each in ranges], [each.upper for each in ranges]):
+        of_bound = [replace(c, value=value) for c, value in zip(cases, values, strict=True)]
+        bounds.append(value_by_cases(of_bound) if of_bound else None)
+    lower, upper = bounds
+    if lower is None or upper is None:
+        return None
+    drawn = ir.RangeValue(span=ranges[0].span, type=ranges[0].type, lower=lower, upper=upper)
+    return drawn, [case.constraint for case in cases]
+
+
+def range_in_a_case(
+    ctx: LoweringContext, constraints: Iterable[Constraint], key: Key, type_: types.Type
+) -> ir.RangeValue | None:
+    """Return the bounds that a number has in some case; where it has none, these do as well."""
+    for constraint in constraints:
+        found = _case(ctx, constraint, key, type_, _range)
+        if found is not None and isinstance(found[0].value, ir.RangeValue):
+            return found[0].value
+    return None
 
 
 def alternatives(
@@ -100,7 +140,7 @@ def _parts(expression: ast.Expression) -> Iterator[ast.Expression]:
 
 
 def _case(
-    ctx: LoweringContext, constraint: Constraint, key: Key, type_: types.Type
+    ctx: LoweringContext, constraint: Constraint, key: Key, type_: types.Type, value_of: ValueOf
 ) -> tuple[Case, frozenset[Value]] | None:
     """Return an implication as a case, and all values that its selector can have."""
     node = constraint.node
@@ -109,7 +149,7 @@ def _case(
     implication = node.expression
     if not isinstance(implication, ast.Binary) or implication.operator is not Op.IMPLIES:
         return None
-    value = _set_to(ctx, constraint, implication.right, key, type_)
+    value = value_of(ctx, constraint, implication.right, key, type_)
     condition = lower_expression(ctx.at(constraint.place), implication.left)
     held = _held(ctx, constraint, implication.left)
     if value is None or condition is None or held is None or held[0] == key:
@@ -129,6 +169,28 @@ def _set_to(
             value = lower_expression(ctx.at(constraint.place), other)
             return None if value is None else as_type(value, type_)
     return None
+
+
+def _within(
+    ctx: LoweringContext, constraint: Constraint, part: ast.Expression, key: Key, type_: types.Type
+) -> ir.Expression | None:
+    """Return the range that a number lies in; one value is a range, too."""
+    value = None if kind_of(type_) not in NUMBERS else _set_to(ctx, constraint, part, key, type_)
+    if value is not None:
+        return as_type(value, types.RangeType(type_))
+    return _range(ctx, constraint, part, key, type_)
+
+
+def _range(
+    ctx: LoweringContext, constraint: Constraint, part: ast.Expression, key: Key, type_: types.Type
+) -> ir.Expression | None:
+    """Return the range that a number is said to lie in."""
+    if not isinstance(part, ast.Binary) or kind_of(type_) not in NUMBERS:
+        return None
+    is_range = part.operator is Op.IN and isinstance(part.right, ast.RangeLiteral)
+    if not is_range or constraint.place.locate(part.left) != key:
+        return None
+    return lower_expression(ctx.at(constraint.place), part.right)
 
 
 def _mentions(constraint: Constraint, node: ast.Expression, key: Key) -> bool:

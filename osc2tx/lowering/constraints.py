@@ -16,7 +16,13 @@ from osc2tx.analysis.collect import Constraint
 from osc2tx.analysis.domains import TRUE, Choice, Domain, join
 from osc2tx.analysis.operation_list import Key, domain_of_type
 from osc2tx.analysis.solver import values_on
-from osc2tx.lowering.cases import alternatives, cases_of, value_by_cases
+from osc2tx.lowering.cases import (
+    alternatives,
+    cases_of,
+    range_by_cases,
+    range_in_a_case,
+    value_by_cases,
+)
 from osc2tx.lowering.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.equations import solve_for
@@ -194,7 +200,18 @@ class ConstraintLowering:
             if not writer.has_bounds:
                 self._used.add(by)
                 return lowered
-        return writer.domain(hard)
+        known = writer.domain(hard)
+        if known is None or isinstance(known, ir.HalfRange):
+            return self._range_by_cases(writer) or known
+        return known
+
+    def _range_by_cases(self, writer: DomainWriter) -> ir.RangeValue | None:
+        """Return what a number is drawn from that constraints bound in some cases only."""
+        found = range_by_cases(self.ctx, self._earlier(writer.key), writer.key, writer.type)
+        if found is None:
+            return range_in_a_case(self.ctx, writer.constraints, writer.key, writer.type)
+        self._used.update(found[1])
+        return found[0]
 
     def _earlier(self, key: Key) -> list[Constraint]:
         """Return the constraints that relate a parameter to earlier ones."""

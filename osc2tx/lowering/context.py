@@ -83,7 +83,7 @@ class LoweringContext:
     own_names: frozenset[str] = frozenset()
     event_fields: dict[int, str] = field(default_factory=dict)
     invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
-    drawn: list[ir.Parameter | ir.Struct] = field(default_factory=list)
+    drawn: list[ir.Parameter | ir.Struct | ir.Actor] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
     combined: dict[str, ir.UserType] = field(default_factory=dict)
     actions: list[ActionSymbol] = field(default_factory=list)

@@ -55,8 +55,8 @@ class CoverageOwner:
 def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[CoverageOwner]:
     """Yield a scenario and the objects that it declares, as deep as they hold others.
 
-    Objects that somebody hands in are sampled where they are declared. Of lists and of global
-    actors nobody says in which scenario they are: their items are reported.
+    Objects that somebody hands in are sampled where they are declared. Items of global actors and
+    of lists whose elements no constraint describes are reported: whose they are is not known.
     """
     lineage = tuple(supertypes(scenario))
     yield CoverageOwner(ctx, lineage, (), "")
@@ -75,7 +75,13 @@ def _of_object(
     field = key[-1]
     assert isinstance(field, sym.FieldSymbol)
     if isinstance(field.type, types.ListType):
-        _report(ctx, field, f"list `{name}`")
+        elements = ctx.model.elements.get(field, ())
+        for element in elements:
+            type_ = lower_type(element.type)
+            object_ = ir.FieldRef(span=element.span, type=type_, name=element.name)
+            yield from _of_object(ctx, scenario, (element,), object_, element.name)
+        if not elements and field.default is None:
+            _report(ctx, field, f"list `{name}`")
         return
     if not isinstance(field.type, types.ActorType | types.StructType):
         return

@@ -9,7 +9,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.lowering.calls import lower_call
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.date_differences import holds_date, without_dates
-from osc2tx.lowering.references import lower_key, lower_member, lower_name
+from osc2tx.lowering.references import element_of, lower_key, lower_member, lower_name
 from osc2tx.lowering.type_conversions import lower_cast, lower_type_test
 from osc2tx.lowering.value_types import lower_type, lower_unit
 from osc2tx.syntax import ast
@@ -42,6 +42,8 @@ def lower_expression(ctx: LoweringContext, node: ast.Expression) -> ir.Expressio
             return lower_cast(ctx, node)
         case ast.TypeTest():
             return lower_type_test(ctx, node)
+        case ast.Index() if (object_ := element_of(ctx, node)) is not None:
+            return object_
         case ast.Index(base=base, index=index):
             lowered, which = lower_expression(ctx, base), lower_expression(ctx, index)
             if lowered is None or which is None:

@@ -48,6 +48,8 @@ class FieldLowering:
         match symbol.type:
             case types.ActorType() if (other := other_actor(self._ctx, symbol)) is not None:
                 return self._other_actor(symbol, other, span, comments)
+            case types.ActorType() if self._is_one_of_several(symbol):
+                return None
             case types.ActorType():
                 actor = self._objects.types_of(symbol)
                 add_types(self._ctx, actor, span)
@@ -113,6 +115,21 @@ class FieldLowering:
             is_fixed=False,
         )
 
+    def _is_one_of_several(self, symbol: sym.FieldSymbol) -> bool:
+        """Report an actor of which constraints only say among which others it is."""
+        about = self._constraints.found.by_key.get((symbol,), ())
+        own = (c for c in about if c.subject == (symbol,) and not c.place.prefix)
+        listed = (c for c in own if c.is_range and not self._is_given(symbol))
+        constraint = next(listed, None)
+        if constraint is not None:
+            self._ctx.unsupported(
+                "OSC501",
+                constraint.span,
+                f"which of several actors `{symbol.name}` is, is open until the run",
+                help=f"say which one: `keep({symbol.name} == …)`",
+            )
+        return constraint is not None
+
     def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
         """Whether nothing but an invocation says what a struct is."""
         assert isinstance(symbol.type, types.StructType)
@@ -132,8 +149,13 @@ class FieldLowering:
         self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
     ) -> ir.Parameter | None:
         """Lower a list that constraints describe by its elements."""
-        is_list = isinstance(symbol.type, types.ListType)
-        value = lower_list(self._ctx, symbol, self._constraints) if is_list else None
+        elements = self._ctx.model.elements.get(symbol, ())
+        if elements:
+            value = self._list_of_objects(symbol, elements)
+        elif isinstance(symbol.type, types.ListType):
+            value = lower_list(self._ctx, symbol, self._constraints)
+        else:
+            value = None
         if value is None:
             self._ctx.unsupported(
                 "OSC501",
@@ -151,6 +173,21 @@ class FieldLowering:
             domain=None,
             is_fixed=False,
         )
+
+    def _list_of_objects(
+        self, symbol: sym.FieldSymbol, elements: tuple[sym.FieldSymbol, ...]
+    ) -> ir.ListValue | None:
+        """Declare the elements of a list, and return the list of them."""
+        references = []
+        for element in elements:
+            declared = self.lower(element, element.span, ())
+            if declared is None:
+                return None
+            self._ctx.drawn.append(declared)
+            type_ = lower_type(element.type)
+            references.append(ir.FieldRef(span=element.span, type=type_, name=element.name))
+        type_ = lower_type(symbol.type)
+        return ir.ListValue(span=symbol.span, type=type_, elements=tuple(references))
 
     def _is_given(self, symbol: sym.FieldSymbol) -> bool:
         """Whether some invocation of the scenario gives a parameter a value."""

@@ -28,6 +28,8 @@ from osc2tx.lowering.user_modifiers import ModifierLowering
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.member_lookup import parameters_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.modifiers import instead_of_scenario
 from osc2tx.syntax import ast
@@ -109,8 +111,11 @@ class InvocationLowering:
         self._ctx.invoked.append(callee)
         arguments = self._arguments(node, actor)
         self.refuse_movement(node, actor, callee, "an invoked scenario")
-        for whose in (actor, *(argument.value for argument in arguments)):
-            for modifier in self._standing.of(whose):
+        types_ = {each.name: symbol_of(each.type) for each in parameters_of(callee)}
+        handed_in = [(each.value, types_.get(each.parameter)) for each in arguments]
+        for whose, type_ in ((actor, callee.actor), *handed_in):
+            known_as = type_ if isinstance(type_, sym.ActorSymbol) else None
+            for modifier in self._standing.not_known_to(whose, known_as):
                 self._ctx.unsupported(
                     "OSC508",
                     modifier.span,

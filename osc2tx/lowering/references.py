@@ -161,6 +161,18 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
     return expression
 
 
+def element_of(ctx: LoweringContext, node: ast.Index) -> ir.FieldRef | None:
+    """Return an element of a list that is an object of its own (§7.3.5.2.1)."""
+    symbol = ctx.model.symbol_of(node.base)
+    if ctx.place is not None:
+        key = ctx.place.locate(node.base)
+        symbol = key[0] if key and len(key) == 1 and isinstance(key[0], sym.Symbol) else None
+    element = ctx.model.element_of(symbol, node.index)
+    if element is None:
+        return None
+    return ir.FieldRef(span=node.span, type=lower_type(element.type), name=element.name)
+
+
 def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
     """Return the value of a parameter of an invocation or modifier, in what that says.
 
@@ -180,7 +192,12 @@ def _base_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | No
     if place is None or field.owner is None:
         return None
     if place.owner is not None and field.owner in supertypes(place.owner):
-        return lower_key(ctx, place.prefix, field.span) if place.prefix else None
+        if place.prefix:
+            return lower_key(ctx, place.prefix, field.span)
+        if isinstance(place.owner, sym.ActorSymbol):  # of the actor of the behavior
+            type_ = lower_type(types.ActorType(place.owner))
+            return ir.FieldRef(span=field.span, type=type_, name="actor")
+        return None
     if place.it and place.it_type and field.owner in supertypes(place.it_type):
         return lower_key(ctx, place.it, field.span)
     return None

@@ -264,13 +264,15 @@ def _member_placements(
             modifier, actor = applied.call, applied.actor
             is_start = modifier.at == "start" and can_place(modifier)
             is_placing = is_start or bool(owner_of(modifier))
-            if stands(modifier):
+            if stands(modifier) and (actor is None or isinstance(actor, ir.FieldRef)):
                 continue  # it stands with each of them
             if not is_placing or not isinstance(actor, ir.FieldRef):
+                whose = "" if statement.actor is None else f" of `{statement.actor.span.text}`"
                 ctx.unsupported(
                     "OSC508",
                     statement.span,
-                    f"modifier `{modifier.name}` of a whole scenario is not supported yet",
+                    f"modifier `{modifier.name}`{whose} is not supported in a whole scenario",
+                    help="apply it in the `with` of the actions that it is to modify",
                 )
                 continue
             placements.append(

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 
 from osc2tx import ir
 from osc2tx.analysis.operation_list import Key
+from osc2tx.lowering.composed_behaviors import actor_type_of, is_composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, Receiver
 from osc2tx.lowering.initial_placement import can_place, owner_of
@@ -75,6 +76,12 @@ class StandingModifiers:
             actor: Who acts.
             action: What is invoked; with `None` whatever may be.
         """
+        for _, call in self._calls(actor, action):
+            yield call
+
+    def _calls(
+        self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None
+    ) -> Iterator[tuple[Standing, ir.ModifierCall]]:
         if not isinstance(actor, ir.FieldRef):
             return
         for standing in self._standing(actor):
@@ -85,7 +92,17 @@ class StandingModifiers:
                 name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
                 if name == actor.name and stands(applied.call) and _fits(applied, action):
                     self._used.add(standing.node)
-                    yield applied.call
+                    yield standing, applied.call
+
+    def not_known_to(
+        self, actor: ir.Expression | None, type_: sym.ActorSymbol | None
+    ) -> Iterator[ir.ModifierCall]:
+        """Yield what modifies an actor here, but not in a behavior that knows it by a type."""
+        known = tuple(supertypes(type_)) if type_ is not None else ()
+        of_type = {statement for each in known for statement in each.statements}
+        for standing, call in self._calls(actor, None):
+            if standing.node not in of_type:
+                yield call
 
     def of_member(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
         """Return what a member of the scenario stands for."""
@@ -109,26 +126,33 @@ class StandingModifiers:
 
     def _of_type(self, actor: ir.FieldRef) -> Iterator[Standing]:
         """Yield the members of the type of an actor."""
-        found = self._field(actor)
-        for ancestor in () if found is None else reversed(list(supertypes(found[1]))):
+        key, type_ = self._known(actor)
+        for ancestor in () if type_ is None else reversed(list(supertypes(type_))):
             for statement in ancestor.statements:
                 if isinstance(statement, ast.ModifierApplication):
-                    assert found is not None
-                    receiver = Receiver(found[1], actor)
-                    what, key = actor.name, (found[0],)
-                    yield Standing(statement, what, actor, key, key, receiver)
+                    assert type_ is not None
+                    receiver = Receiver(type_, actor)
+                    yield Standing(statement, actor.name, actor, key or None, key, receiver)
 
-    def _field(self, actor: ir.FieldRef) -> tuple[sym.FieldSymbol, sym.ActorSymbol] | None:
-        """Return the field of an actor, and its type."""
+    def _known(self, actor: ir.FieldRef) -> tuple[Key, sym.ActorSymbol | None]:
+        """Return what the analysis calls an actor, and its type; `actor` has no name there."""
         owner = self._constraints.found.owner
+        if actor.name == "actor" and is_composed(owner):
+            return (), actor_type_of(owner)
         members = [
             *(m for each in (supertypes(owner) if owner else ()) for m in each.named(actor.name)),
             *(each for name, each in self._ctx.globals.items() if name == actor.name),
+            *(
+                each
+                for elements in self._ctx.model.elements.values()
+                for each in elements
+                if (each.name, each.owner) == (actor.name, owner)
+            ),
         ]
         for member in members:
             if isinstance(member, sym.FieldSymbol) and isinstance(member.type, ActorType):
-                return member, member.type.symbol
-        return None
+                return (member,), member.type.symbol
+        return (), None
 
     def _lower(self, standing: Standing) -> tuple[Applied, ...]:
         key = (standing.node, standing.within)

@@ -12,6 +12,7 @@ from osc2tx.semantics.dialects import Dialect, Relaxations
 from osc2tx.semantics.expressions import infer
 from osc2tx.semantics.imports import ImportHelp, ImportWalk, LoadFile, no_help
 from osc2tx.semantics.library import Library, build_library, shared_library
+from osc2tx.semantics.list_elements import list_elements
 from osc2tx.semantics.model import SemanticModel
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.resolve import resolve_declarations
@@ -132,16 +133,20 @@ def _model(
         for s in layer.declared
         if isinstance(s, ActionSymbol)
     )
+    references = {**below.references, **r.references}
+    bindings = {**below.bindings, **r.bindings}
+    symbols = tuple(r.scope.declared)
     return SemanticModel(
         root=root,
         files=files,
         scenarios=scenarios,
         actions=actions,
         types={**below.types, **r.types},
-        references={**below.references, **r.references},
-        bindings={**below.bindings, **r.bindings},
+        references=references,
+        bindings=bindings,
         units={**below.units, **r.units},
         quantities=r.quantities,
-        symbols=tuple(r.scope.declared),
+        symbols=symbols,
         known_units=tuple(r.scope.all_units()),
+        elements=list_elements(symbols, references, bindings),
     )

@@ -51,6 +51,7 @@ class SemanticModel:
         quantities: What the texts read that a dialect takes for quantities of actors.
         symbols: What the user's files declare, in source order, imported files first.
         known_units: Every unit, also those of the library.
+        elements: The elements of lists of objects that constraints describe one by one.
     """
 
     root: ast.File
@@ -64,6 +65,7 @@ class SemanticModel:
     quantities: Mapping[ast.StringLiteral, ast.MemberAccess] = field(default_factory=dict)
     symbols: tuple[Symbol, ...] = ()
     known_units: tuple[UnitSymbol, ...] = ()
+    elements: Mapping[FieldSymbol, tuple[FieldSymbol, ...]] = field(default_factory=dict)
 
     @cached_property
     def global_parameters(self) -> tuple[FieldSymbol, ...]:
@@ -74,6 +76,12 @@ class SemanticModel:
     def callees(self) -> frozenset[Symbol]:
         """What is called, invoked or applied anywhere."""
         return frozenset(binding.callee for binding in self.bindings.values())
+
+    def element_of(self, list_: Symbol | None, index: ast.Expression) -> FieldSymbol | None:
+        """Return an element of a list that is an object of its own."""
+        elements = self.elements.get(list_, ()) if isinstance(list_, FieldSymbol) else ()
+        number = index.value if isinstance(index, ast.IntegerLiteral) else len(elements)
+        return elements[number] if number < len(elements) else None
 
     def type_of(self, expression: ast.Expression) -> Type:
         """Return the type of an expression; the error type if it has none."""

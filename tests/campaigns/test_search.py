@@ -82,6 +82,7 @@ def test_points_that_break_a_constraint_are_left_out_and_avoided(tmp_path: Path)
         assert 0 < len(store.left_out()) < 64
 
 
+@pytest.mark.slow
 def test_who_runs_the_rows_and_when_does_not_show(tmp_path: Path) -> None:
     search(tmp_path / "whole", 40, Here())
     search(tmp_path / "by five", 40, Here(5))  # in another order

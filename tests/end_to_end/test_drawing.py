@@ -165,3 +165,14 @@ def test_relations_that_contradict_each_other_are_named(
     named = [f"`{relations[each]}` (case.osc:{first + each})" for each in rivals]
     together = f" together with {' and '.join(named)}" if named else ""
     assert said == f"`{broken}` does not hold in 1000 draws{together}"
+
+
+def test_bounds_that_depend_on_a_drawn_value(drawn: Drawn) -> None:
+    members = (
+        "    a: bool\n    v: int\n    keep(a => v in [1..3])\n    keep(not a => v in [5..6])\n"
+    )
+    found = drawn(members, 60)
+    assert {(each["a"], each["v"]) for each in found} == {
+        *((True, v) for v in (1, 2, 3)),
+        *((False, v) for v in (5, 6)),
+    }

@@ -10,38 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from typing import NamedTuple
 
-Case = tuple[str, str]  # name, and what it holds besides the map
-
-HEAD = "import osc.standard.all\n\nnamespace null use std, stdtypes\n"
-SCENARIO = """
-scenario {name}:
-    road: map with:
-        keep(it.map_file == "{map}.xodr")
-{body}"""
-EGO = """\
-lane(2, at: start)
-position(200m, at: start)
-speed(20mps)"""
-
-
-def indented(text: str, levels: int) -> str:
-    """Return a text so many levels deeper."""
-    return "".join(f"{'    ' * levels}{line}\n" for line in text.strip().splitlines())
-
-
-def source(cases: Iterable[Case], map_: str = "highway") -> str:
-    """Return the source text of a family."""
-    texts = (SCENARIO.format(name=name, map=map_, body=indented(body, 1)) for name, body in cases)
-    return HEAD + "".join(texts)
-
-
-def point(name: str, x: float, y: float, z: float = 0.0) -> str:
-    """Return the declaration of a point."""
-    axes = (("x", x), ("y", y), ("z", z))
-    return f"{name}: position_3d with:\n" + "".join(
-        f"    keep(it.{axis} == {value:g}m)\n" for axis, value in axes
-    )
-
+from tests.xosc.case_texts import EGO, Case, indented, point, source
+from tests.xosc.cut_short import composed, cut
+from tests.xosc.modified import relative, timed
 
 # --- conditions on another actor ------------------------------------------------------------------
 
@@ -223,41 +194,6 @@ def _walks() -> Iterator[Case]:
         )
 
 
-# --- what is cut short, and what comes after it ---------------------------------------------------
-
-ENDINGS = {
-    "elapsed": "elapsed(1.3s)",
-    "event": "@told",
-    "rise": "rise(other.speed > 21mps)",
-    "fall": "fall(other.speed < 22mps)",
-    "level": "other.speed >= 21.5mps",
-    "way": "ego.road_distance(reference: other, direction: longitudinal) < -0.25m",
-}
-CUT = {
-    "even": "change_speed(target: 30mps, rate_profile: constant, rate_peak: 2mpss)",
-    "smooth": "change_speed(target: 12mps, rate_profile: smooth)",
-    "limited": "change_speed(target: 28mps)",
-    "lane": "change_lane(side: left)",
-    "drive": "drive()",
-    "still": "keep_speed()",
-}
-
-
-def _cut() -> Iterator[Case]:
-    for (ending, trigger), (name, act) in product(ENDINGS.items(), CUT.items()):
-        yield f"{name}_until_{ending}", (
-            "ego, other: vehicle\nevent told\ndo parallel:\n    serial:\n"
-            "        other.drive(duration: 0.5s) with:\n            lane(3, at: start)\n"
-            "            position(200m, at: start)\n            speed(19mps)\n"
-            "        other.change_speed(target: 23mps, rate_profile: constant, rate_peak: 3mpss)\n"
-            "        emit told\n"
-            f"    serial:\n        ego.drive(duration: 0.2s) with:\n{indented(EGO, 3)}"
-            f"        ego.{act} with:\n            until {trigger}\n"
-            "        ego.drive(duration: 0.4s)\n"
-            "        ego.change_speed(target: 22mps, rate_profile: constant, rate_peak: 4mpss)\n"
-        )
-
-
 # --- places by that of another one, and late starts -----------------------------------------------
 
 BESIDE = {
@@ -306,7 +242,10 @@ FAMILIES: Mapping[str, Family] = {
     "speeds": _family(_speeds()),
     "lanes": _family(_lanes()),
     "again": _family(_again()),
-    "cut": _family(_cut()),
+    "cut": _family(cut()),
+    "composed": _family(composed()),
+    "timed": _family(timed()),
+    "relative": _family(relative()),
     "placed": _family(_placed()),
     "walks": _family(_walks(), "crossing"),
 }

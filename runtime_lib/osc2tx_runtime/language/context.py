@@ -233,15 +233,12 @@ class ExecutionContext:
         self.settled = False
         return True
 
-    def carry_out(self) -> bool:
-        """Carry out the effects together; return whether there were any to look at."""
-        if not self.effects.is_pending():
-            return False
+    def carry_out(self) -> None:
+        """Carry out the effects together."""
         self.effects.apply()
         self.snapshot += 1
         self.settled = False
         self.resting.clear()
-        return True
 
     def settles(self) -> bool:
         """Return whether a pass is wanted after all others of this instant; say so in `settled`."""

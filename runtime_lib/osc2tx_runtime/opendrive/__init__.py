@@ -7,7 +7,8 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
   a `MapError`; `unread`: what is left out; `seams`: where lanes do not go on as they end;
   `map_snapshots`, `packed_map`: large maps are parsed once.
 * `polynomials`, `geometry`, `model`: what a road is made of.
-* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
+* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one;
+  `lane_bends`: where it bends.
 * `lane_advance`: moving along lanes, `lane_cursor`: the same step by step; `lane_distances`:
   distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `road_index`, `projection`: back to a lane.

@@ -189,8 +189,11 @@ def settle(
 
 def assigns(context: ExecutionContext) -> bool:
     """Carry out the assignments that are pending; return whether there were any."""
+    if not context.effects.is_pending():
+        return False
     check_effects(context)
-    return context.carry_out()
+    context.carry_out()
+    return True
 
 
 def post_all(context: ExecutionContext, signals: tuple[PostedEvent, ...]) -> None:

@@ -1,36 +1,26 @@
 """Bends ahead, and how fast a driver goes towards them.
 
 A driver takes a bend at a comfortable lateral acceleration and brakes for it comfortably: v^2 <=
-a_y / |k| + 2 b d for each curvature k at a distance d. The curvature of a lane is looked at over
-short stretches of it, so that small kinks of maps are none.
+a_y / |k| + 2 b d for each curvature k at a distance d.
 """
 
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap, Route
-from osc2tx_runtime.opendrive.lane_advance import lane_heading
+from osc2tx_runtime.opendrive.lane_bends import lane_bends
 from osc2tx_runtime.opendrive.lane_line import lane_line
-from osc2tx_runtime.opendrive.model import Lane
 
 from .actor_dimensions import COMFORT, Limits
-from .curve import turn_between
 from .state import ActorState
 
 __all__ = ["BendsAhead"]
 
-_STRETCH = 2.0  # m of a lane over which its curvature is taken
-_SHORTEST = 0.5  # m: lanes shorter than this have no bends
-_STRAIGHT = 5e-4  # 1/m: nobody slows down for less
 _STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one
 _OF_GRIP = 0.8  # share of the grip for the bend
 _OF_BRAKES = 0.5  # share for the brakes: with both the friction circle holds
 _LANES = 50  # how many lanes ahead are looked at
-
-Bends = tuple[tuple[float, float, float], ...]
-"""Metres from the begin of a lane, from where to where, and the curvature (1/m) there."""
 
 
 class BendsAhead:
@@ -42,7 +32,6 @@ class BendsAhead:
 
     def __init__(self, road_map: RoadMap) -> None:
         self._map = road_map
-        self._bends: dict[Lane, tuple[float, Bends]] = {}
 
     def fastest(
         self, me: ActorState, route: Route | None, limits: Limits, grip: float, lead: float
@@ -68,7 +57,7 @@ class BendsAhead:
             line = lane_line(lane)
             at = line.length_at(place.s)
             at = at if lane.direction > 0 else line.length - at
-            sharpest, bends = self._bends.get(lane) or self._measured(lane)
+            sharpest, bends = lane_bends(lane)
             if sharpest * me.v * me.v > across:
                 for begin, end, curvature in bends:
                     if end > at and before + begin - at <= reach:
@@ -93,23 +82,4 @@ class BendsAhead:
             for lane in section.lanes.values()
             if lane.type in DRIVING
         )
-        return max((self._measured(lane)[0] for lane in lanes), default=0.0)
-
-    def _measured(self, lane: Lane) -> tuple[float, Bends]:
-        """The largest curvature (1/m) of a lane, and its bends."""
-        line = lane_line(lane)
-        count = max(1, math.ceil(line.length / _STRETCH))
-        step = line.length / count
-        found = []
-        if step >= _SHORTEST:
-            ways = [min(i * step, line.length - _STEP_OVER) for i in range(count + 1)]
-            if lane.direction < 0:
-                ways = [line.length - way for way in ways]
-            headings = [lane_heading(lane, line.s_at(way)) for way in ways]
-            for i, (one, other) in enumerate(pairwise(headings)):
-                curvature = abs(turn_between(one, other)) / step
-                if curvature > _STRAIGHT:
-                    found.append((i * step, (i + 1) * step, curvature))
-        measured = max((each[2] for each in found), default=0.0), tuple(found)
-        self._bends[lane] = measured
-        return measured
+        return max((lane_bends(lane).sharpest for lane in lanes), default=0.0)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from .state import ActorState
 
-__all__ = ["Box", "Standing", "box_of", "contact_interval", "overlapping", "swept_contacts"]
+__all__ = ["Box", "Swept", "apart", "box_of", "contact_interval", "overlapping", "swept", "touch"]
 
 _NEAR = 1e-4  # m to which contacts of turning boxes are found
 
@@ -72,20 +70,9 @@ def contact_interval(
     heights are not looked at.
     """
     px, py = b.x - a.x, b.y - a.y
-    cross = abs(a.cos * b.sin - a.sin * b.cos)
-    along = abs(a.cos * b.cos + a.sin * b.sin)
-    # The four separating axes: both axes of both boxes, each with the sum of the half extents.
-    reach_a = b.half_length * along + b.half_width * cross
-    broad_a = b.half_length * cross + b.half_width * along
-    reach_b = a.half_length * along + a.half_width * cross
-    broad_b = a.half_length * cross + a.half_width * along
     entry, leave = -math.inf, math.inf
-    for ux, uy, reach in (
-        (a.cos, a.sin, a.half_length + reach_a + slack),
-        (-a.sin, a.cos, a.half_width + broad_a + slack),
-        (b.cos, b.sin, b.half_length + reach_b + slack),
-        (-b.sin, b.cos, b.half_width + broad_b + slack),
-    ):
+    for ux, uy, both in _axes(a, b):
+        reach = both + slack
         p = px * ux + py * uy
         q = dx * ux + dy * uy
         if abs(q) < 1e-12:
@@ -101,6 +88,31 @@ def contact_interval(
     return entry, leave
 
 
+def apart(a: Box, b: Box) -> tuple[float, float, float]:
+    """Metres that two boxes are apart along the axis that separates them best, and that axis.
+
+    Not positive if they have a common point.
+    """
+    px, py = b.x - a.x, b.y - a.y
+    return max([(abs(px * ux + py * uy) - reach, ux, uy) for ux, uy, reach in _axes(a, b)])
+
+
+def _axes(a: Box, b: Box) -> tuple[tuple[float, float, float], ...]:
+    """The four separating axes: both axes of both boxes, each with the sum of the half extents."""
+    cross = abs(a.cos * b.sin - a.sin * b.cos)
+    along = abs(a.cos * b.cos + a.sin * b.sin)
+    reach_a = b.half_length * along + b.half_width * cross
+    broad_a = b.half_length * cross + b.half_width * along
+    reach_b = a.half_length * along + a.half_width * cross
+    broad_b = a.half_length * cross + a.half_width * along
+    return (
+        (a.cos, a.sin, a.half_length + reach_a),
+        (-a.sin, a.cos, a.half_width + broad_a),
+        (b.cos, b.sin, b.half_length + reach_b),
+        (-b.sin, b.cos, b.half_width + broad_b),
+    )
+
+
 def overlapping(a: Box, b: Box) -> bool:
     """True if two boxes have a common point."""
     if a.low > b.high or b.low > a.high:
@@ -109,8 +121,33 @@ def overlapping(a: Box, b: Box) -> bool:
     return found is not None
 
 
-def _touch(a: Box, a_end: Box, b: Box, b_end: Box) -> bool:
+class Swept(NamedTuple):
+    """A box on its way through a step.
+
+    Attributes:
+        begin: The box at the begin of the step.
+        end: The box at its end.
+        left: Least x that it covers (m).
+        right: Greatest x.
+        low: Least y.
+        high: Greatest y.
+    """
+
+    begin: Box
+    end: Box
+    left: float
+    right: float
+    low: float
+    high: float
+
+
+def touch(one: Swept, other: Swept) -> bool:
     """True if two boxes touch at any time of a step."""
+    if one.left > other.right or other.left > one.right:
+        return False
+    if one.low > other.high or other.low > one.high:
+        return False
+    a, a_end, b, b_end = one.begin, one.end, other.begin, other.end
     if min(a.low, a_end.low) > max(b.high, b_end.high):
         return False
     if min(b.low, b_end.low) > max(a.high, a_end.high):
@@ -118,6 +155,8 @@ def _touch(a: Box, a_end: Box, b: Box, b_end: Box) -> bool:
     turns = _turn(a, a_end), _turn(b, b_end)
     if not any(turns):
         return _meet(a, a_end, b, b_end, 0.0)
+    if contact_interval(a, b, 0.0, 0.0) is not None:
+        return True
     return _meet_turning((a, a_end, turns[0]), (b, b_end, turns[1]), 0.0, 1.0)
 
 
@@ -179,67 +218,8 @@ def _turn(begin: Box, end: Box) -> float:
     return math.atan2(sin, begin.cos * end.cos + begin.sin * end.sin)
 
 
-class Standing:
-    """Boxes that stand, found by place.
-
-    Args:
-        boxes: All boxes.
-        who: Indices of those that stand.
-    """
-
-    def __init__(self, boxes: Sequence[Box], who: Iterable[int]) -> None:
-        self._spans = sorted(_span(boxes[i], boxes[i], i) for i in who)
-        self._lefts = [span[0] for span in self._spans]
-        self._widest = _NEAR + max((right - left for left, right, *_ in self._spans), default=0.0)
-
-    def beside(self, left: float, right: float) -> list[_Span]:
-        """Return what those cover that reach between two places on the x axis (m)."""
-        first = bisect_left(self._lefts, left - self._widest)
-        last = bisect_right(self._lefts, right)
-        return [span for span in self._spans[first:last] if span[1] >= left]
-
-
-def swept_contacts(
-    begin: Sequence[Box],
-    end: Sequence[Box],
-    who: Iterable[int] | None = None,
-    standing: Standing | None = None,
-) -> list[tuple[int, int]]:
-    """Pairs of boxes (indices, lower first) that touch during a step, sorted.
-
-    Args:
-        begin: Boxes at the begin of the step.
-        end: Boxes at its end, in the same order.
-        who: Indices of those that are looked at; by default all.
-        standing: Those that they are looked at with, beside each other.
-    """
-    # Sorted by their left ends, so that only those are compared that overlap in x; most of them,
-    # in the lane beside, do not overlap in y.
-    chosen = range(len(begin)) if who is None else who
-    spans = sorted([_span(begin[i], end[i], i) for i in chosen])
-    active: list[_Span] = []
-    found: list[tuple[int, int]] = []
-    for span in spans:
-        left, right, low, high, i = span
-        active = [other for other in active if other[1] >= left]
-        others = active if standing is None else active + standing.beside(left, right)
-        for _, _, other_low, other_high, j in others:
-            if (
-                other_low <= high
-                and low <= other_high
-                and _touch(begin[j], end[j], begin[i], end[i])
-            ):
-                found.append((i, j) if i < j else (j, i))
-        active.append(span)
-    found.sort()
-    return found
-
-
-_Span = tuple[float, float, float, float, int]
-"""What a box covers on the way through a step: in x from and to, in y from and to; its index."""
-
-
-def _span(b: Box, e: Box, index: int) -> _Span:
+def swept(b: Box, e: Box) -> Swept:
+    """What a box covers on the way through a step."""
     x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
     y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
     # In between one that turns reaches farther, but not beyond its corners.
@@ -249,4 +229,4 @@ def _span(b: Box, e: Box, index: int) -> _Span:
         x, y = x + bulge, y + bulge
     left, right = (b.x, e.x) if b.x < e.x else (e.x, b.x)
     low, high = (b.y, e.y) if b.y < e.y else (e.y, b.y)
-    return left - x, right + x, low - y, high + y, index
+    return Swept(b, e, left - x, right + x, low - y, high + y)

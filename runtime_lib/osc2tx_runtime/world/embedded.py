@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from osc2tx_classes import replace
 from osc2tx_runtime.errors import ScenarioError
@@ -47,6 +47,8 @@ from .value_checks import in_words, problem_of
 from .weather_effects import Lights, Surroundings
 
 __all__ = ["EmbeddedWorld"]
+
+NOBODY: frozenset[str] = frozenset()
 
 
 class EmbeddedWorld:
@@ -106,7 +108,7 @@ class EmbeddedWorld:
         if found:
             placed = [member.state for member in members]
             arrive(self._cast, placed, found, (), self._couplings, self.map, 0.0)
-            self._contacts.begin({member.spec.id: member.state for member in members})
+            self._contacts.begin()
 
     def close(self) -> None:
         """Leaves the simulator, if there is one."""
@@ -133,7 +135,7 @@ class EmbeddedWorld:
         self._cast[actor] = placed(self._specs[actor], start, self.map, self._surroundings.road)
         self._cast = {each: self._cast[each] for each in self._specs if each in self._cast}
         self._lights.add(actor)
-        self._contacts.begin({each: member.state for each, member in self._cast.items()})
+        self._contacts.begin()
 
     def actors(self) -> tuple[str, ...]:
         """Ids of the placed actors in the order of the cast."""
@@ -324,33 +326,41 @@ class EmbeddedWorld:
         members = tuple(self._cast.values())
         # All read the snapshot; none is replaced before every actor has moved.
         before = {actor: member.state for actor, member in self._cast.items()}
+        towed = self._couplings.towed()
         wished = [
-            member.reference if member.still and member.steady else self._wish(member)
+            member.reference if member.still and member.steady else self._wish(member, towed)
             for member in members
         ]
         self._couplings.draw(self._cast, wished, self.dt, self.map)
-        put = {a for a, change in self._changes.items() if change.jumps or change.turns}
-        kicked = {a for a, change in self._changes.items() if change.speed is not None}
-        jumped = {member.spec.id for member in members if member.jumped}
-        self._scene.wish(members, wished, put | jumped, kicked)
-        self._changes.clear()
+        jumped = frozenset([member.spec.id for member in members if member.jumped])
+        put, kicked = self._take_changes() if self._changes else (NOBODY, NOBODY)
+        elsewhere = put | jumped
+        self._scene.wish(members, wished, elsewhere, kicked)
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = arrive(self._cast, wished, found, put | jumped, self._couplings, self.map, self.dt)
+        states = arrive(self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt)
         for tow, trailer, angle in self._couplings.take_folded():
             self._scene.note_jack_knife(tow, trailer, angle)
-        self._track.add(before, frozenset(jumped))
+        self._track.add(before, jumped)
         self._contacts.step(before, states, jumped, self._couplings.pairs())
-        self._friction.step(members, put | jumped, self._surroundings.road)
+        self._friction.step(members, elsewhere, self._surroundings.road)
         for member in self._outside:
             member.observe(self)
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)
 
-    def _wish(self, member: CommandedActor) -> ActorState:
-        """State that an actor is to have at the next step; trailers are drawn along later."""
-        if member.follows and member.spec.movable and not self._couplings.is_towed(member.spec.id):
+    def _take_changes(self) -> tuple[frozenset[str], frozenset[str]]:
+        """Hands over who was put somewhere, or turned, and to whom a speed was assigned."""
+        changes, self._changes = self._changes, {}
+        return (
+            frozenset([each for each, change in changes.items() if change.jumps or change.turns]),
+            frozenset([each for each, change in changes.items() if change.speed is not None]),
+        )
+
+    def _wish(self, member: CommandedActor, towed: Collection[str]) -> ActorState:
+        """State that an actor is to have at the next step; who is towed is drawn along later."""
+        if member.follows and member.spec.movable and member.spec.id not in towed:
             return member.moved(self, self.map)
         return member.state
 

@@ -65,6 +65,15 @@ class FrictionWatch:
             if member.wheels is None or (member.still and member.spec.id not in turning):
                 continue
             state = member.reference
+            if (
+                state.h == member.heading
+                and state.lateral_speed == member.aside
+                and not state.a
+                and member.bound is not None
+                and member.residual is None
+                and member.spec.id not in turning
+            ):
+                continue  # straight on, nearly always
             across, aside = 0.0, self._set_aside(member, jumped)
             if abs(aside) > at_once:
                 member.heading = state.h  # a jump, and no turning

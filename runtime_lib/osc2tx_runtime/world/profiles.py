@@ -18,6 +18,7 @@ value is exact and the step size has no influence.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Protocol, get_args
 
 from osc2tx_classes import dataclass
@@ -166,7 +167,7 @@ def _coefficients(change: float, moved: float) -> tuple[float, float, float]:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)  # its parts are computed once
 class SCurve:
     """Fastest change within a limit of the rate and of its derivative.
 
@@ -185,13 +186,13 @@ class SCurve:
     jerk: float
     start_rate: float = 0.0
 
-    @property
+    @cached_property
     def _sign(self) -> float:
         """Direction of the change that is left when the present rate has gone."""
         gone = self.start + self.start_rate * abs(self.start_rate) / (2.0 * self.jerk)
         return 1.0 if self.end >= gone else -1.0
 
-    @property
+    @cached_property
     def _parts(self) -> tuple[float, float, float]:
         """Times (s) until the rate is at its peak, until it leaves it, until it is zero."""
         jerk, sign = self.jerk, self._sign

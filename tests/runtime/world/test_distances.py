@@ -11,7 +11,7 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.collision import box_of, contact_interval, overlapping, swept_contacts
+from osc2tx_runtime.world.collision import box_of, contact_interval, overlapping
 from osc2tx_runtime.world.commands import LaneOffset
 from osc2tx_runtime.world.distances import (
     along_lanes,
@@ -146,14 +146,6 @@ def test_contact_is_reported_once_until_separated(highway: RoadMap) -> None:
     world.assign("a", at=Pose(world.state("b").x, 0.0, 0.0, math.pi))
     world.step()
     assert world.collisions() == (("a", "b"),)
-
-
-def test_pairs_far_apart_are_sorted_out() -> None:
-    boxes = [box_of(state(100.0 * i, 0.0)) for i in range(5)]
-    ends = [box_of(state(100.0 * i + 1.0, 0.0)) for i in range(5)]
-    assert swept_contacts(boxes, ends) == []
-    ends[3] = box_of(state(396.0, 0.0))
-    assert swept_contacts(boxes, ends) == [(3, 4)]
 
 
 def test_offsets_on_a_banked_road_are_measured_along_it(make_spec: Callable[..., Any]) -> None:

@@ -9,10 +9,11 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
-from osc2tx_runtime.world.collision import box_of, swept_contacts
+from osc2tx_runtime.world.collision import box_of
 from osc2tx_runtime.world.commands import SpeedChange
 from osc2tx_runtime.world.contacts import Contacts
 from osc2tx_runtime.world.state import ActorState
+from tests.runtime.world.pairs_of_boxes import swept_contacts
 from tests.work import calls
 
 DRIVING, STANDING = 5, 100
@@ -24,7 +25,7 @@ def world_with(road_map: RoadMap, driving: int, standing: int) -> EmbeddedWorld:
     for i in range(driving + standing):
         spec = ActorSpec(f"v{i}", "vehicle", shape_of("vehicle"), limits_of("vehicle"), True)
         world.add(spec)
-        lane, s = (-1, 10.0 + 20.0 * i) if i < driving else (-2 - i % 2, 10.0 + 5.0 * i)
+        lane, s = (-1, 10.0 + 20.0 * i) if i < driving else (-2 - i % 2, 10.0 + 15.0 * i)
         world.place(spec.id, LanePosition("1", lane, s), 10.0 if i < driving else 0.0)
     for _ in range(3):
         world.step()
@@ -83,7 +84,6 @@ def test_contacts_are_those_of_all_pairs_whoever_stands(seed: int) -> None:
 
     states, contacts = [somewhere() for _ in range(12)], Contacts()
     ids = [f"{i:02}" for i in range(len(states))]
-    contacts.begin(dict(zip(ids, states, strict=True)))
     known: set[tuple[str, str]] = set()
     for _ in range(60):
         before, jumped = dict(zip(ids, states, strict=True)), set()

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance, Uneven
 from osc2tx.backends.xosc.actions.registry import action, modifier
 from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
 from osc2tx.backends.xosc.actions.speed_notes import with_profiles
@@ -19,6 +19,7 @@ from osc2tx.backends.xosc.facts.actors import (
     TOP_SPEED,
     Linear,
     Quintic,
+    apart,
     course_of_acceleration,
     way_between,
 )
@@ -193,6 +194,7 @@ def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> Element:
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return through_points(ramp)
     even = Linear(points[0], points[-1], ramp.duration)
+    leaf.uneven = Uneven(apart(ramp, even), ramp.duration)
     leaf.ctx.report.approximate(
         leaf.construct,
         leaf.node.span,

@@ -125,7 +125,7 @@ class Flattener:
             at = ends[0][1] if offset is None else start.later(offset)
             self._builder.mark_actor = next(iter(self._builder.acting(member)), mark_actor)
             end = self._member(member, at)
-            if not end.is_never:
+            if not end.is_never and len(node.members) > 1:  # a single one ends with the whole
                 end = end_open_actions(self._builder, end, member, frozenset())
             ends.append((member, end))
         self._builder.mark_actor = mark_actor

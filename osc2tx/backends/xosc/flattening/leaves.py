@@ -70,8 +70,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     for change in performance.changes:
         is_over = not overriding and _is_over(change, lasting)
         record_end_state(builder, leaf, change, is_over=is_over)
-        if not is_over and change.domain == LONGITUDINAL:
-            note_cut(leaf, is_by_duration=not is_cut)
+        if change.domain == LONGITUDINAL and not (is_over and builder.is_outermost):
+            note_cut(leaf, is_by_duration=builder.is_outermost and not is_cut)
         if (member.name, change.domain) in successors:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)

@@ -114,10 +114,11 @@ class MotionAction(Action):
 
     def _excess(self) -> str | None:
         """What its actor cannot do of what it has to do since the start, if that must be."""
-        if self.option() != "must_be_physical" or not self.slots:
+        overloads = self.world.overloads()
+        if not overloads or not self.slots or self.option() != "must_be_physical":
             return None
         since = (self.context.step - self.elapsed_steps + 0.5) * self.context.dt
-        for found in self.world.overloads():
+        for found in overloads:
             if found.actor == self.actor.id and found.last > since:
                 return str(found)
         return None
