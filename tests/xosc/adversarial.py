@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from tests.xosc.case_texts import EGO, Case, indented, point, source
 from tests.xosc.cut_short import composed, cut
+from tests.xosc.modified import relative, timed
 
 # --- conditions on another actor ------------------------------------------------------------------
 
@@ -243,6 +244,8 @@ FAMILIES: Mapping[str, Family] = {
     "again": _family(_again()),
     "cut": _family(cut()),
     "composed": _family(composed()),
+    "timed": _family(timed()),
+    "relative": _family(relative()),
     "placed": _family(_placed()),
     "walks": _family(_walks(), "crossing"),
 }

@@ -7,6 +7,7 @@ import math
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.other_actors import lane_of
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.actions.slow_shifts import note_slow
 from osc2tx.backends.xosc.entities.cast import CastMember
@@ -117,6 +118,13 @@ def lane_change(
         _note_drift(leaf, way, (profile, peak, duration), course)
         note_slow(leaf, way, course)
     time = 0.0 if jumps else course.duration
+    if own_lanes is None and duration is None and not jumps:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            f"how far the lane of {reference} is away is only known during the run",
+            f"it takes {time:.3g} s, as to a lane beside it",
+        )
     shape = "step" if jumps else _shape(leaf, course, profile)
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
@@ -178,8 +186,7 @@ def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
 
 def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     """Return how many lanes to its left an actor has the lane beside a reference, if known."""
-    roads, mine = leaf.ctx.roads, leaf.state.lane
-    theirs = leaf.ctx.states[reference.name].lane
+    roads, mine, theirs = leaf.ctx.roads, leaf.state.lane, lane_of(leaf, reference)
     if roads is None or mine is None or theirs is None:
         return None
     between = roads.lanes_between(mine, theirs)

@@ -6,6 +6,7 @@ import math
 
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.other_actors import lane_of
 from osc2tx.backends.xosc.actions.path_steering import note_steering
 from osc2tx.backends.xosc.actions.paths import follow
 from osc2tx.backends.xosc.actions.points_and_lines import Line, xml_position
@@ -70,7 +71,7 @@ def _beside(leaf: Leaf) -> XmlPosition:
         raise Inexpressible("it is put relative to none or to several actors", leaf.node.span)
     reference = references[0]
     place = beside(leaf, reference, lanes, along, left)
-    lane, roads = leaf.ctx.states[reference.name].lane, leaf.ctx.roads
+    lane, roads = lane_of(leaf, reference), leaf.ctx.roads
     on = None
     if lane is not None and roads is not None:
         on = roads.beside(lane, lanes)
@@ -102,7 +103,7 @@ def _distance(arguments: Arguments) -> tuple[float, CastMember]:
 def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: float) -> Element:
     """Return the place so many lanes to the left of another actor and so far ahead of it (m)."""
     ctx = leaf.ctx
-    lane = ctx.states[reference.name].lane
+    lane = lane_of(leaf, reference)
     newer = ctx.version >= "1.1"
     if not newer and (lane is None or lane.lane > 0):
         raise Inexpressible(

@@ -6,6 +6,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.catalogue import ActionEntry, catalogue
+from osc2tx_classes import replace
 
 DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 """Directions of an action that is about the speed; in others it is about the place in the lane."""
@@ -95,6 +96,34 @@ def _domains(node: ir.Invoke) -> frozenset[str]:
         known = modifiers.get(call.name)  # none if only a dialect has it
         domains |= {*TAKES.get(f"modifier {call.name}", () if known is None else known.slots)}
     return frozenset(domains)
+
+
+def shifts_beside(body: ir.Behavior, node: ir.Invoke, actor: str) -> bool:
+    """Whether members beside an invocation may move an actor across the road; if in doubt, yes."""
+    is_found = False
+    for each in ir.walk_behaviors(body):
+        is_found = is_found or each is node
+        if not isinstance(each, ir.Parallel | ir.OneOf):
+            continue
+        holding = [any(n is node for n in ir.walk_behaviors(member)) for member in each.members]
+        beside = [m for m, holds in zip(each.members, holding, strict=True) if not holds]
+        if any(holding) and any(_shifts(member, actor) for member in beside):
+            return True
+    return not is_found
+
+
+def _shifts(member: ir.Behavior, actor: str) -> bool:
+    for node in ir.walk_behaviors(member):
+        if isinstance(node, ir.InvokeScenario):
+            return True
+        if not (isinstance(node, ir.Invoke) and isinstance(node.actor, ir.FieldRef)):
+            continue
+        going_on = (m for m in node.modifiers if m.at != "start" and m.name != "keep_lane")
+        if node.actor.name == actor and LATERAL in _domains(
+            replace(node, modifiers=tuple(going_on))
+        ):
+            return True
+    return False
 
 
 def _is_sideways(node: ir.Invoke) -> bool:
