@@ -59,6 +59,7 @@ def test_the_driver_of_the_page(follow: type[Scenario]) -> None:
     assert gap == pytest.approx(wanted, rel=0.05)
 
 
+@pytest.mark.slow
 def test_the_same_driver_gives_the_same_trace(follow: type[Scenario]) -> None:
     assert run(follow).trace_lines == run(follow).trace_lines
 

@@ -60,7 +60,13 @@ def broken_maps(source_map: str) -> Mapping[str, str]:
     }
 
 
-@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+@pytest.mark.parametrize(
+    "file",
+    [
+        pytest.param(file, id=file.stem, marks=() if file in TOP else pytest.mark.slow)
+        for file in FILES
+    ],
+)
 def test_the_map_changes_lines_alone(file: Path, tmp_path: Path) -> None:
     """All maps of a few scenarios; of the others, the one that may do most harm."""
     module = generate(file)

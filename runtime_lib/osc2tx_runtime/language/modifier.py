@@ -42,9 +42,14 @@ class Modifier:
 
     def given(self) -> dict[str, Any]:
         """Parameters with values that are not those of a modifier without arguments."""
-        values = ((field, getattr(self, field.name)) for field in fields(self))
+        kind = type(self)
+        if kind not in _DEFAULTS:
+            _DEFAULTS[kind] = tuple((field.name, field.default) for field in fields(kind))
+        values = ((name, default, getattr(self, name)) for name, default in _DEFAULTS[kind])
         return {
-            field.name: value
-            for field, value in values
-            if value is not None and value != field.default
+            name: value for name, default, value in values if value is not None and value != default
         }
+
+
+_DEFAULTS: dict[type[Modifier], tuple[tuple[str, object], ...]] = {}
+"""What the parameters of modifiers are without arguments, of those that were looked at."""

@@ -234,6 +234,9 @@ def make(
     return made
 
 
+_signature = functools.cache(inspect.signature)
+
+
 def _check_arguments(
     method: RegisteredMethod, what: str, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> None:
@@ -242,7 +245,7 @@ def _check_arguments(
     Raises:
         ScenarioError: They do not fit.
     """
-    signature = inspect.signature(method.factory)
+    signature = _signature(method.factory)
     unknown = [name for name in kwargs if name not in (*signature.parameters, *_OPTIONS)]
     try:
         if unknown:  # `**options` would hand them on

@@ -15,7 +15,7 @@ from .arc_length import SLOWEST_RATE, LaneLine
 from .geometry import Segment
 from .lane_advance import wrap
 from .lane_line import lane_line
-from .model import Lane, LanePosition, Pose
+from .model import Lane, LanePosition, Pose, new_tuple
 from .poses import lane_pose
 
 __all__ = ["LaneCursor"]
@@ -121,9 +121,10 @@ class LaneCursor:
             s = line.s_in(row, there, aside)
         else:  # a straight line or an arc of constant width, as `s_in` has them
             start, end = nodes[row], nodes[row + 1] if row < last else line.end
-            s = start + min(max((there - a) / b, 0.0), end - start)
+            u, most = (there - a) / b, end - start
+            s = start + (0.0 if u < 0.0 else most if u > most else u)
         self._row = row
-        place = self._place = LanePosition(p.road, p.lane, s, offset)
+        place = self._place = new_tuple(LanePosition, (p.road, p.lane, s, offset))
         return place
 
     def pose(self, p: LanePosition) -> Pose:
@@ -151,7 +152,7 @@ class LaneCursor:
         if slope:
             heading = h + math.atan2(slope, 1.0 - k * t)
             heading = wrap(heading if lane.direction > 0 else heading + math.pi)
-        return Pose(x - t * self._sin, y + t * self._cos, 0.0, heading)
+        return new_tuple(Pose, (x - t * self._sin, y + t * self._cos, 0.0, heading, 0.0, 0.0))
 
     def _find_centre(self, lane: Lane, s: float) -> None:
         starts = lane.centre.starts

@@ -29,8 +29,12 @@ __all__ = [
     "Link",
     "Pose",
     "Road",
+    "new_tuple",
     "road_order",
 ]
+
+new_tuple = tuple.__new__
+"""Makes a named tuple of all its fields in half the time of a call: `new_tuple(Pose, (x, ...))`."""
 
 DRIVING: frozenset[str] = frozenset(
     {

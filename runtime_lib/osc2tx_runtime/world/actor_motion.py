@@ -175,7 +175,10 @@ class CommandedActor(MovingActor):
             self.follows
             and type(self._speed) in STEADY
             and type(self._side) in STEADY
-            and all(each is None for each in (self._course, self._way, self.blocked, self.tracking))
+            and self._course is None
+            and self._way is None
+            and self.blocked is None
+            and self.tracking is None
             and not (self.wheels is not None and self.wheels.limited)
         )
         return self.steady

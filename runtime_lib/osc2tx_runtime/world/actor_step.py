@@ -7,6 +7,7 @@ from dataclasses import field
 
 from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import DRIVING, LaneCursor, LanePosition, Pose, RoadMap, Route
+from osc2tx_runtime.opendrive.model import new_tuple
 
 from .acceleration import AssignedSpeed
 from .actor_dimensions import TYRES, Limits
@@ -273,8 +274,10 @@ class MovingActor:
         if residual is not None:
             h = math.pi - (math.pi - h) % math.tau
             rate += residual.drift(speed)
-        return ActorState(
-            pose.x, pose.y, pose.z, h, speed, a, under, rate, self.spec.shape, pitch, roll
+        shape = self.spec.shape
+        return new_tuple(
+            ActorState,
+            (pose.x, pose.y, pose.z, h, speed, a, under, rate, shape, pitch, roll),
         )
 
     def _tilted(self, ground: Pose, heading: float) -> tuple[float, float]:

@@ -48,6 +48,10 @@ class _Apart(NamedTuple):
         return abs(x * self.x + y * self.y - self.along) + 2.0 * reach * turned < self.room
 
 
+_Pair = tuple[int, int, float]
+"""Two actors by their numbers, the lower first, and the sum (m) of how far their corners are."""
+
+
 class Contacts:
     """Who touches whom.
 
@@ -57,27 +61,26 @@ class Contacts:
 
     def __init__(self) -> None:
         self.new: tuple[tuple[str, str], ...] = ()
-        self._states: list[ActorState] = []
-        self._moved: set[int] = set()  # who moved in the last step
         self._touching: frozenset[tuple[int, int]] = frozenset()
-        self._apart: dict[tuple[int, int], _Apart] = {}
-        self._reach: list[float] = []  # m from the reference points to the farthest corners
-        self._near: list[list[int]] = []  # who may touch whom
-        self._room = -1.0  # m that one may go until others may
+        self.begin()
 
-    def begin(self, states: Mapping[str, ActorState]) -> None:
-        """Take the places before step 0."""
-        self._states = list(states.values())
-        self._moved = set(range(len(self._states)))
-        self._reach, self._apart = [], {}
-        self._room = -1.0
+    def begin(self) -> None:
+        """Start anew where the actors are before the next step."""
+        self._states: list[ActorState] = []
+        self._reach: list[float] = []  # m from the reference points to the farthest corners
+        self._moved: set[int] = set()  # who moved in the last step
+        self._near: list[_Pair] = []
+        self._sought: set[int] = set()  # whose neighbours were sought
+        self._room = -1.0  # m that one may go until others are near
+        self._apart: dict[tuple[int, int], _Apart] = {}
 
     def put(self, index: int, state: ActorState) -> None:
         """Take a new place of an actor, by its number in the cast, between two steps."""
-        self._states[index] = state
-        self._apart = {}
-        self._moved.add(index)
-        self._room = -1.0
+        if self._states:
+            self._states[index] = state
+            self._apart = {}
+            self._moved.add(index)
+            self._room = -1.0
 
     def step(
         self,
@@ -96,6 +99,10 @@ class Contacts:
             jumped: Who was put somewhere, and touches nothing on its way.
             coupled: Pairs that may touch.
         """
+        if not self._states:
+            self._states = list(before.values())
+            self._reach = [_reach_of(state.shape) for state in states]
+            self._moved = set(range(len(states)))
         begin, self._states = self._states, list(states)
         moved = set(compress(count(), map(is_not, states, begin)))
         looked_at, self._moved = moved | self._moved, moved
@@ -107,42 +114,37 @@ class Contacts:
         way = 0.0
         for i in moved:
             one, other = begin[i], states[i]
-            way = max(way, abs(other.x - one.x), abs(other.y - one.y))
-        if way > self._room or jumped:
+            x, y = other.x - one.x, other.y - one.y
+            if x > way or -x > way or y > way or -y > way:
+                way = max(abs(x), abs(y))
+        if way > self._room or jumped or not looked_at <= self._sought:
             margin = max(_STEPS * way, _NARROW)
-            self._reach = self._reach or [_reach_of(state.shape) for state in states]
-            self._near, self._room = _neighbours(states, self._reach, margin), margin
+            self._near = _neighbours(states, self._reach, looked_at, margin)
+            self._sought, self._room = looked_at, margin
         self._room -= way
-        touching = list(self._found(begin, looked_at, way))
+        touching = list(self._found(begin, way))
         if touching or self._touching:
             stay = [pair for pair in self._touching if looked_at.isdisjoint(pair)]
             self._compare(tuple(before), [*touching, *stay], coupled)
 
-    def _found(
-        self, begin: Sequence[ActorState], looked_at: Collection[int], way: float
-    ) -> Iterator[tuple[int, int]]:
-        """Yield the pairs that touch on their ways of at most so many metres, lower ones first."""
-        end, reach = self._states, self._reach
+    def _found(self, begin: Sequence[ActorState], way: float) -> Iterator[tuple[int, int]]:
+        """Yield the pairs that touch on their ways of at most so many metres."""
+        end = self._states
         last, self._apart = self._apart, {}
-        for i in looked_at:
-            for j in self._near[i]:
-                if j < i and j in looked_at:
-                    continue  # seen from there
-                pair = (i, j) if i < j else (j, i)
-                one, other = end[pair[0]], end[pair[1]]
-                far = reach[i] + reach[j] + 2.0 * way
-                x, y = other.x - one.x, other.y - one.y
-                if abs(x) > far or abs(y) > far:
+        for i, j, reach in self._near:
+            one, other, far = end[i], end[j], reach + 2.0 * way
+            x, y = other.x - one.x, other.y - one.y
+            if x > far or -x > far or y > far or -y > far:
+                continue
+            found = last.get((i, j))
+            if found is None or not found.holds(x, y, (one.h, other.h), far):
+                ways = [swept(box_of(begin[each]), box_of(end[each])) for each in (i, j)]
+                if touch(*ways):
+                    yield i, j
                     continue
-                found = last.get(pair)
-                if found is None or not found.holds(x, y, (one.h, other.h), far):
-                    ways = [swept(box_of(begin[each]), box_of(end[each])) for each in pair]
-                    if touch(*ways):
-                        yield pair
-                        continue
-                    room, ux, uy = apart(ways[0].end, ways[1].end)
-                    found = _Apart(ux, uy, x * ux + y * uy, one.h, other.h, room)
-                self._apart[pair] = found
+                room, ux, uy = apart(ways[0].end, ways[1].end)
+                found = _Apart(ux, uy, x * ux + y * uy, one.h, other.h, room)
+            self._apart[i, j] = found
 
     def _compare(
         self,
@@ -163,10 +165,10 @@ def _reach_of(shape: Shape) -> float:
 
 
 def _neighbours(
-    states: Sequence[ActorState], reach: Sequence[float], margin: float
-) -> list[list[int]]:
-    """Return with whom each actor may touch if none goes farther than the margin (m)."""
-    near: list[list[int]] = [[] for _ in states]
+    states: Sequence[ActorState], reach: Sequence[float], who: Collection[int], margin: float
+) -> list[_Pair]:
+    """Return who may touch whom of some actors if none goes farther than the margin (m)."""
+    found: list[_Pair] = []
     spans = sorted(
         (state.x - far - margin, state.x + far + margin, i)
         for i, (state, far) in enumerate(zip(states, reach, strict=True))
@@ -174,10 +176,9 @@ def _neighbours(
     active: list[tuple[float, int]] = []
     for left, right, i in spans:
         active = [other for other in active if other[0] >= left]
-        y, far = states[i].y, reach[i] + 2.0 * margin
+        y, far, is_one = states[i].y, reach[i] + 2.0 * margin, i in who
         for _, j in active:
-            if abs(states[j].y - y) <= far + reach[j]:
-                near[i].append(j)
-                near[j].append(i)
+            if (is_one or j in who) and abs(states[j].y - y) <= far + reach[j]:
+                found.append((min(i, j), max(i, j), reach[i] + reach[j]))
         active.append((right, i))
-    return near
+    return found

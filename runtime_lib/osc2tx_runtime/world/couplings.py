@@ -44,7 +44,7 @@ class Couplings:
 
     def pairs(self) -> tuple[tuple[str, str], ...]:
         """Who is coupled to whom."""
-        return tuple(self._towed.items())
+        return tuple(self._towed.items()) if self._towed else ()
 
     def draw(
         self,

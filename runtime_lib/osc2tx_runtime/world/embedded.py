@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from osc2tx_classes import replace
 from osc2tx_runtime.errors import ScenarioError
@@ -108,7 +108,7 @@ class EmbeddedWorld:
         if found:
             placed = [member.state for member in members]
             arrive(self._cast, placed, found, (), self._couplings, self.map, 0.0)
-            self._contacts.begin({member.spec.id: member.state for member in members})
+            self._contacts.begin()
 
     def close(self) -> None:
         """Leaves the simulator, if there is one."""
@@ -135,7 +135,7 @@ class EmbeddedWorld:
         self._cast[actor] = placed(self._specs[actor], start, self.map, self._surroundings.road)
         self._cast = {each: self._cast[each] for each in self._specs if each in self._cast}
         self._lights.add(actor)
-        self._contacts.begin({each: member.state for each, member in self._cast.items()})
+        self._contacts.begin()
 
     def actors(self) -> tuple[str, ...]:
         """Ids of the placed actors in the order of the cast."""
@@ -326,8 +326,9 @@ class EmbeddedWorld:
         members = tuple(self._cast.values())
         # All read the snapshot; none is replaced before every actor has moved.
         before = {actor: member.state for actor, member in self._cast.items()}
+        towed = self._couplings.towed()
         wished = [
-            member.reference if member.still and member.steady else self._wish(member)
+            member.reference if member.still and member.steady else self._wish(member, towed)
             for member in members
         ]
         self._couplings.draw(self._cast, wished, self.dt, self.map)
@@ -357,9 +358,9 @@ class EmbeddedWorld:
             frozenset([each for each, change in changes.items() if change.speed is not None]),
         )
 
-    def _wish(self, member: CommandedActor) -> ActorState:
-        """State that an actor is to have at the next step; trailers are drawn along later."""
-        if member.follows and member.spec.movable and not self._couplings.is_towed(member.spec.id):
+    def _wish(self, member: CommandedActor, towed: Collection[str]) -> ActorState:
+        """State that an actor is to have at the next step; who is towed is drawn along later."""
+        if member.follows and member.spec.movable and member.spec.id not in towed:
             return member.moved(self, self.map)
         return member.state
 

@@ -100,6 +100,7 @@ def answers(road_map: RoadMap) -> list[Any]:
     ]
 
 
+@pytest.mark.slow
 def test_a_map_of_third_parties_survives_packing(maps_folder: Path) -> None:
     for name in THIRD_PARTY:
         text = (maps_folder / f"{name}.xodr").read_bytes()

@@ -12,6 +12,7 @@ from osc2tx_runtime.opendrive import LaneKey, LanePosition, RoadMap, read_map
 Load = Callable[[str], RoadMap]
 
 
+@pytest.mark.slow
 def test_all_maps_load(maps_folder: Path) -> None:
     files = sorted(maps_folder.glob("*/*.xodr"))
     assert {file.parent.name for file in files} == {"carla-2019", "carla-2020", "esmini"}
@@ -72,6 +73,7 @@ def test_town06_road_48_is_fed_by(load: Load) -> None:
     assert place.lane == -4
 
 
+@pytest.mark.slow
 def test_town04_ahead_is_lane_arc_length(load: Load) -> None:
     """30 m ahead is 30 m along the lane, on curves too (runtime.md, section 7, point 3)."""
     town = load("carla-2020/Town04")

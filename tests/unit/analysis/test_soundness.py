@@ -6,6 +6,7 @@ import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -210,6 +211,7 @@ def is_left(value: float, domain: Domain) -> bool:
     return domain.contains(value) or close(value, domain.lower) or close(value, domain.upper)
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(st.lists(CONDITIONS, min_size=1, max_size=4))
 def test_no_solution_is_excluded(conditions: list[Term]) -> None:

@@ -83,6 +83,7 @@ def test_strings(tmp_path: Path, known: Callable[..., str]) -> None:
     assert_only_the_strings_differ(tmp_path, ALL_TEXTS, known(len(ALL_TEXTS)))
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(text=st.text(st.characters(exclude_categories=["Cs"]), max_size=40))
 def test_any_string(tmp_path: Path, known: Callable[..., str], text: str) -> None:

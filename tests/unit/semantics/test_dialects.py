@@ -243,6 +243,7 @@ def test_units_declared_again_keep_the_value_of_the_library() -> None:
     assert codes(build_text(text)[1]) == ["OSC203"]
 
 
+@pytest.mark.slow
 def test_corpus_checks_at_least_as_well_as_it_did(test_data: Path) -> None:
     corpus = test_data / "corpus"
     with (corpus / "MANIFEST.csv").open(newline="", encoding="utf-8") as manifest:

@@ -48,8 +48,8 @@ def note_steering(
     is_there = math.hypot(corners[0].x - start.x, corners[0].y - start.y) < 1e-6
     speed = _speed(leaf) if speed is None else speed
     off = off_the_line(
-        line.points,
-        corners if is_there else (here, *corners),
+        tuple(line.points),
+        tuple(corners) if is_there else (here, *corners),
         start,
         speed,
         (leaf.member.shape, leaf.limits),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 from osc2tx.backends.xosc.facts.curves import Waypoint, curve_through
@@ -24,9 +25,10 @@ SETTLED, LEAST_SETTLED = 10.0, 100.0
 """Seconds, and metres besides, after which a corner is behind, or before which it is far off."""
 
 
+@lru_cache(64)  # documents for other values of parameters have the same lines
 def off_the_line(
-    points: Sequence[Waypoint],
-    line: Sequence[Waypoint],
+    points: tuple[Waypoint, ...],
+    line: tuple[Waypoint, ...],
     start: Pose,
     speed: float,
     actor: tuple[Shape, Limits],
@@ -46,7 +48,7 @@ def off_the_line(
         offsets: Metres that are left out at the start and the end of its way.
     """
     is_straight = (not is_smooth or len(points) == 2) and max(offsets) < LEAST_SETTLED
-    pieces = _near_corners(points, speed) if is_straight else [tuple(points)]
+    pieces = _near_corners(points, speed) if is_straight else [points]
     worst = 0.0
     for i, piece in enumerate(pieces):
         ends = offsets[0] if i == 0 else 0.0, offsets[1] if i == len(pieces) - 1 else 0.0

@@ -24,6 +24,7 @@ class _Call:
     """A modifier, as the rules see it."""
 
     modifier: Modifier
+    given: GivenValues
 
     @property
     def name(self) -> str:
@@ -34,12 +35,12 @@ class _Call:
         return at_of(self.modifier)
 
     @property
-    def given(self) -> GivenValues:
-        return GivenValues({**self.modifier.given(), "at": self.at})
-
-    @property
     def shaped(self) -> bool:
         return isinstance(self.modifier, Speed) and self.modifier.shaped
+
+
+def _call(modifier: Modifier) -> _Call:
+    return _Call(modifier, GivenValues({**modifier.given(), "at": at_of(modifier)}))
 
 
 _Clash: TypeAlias = Clash[_Call]
@@ -57,7 +58,7 @@ def check_modifiers(action: ModifiedMotion) -> None:
         UnsupportedError: They cannot be carried out together, or at that time.
         ScenarioError: A modifier is given twice, or without what it needs.
     """
-    calls = [_Call(modifier) for modifier in action.modifiers]
+    calls = [_call(modifier) for modifier in action.modifiers]
     timing = Timing(action.duration is not None, action.end_is_known)
     for clash in clashes(calls, RULES, timing):
         raise _error(action.action_name, clash)
@@ -92,7 +93,7 @@ def check_options(action: ModifiedMotion) -> None:
 
 def _bound_to_lanes(action: ModifiedMotion) -> Iterator[str]:
     for modifier in action.modifiers:
-        if is_across(_Call(modifier), RULES):
+        if is_across(_call(modifier), RULES):
             yield "only vehicles on lanes have a lateral speed"
         if modifier.facts.rules.lanes_only and at_of(modifier) != "start":
             yield f"{modifier.name} is for vehicles, which follow lanes"
