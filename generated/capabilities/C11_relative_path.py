@@ -36,10 +36,12 @@ class RelativePath(Scenario):
         self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
         self.ahead = self.argument("ahead", Pose(x=30 * m, y=0 * m))
         self.aside = self.argument("aside", Pose(x=60 * m, y=-3.5 * m))
+        self.beyond = self.argument("beyond", Pose(x=70 * m, y=-3.5 * m))
         self.swerve = self.argument(
             "swerve",
             RelativePathPose3d(
-                points=[self.here, self.ahead, self.aside], interpolation="straight_line"
+                points=[self.here, self.ahead, self.aside, self.beyond],
+                interpolation="straight_line",
             ),
         )
 

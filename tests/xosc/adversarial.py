@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from tests.xosc.case_texts import EGO, Case, indented, point, source
 from tests.xosc.cut_short import composed, cut
-from tests.xosc.modified import relative, timed
+from tests.xosc.modified import lines, relative, timed
 
 # --- conditions on another actor ------------------------------------------------------------------
 
@@ -246,6 +246,7 @@ FAMILIES: Mapping[str, Family] = {
     "composed": _family(composed()),
     "timed": _family(timed()),
     "relative": _family(relative()),
+    "lines": _family(lines()),
     "placed": _family(_placed()),
     "walks": _family(_walks(), "crossing"),
 }

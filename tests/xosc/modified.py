@@ -1,11 +1,11 @@
-"""Scenarios in which modifiers say what a drive of some length does."""
+"""Scenarios with modifiers of drives, and with ways through points."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import product
 
-from tests.xosc.case_texts import EGO, Case, indented
+from tests.xosc.case_texts import EGO, Case, indented, point
 
 MODIFIERS = {
     "faster": "speed(30mps)",
@@ -68,4 +68,35 @@ def relative() -> Iterator[Case]:
             f"    serial:\n        ego.drive(duration: 0.5s) with:\n{indented(EGO, 3)}"
             f"        ego.drive(duration: {length}s) with:\n{indented(modifier, 3)}"
             "        ego.drive(duration: 1s)\n"
+        )
+
+
+LINES = {
+    "replayed": "ego.replay_path(absolute: way)",
+    "along": "ego.drive() with:\n    along(way)",
+}
+AFTER = {
+    "drives": "ego.drive(duration: 1.5s)",
+    "changes_lane": "ego.change_lane(side: left, duration: 3s)",
+}
+PLACES = ((240, -8.75), (260, -8.75), (310, -5.25), (330, -5.25))  # m
+ENDS = {"slanting": 3, "parallel": 4}  # points
+
+
+def lines() -> Iterator[Case]:
+    """Yield ways that end on a slant or beside their lane, with what comes after."""
+    for (name, act), (then, after), (how, count) in product(
+        LINES.items(), AFTER.items(), ENDS.items()
+    ):
+        points = "".join(
+            f"{point(f'p{index}', x, y)}pose{index}: pose_3d with:\n"
+            f"    keep(it.position == p{index})\n"
+            for index, (x, y) in enumerate(PLACES[:count])
+        )
+        named = ", ".join(f"pose{index}" for index in range(count))
+        yield f"way_{name}_{how}_{then}", (
+            f"ego: vehicle\n{points}way: path with:\n    keep(it.points == [{named}])\n"
+            "    keep(it.interpolation == straight_line)\n"
+            f"do serial:\n    ego.drive(duration: 0.2s) with:\n{indented(EGO, 2)}"
+            f"{indented(act, 1)}    {after}\n    ego.drive(duration: 1s)\n"
         )

@@ -10,6 +10,7 @@ from itertools import pairwise
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.line_ends import note_slant
 from osc2tx.backends.xosc.actions.path_steering import note_schedule, note_steering
 from osc2tx.backends.xosc.actions.points_and_lines import (
     Line,
@@ -22,6 +23,7 @@ from osc2tx.backends.xosc.actions.routes import assign_route, lane_position
 from osc2tx.backends.xosc.actions.speed_modifiers import may_jump
 from osc2tx.backends.xosc.actions.xml_positions import at_place
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
+from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of
 from osc2tx.backends.xosc.facts.maps import Pose
@@ -114,15 +116,14 @@ def along_line(
     if line.is_timed:
         before = corners[-2]
         way = math.hypot(end.x - before.x, end.y - before.y)
-        after = _at_end(
-            leaf, line, end, replace(leaf.state, speed=known(way / (end.time - before.time)))
-        )
+        speed = known(way / (end.time - before.time))
+        after = _at_end(leaf, line, corners, replace(leaf.state, speed=speed))
         during = replace(after, speed=None, lane=None, offset=None, pose=None)
         return (
             Change(LONGITUDINAL, (action,), end.time, during, after),
             Change(LATERAL, (), end.time, during, after),
         )
-    after = _at_end(leaf, line, end, leaf.state)
+    after = _at_end(leaf, line, corners, leaf.state)
     during = replace(after, lane=None, offset=None, pose=None)
     return (Change(LATERAL, (action,), _time(leaf, corners), during, after),)
 
@@ -161,8 +162,9 @@ def _own_place(leaf: Leaf) -> Element:
     return element("RelativeObjectPosition", entityRef=leaf.member.name, dx=0.0, dy=0.0)
 
 
-def _at_end(leaf: Leaf, line: Line, end: Waypoint, state: ActorState) -> ActorState:
-    """Return what is known at the end of a way."""
+def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorState) -> ActorState:
+    """Return what is known at the end of a way, from what is known of the speed there."""
+    end = corners[-1]
     lane = pose = offset = None
     if line.frame is None:
         pose = None if leaf.state.pose is None else Pose(end.x, end.y, end.z, end.h or 0.0)
@@ -170,7 +172,10 @@ def _at_end(leaf: Leaf, line: Line, end: Waypoint, state: ActorState) -> ActorSt
             lane = leaf.ctx.roads.locate(end.x, end.y, end.z)
     if lane is not None:
         offset = known(round(lane.offset, 6))
-    return replace(state, lane=lane, offset=offset, pose=pose).finished(LATERAL)
+    fastest = TOP_SPEED if state.speed is None else max(map(abs, state.speed))
+    drift = 0.0 if pose is not None else note_slant(leaf, line, corners, lane, fastest)
+    there = replace(state, lane=lane, offset=offset, pose=pose).finished(LATERAL)
+    return replace(there, drift=drift)
 
 
 # --- elements -----------------------------------------------------------------------------------

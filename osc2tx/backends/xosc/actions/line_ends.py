@@ -1,0 +1,53 @@
+"""The lateral speed that a line leaves where it ends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from osc2tx.backends.xosc.actions.leaf import Leaf
+from osc2tx.backends.xosc.actions.path_steering import NEAR
+from osc2tx.backends.xosc.actions.points_and_lines import Line
+from osc2tx.backends.xosc.facts.actors import Linear, apart, course_of_shift
+from osc2tx.backends.xosc.facts.curves import Waypoint
+from osc2tx.backends.xosc.facts.maps import LanePosition
+from osc2tx.backends.xosc.flattening.adjacent_members import is_last
+from osc2tx.backends.xosc.report import Metres, Remedy
+
+ALONG_ITS_LANE = ("lane_relative", "object_relative", "road_relative")
+"""Frames whose x axis is the direction of the lane."""
+
+PARALLEL = Remedy(instead="a way whose last stretch is parallel to its lane is exact")
+
+
+def note_slant(
+    leaf: Leaf, line: Line, corners: Sequence[Waypoint], lane: LanePosition | None, speed: float
+) -> float:
+    """Report what a slant at the end of a way makes; return the speed across the lane there.
+
+    Args:
+        leaf: The invocation.
+        line: Its way.
+        corners: Of the line.
+        lane: Where it ends; `None` if that is unknown.
+        speed: m/s at its end.
+    """
+    before, end = corners[-2], corners[-1]
+    heading = math.atan2(end.y - before.y, end.x - before.x)
+    if line.frame is None and lane is not None and leaf.ctx.roads is not None:
+        heading -= leaf.ctx.roads.pose(lane).h
+    elif line.frame not in ALONG_ITS_LANE:
+        return 0.0
+    drift = abs(speed * math.sin(heading))
+    course = course_of_shift(0.0, "none", None, None, leaf.limits, drift)
+    off = apart(course, Linear(0.0, 0.0, course.duration)) if course.duration > 0.0 else 0.0
+    if off <= NEAR or leaf.member.walks or is_last(leaf.ctx.scenario.body, leaf.node):
+        return 0.0
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        "at its end it is on a slant, and its speed across the lane runs out; in the XML it stops",
+        Metres(off, "beside, when it is over"),
+        PARALLEL,
+    )
+    return drift
