@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx.campaigns.store import Store
+from tests.campaigns.kit import TRIANGLE
 
 DIES = """
 import os
@@ -35,10 +36,13 @@ main()
 """
 
 
-def words_of(source: Path, place: Path, samples: int) -> list[str]:
-    """Return the words of a command whose two workers have few rows at once."""
-    few = ["--workers", "2", "--batch", "3", "--kpi", "min_gap", "--samples", str(samples)]
-    return ["campaign", "run", str(source), "--store", str(place), *few]
+TWO = ("--workers", "2")
+
+
+def words_of(source: Path, place: Path, samples: int, workers: Sequence[str]) -> list[str]:
+    """Return the words of a command whose workers have few rows at once."""
+    few = ["--batch", "3", "--kpi", "min_gap", "--samples", str(samples)]
+    return ["campaign", "run", str(source), "--store", str(place), *few, *workers]
 
 
 def drive(words: Sequence[str]) -> subprocess.CompletedProcess[str]:
@@ -60,3 +64,15 @@ def numbers(place: Path) -> set[int]:
     """Return the numbers of the rows of a store."""
     with Store(place) as store:
         return store.done()
+
+
+def die_twenty_times(folder: Path, workers: Sequence[str]) -> None:
+    """Run the campaign of `calm`; its driver dies after each two rows, and is started anew."""
+    source = folder / "triangle.osc"
+    source.write_text(TRIANGLE, encoding="utf-8")
+    drive(["build", str(source), "-o", str(folder)])  # so that it is not compiled each time
+    words = words_of(source.with_suffix(".py"), folder / "store", 40, workers)
+    for death in range(1, 21):
+        driver_that_dies(2, signal.SIGKILL, words)
+        assert len(numbers(folder / "store")) == 2 * death
+    assert ", 0 new: 40 success" in drive(words).stdout

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
-import random
 import shutil
-import signal
 import socket
+import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
@@ -28,7 +27,8 @@ from osc2tx_runtime.campaigns import Plan
 from osc2tx_runtime.campaigns.remote import parcel_of, run_rows
 from osc2tx_runtime.campaigns.worker import Refused
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
-from tests.campaigns.kit import TRIANGLE, Here, digest, plan_of, run
+from tests.campaigns.deaths import die_twenty_times
+from tests.campaigns.kit import TRIANGLE, Here, calm, digest, plan_of, run
 from tests.campaigns.test_search import search
 from tests.campaigns.test_workers import lethal, rows
 
@@ -132,31 +132,78 @@ def test_two_campaigns_after_each_other(two_workers: Any) -> None:
         assert {frozenset(each.values) for found in batches for each in found} == {frozenset(names)}
 
 
-def test_killed_workers_do_not_show(tmp_path: Path) -> None:
-    generator = random.Random(8)
-    plan = plan_of(TRIANGLE, "min_gap")
-    run(plan, tmp_path / "calm", "random", 200, Here())
-    with cluster() as started:
+def test_workers_that_are_killed_do_not_show(tmp_path: Path) -> None:
+    """Twenty times, each when two more rows have come, one of two workers is killed."""
+    with team() as staff:
 
         class Killed(DaskEngine):
             def run(self, plan, rows):  # type: ignore[no-untyped-def]
-                moments = {40, 90, 140}
-                done = 0
+                moments, done = list(range(1, 40, 2)), 0
                 for found in super().run(plan, rows):
-                    before, done = done, done + len(found)
-                    if any(before <= moment < done for moment in moments):
-                        os.kill(generator.choice(pids(started)), signal.SIGKILL)
+                    done += len(found)
+                    while moments and moments[0] <= done:
+                        moments.pop(0)
+                        staff.kill_one()
                     yield found
 
-        address = started.scheduler_address.removeprefix("tcp://")
-        run(plan, tmp_path / "killed", "random", 200, Killed(address, 10))
-    assert digest(tmp_path / "killed") == digest(tmp_path / "calm")
+        address = staff.address.removeprefix("tcp://")
+        run(plan_of(TRIANGLE, "min_gap"), tmp_path / "killed", "random", 40, Killed(address, 2))
+        assert staff.hired == 22
+    assert digest(tmp_path / "killed") == calm()
 
 
-def pids(started: Any) -> list[int]:
-    """Return the processes of the workers that run: one that only starts is not started again."""
-    nannies = started.workers.values()
-    return [each.pid for each in nannies if each.worker_address in started.scheduler.workers]
+class Team:
+    """Two workers in processes of their own: Dask does not start one again that dies too early."""
+
+    def __init__(self, scheduler: Any) -> None:
+        self._scheduler, self.address = scheduler, scheduler.address
+        self._alive: dict[str, subprocess.Popen[bytes]] = {}
+        self.hired = 0
+        self.hire()
+        self.hire()
+
+    def hire(self) -> None:
+        name = f"worker{self.hired}"
+        alone = ["--no-nanny", "--nthreads", "1", "--no-dashboard", "--name", name]
+        command = [sys.executable, "-m", "distributed.cli.dask_worker", self.address, *alone]
+        self._alive[name] = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+        self.hired += 1
+
+    def kill_one(self) -> None:
+        """Kill one that the scheduler knows; another takes its place."""
+        known: list[str] = []
+        while not known:
+            time.sleep(0.02)
+            names = [each.name for each in list(self._scheduler.workers.values())]
+            known = [name for name in names if name in self._alive]
+        self._end(known[0])
+        self.hire()
+
+    def _end(self, name: str) -> None:
+        process = self._alive.pop(name)
+        process.kill()
+        process.wait()
+
+    def close(self) -> None:
+        for name in list(self._alive):
+            self._end(name)
+
+
+@contextmanager
+def team() -> Iterator[Team]:
+    with (
+        distributed.LocalCluster(
+            n_workers=0, dashboard_address=":0", silence_logs=50, processes=False, protocol="tcp"
+        ) as started,
+        closing(Team(started.scheduler)) as found,
+    ):
+        yield found
+
+
+def test_a_driver_that_is_killed_after_each_two_rows(two_workers: Any, tmp_path: Path) -> None:
+    where = two_workers.scheduler_address.replace("tcp://", "dask://")
+    die_twenty_times(tmp_path, ("--engine", where))
+    assert digest(tmp_path / "store") == calm()
 
 
 def test_a_row_that_kills_its_worker_costs_itself_alone(tmp_path: Path) -> None:

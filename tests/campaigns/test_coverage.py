@@ -151,6 +151,44 @@ scenario top:
     assert [str(each) for each in found["one.v"].buckets] == ["0..10", "10..20", "20..30", "30..40"]
 
 
+def test_items_of_objects_are_graded_for_each_object(tmp_path: Path) -> None:
+    """Counted again from the parameters of the rows; `keep` narrows what one of them can be."""
+    text = f"""import osc.standard
+
+struct box:
+    weight: mass with:
+        keep(it in [0kg..40kg])
+    cover(weight, unit: kg, range: [0..40], every: 10)
+
+actor robot:
+    load: box
+    gear: int with:
+        keep(it in [1..4])
+    cover(gear)
+    record(lifted, expression: load.weight, unit: kg)
+
+scenario top:
+    one: robot
+    two: robot with:
+        keep(it.gear <= 2)
+    spare: box with:
+        keep(it.weight >= 20kg)
+{DRIVES}"""
+    run(plan_of(text), tmp_path / "s", "random", 12, Here())
+    with Store(tmp_path / "s") as opened:
+        items = coverage_of(opened)
+        rows = [each["parameters"] for each in opened.runs()]
+    possible = {"one.gear": 4, "two.gear": 2, "one.load.weight": 4, "two.load.weight": 4}
+    possible["spare.weight"] = 2
+    assert {name: items[name].possible for name in possible} == possible
+    for name, buckets in possible.items():
+        width = 10 if name.endswith("weight") else 1
+        seen = {int(row[name] // width) for row in rows}
+        assert items[name].grade == 100.0 * len(seen) / buckets
+    assert items["one.lifted"].grade is None
+    assert sum(items["one.lifted"].hits.values()) in (0, 12)
+
+
 @pytest.mark.parametrize(
     ("value", "index"),
     [

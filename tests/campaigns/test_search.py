@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from pathlib import Path
 from statistics import mean
@@ -18,6 +19,7 @@ from osc2tx.campaigns.store import Store
 from osc2tx.cli import cli
 from osc2tx.cli.reporting import Session
 from osc2tx_runtime.kpis import MEASURES
+from tests.campaigns.deaths import TWO, drive, driver_that_dies, words_of
 from tests.campaigns.kit import DRIVES, Here, digest, parameters, plan_of, run, run_wanted
 
 FOLLOWS = """import osc.standard
@@ -96,6 +98,20 @@ def test_workers_do_not_show(workers: int, tmp_path: Path) -> None:
     search(tmp_path / "here", 40, Here())
     search(tmp_path / "there", 40, LocalEngine(workers, 1))
     assert digest(tmp_path / "here") == digest(tmp_path / "there")
+
+
+@pytest.mark.slow
+def test_a_search_whose_driver_is_killed_goes_on(tmp_path: Path) -> None:
+    """In the middle of a batch, some rows of which are there and some are not."""
+    source = tmp_path / "follows.osc"
+    source.write_text(FOLLOWS, encoding="utf-8")
+    more = ["--search", "min_gap", "--search-batch", "8"]
+    for rows in (5, 6, 10):
+        words = words_of(source, tmp_path / "killed", 32, TWO)
+        driver_that_dies(rows, signal.SIGKILL, [*words, *more])
+    drive([*words, *more])
+    drive([*words_of(source, tmp_path / "whole", 32, TWO), *more])
+    assert digest(tmp_path / "killed") == digest(tmp_path / "whole")
 
 
 def test_the_size_of_a_batch_is_part_of_the_campaign(tmp_path: Path) -> None:

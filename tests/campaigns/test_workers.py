@@ -17,8 +17,15 @@ from osc2tx.campaigns.engine import LocalEngine
 from osc2tx.campaigns.sampling import row_seed
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime.campaigns import Plan, Row
-from tests.campaigns.deaths import drive, driver_that_dies, numbers, words_of
-from tests.campaigns.kit import TRIANGLE, Here, digest, plan_of, run
+from tests.campaigns.deaths import (
+    TWO,
+    die_twenty_times,
+    drive,
+    driver_that_dies,
+    numbers,
+    words_of,
+)
+from tests.campaigns.kit import TRIANGLE, Here, calm, digest, plan_of, run
 from tests.end_to_end.harness import SCENARIOS
 
 pytestmark = pytest.mark.slow
@@ -93,7 +100,7 @@ def test_a_module_that_cannot_be_imported_is_told() -> None:
 
 
 @pytest.mark.parametrize("moment", (1, 8, 21, 38))
-def test_a_killed_worker_does_not_show(moment: int, calm: str, tmp_path: Path) -> None:
+def test_a_killed_worker_does_not_show(moment: int, tmp_path: Path) -> None:
     """One of two workers is killed when so many rows have come."""
 
     class Killed(LocalEngine):
@@ -106,14 +113,7 @@ def test_a_killed_worker_does_not_show(moment: int, calm: str, tmp_path: Path) -
                 yield found
 
     run(plan_of(TRIANGLE, "min_gap"), tmp_path / "killed", "random", 40, Killed(2, 4))
-    assert digest(tmp_path / "killed") == calm
-
-
-@pytest.fixture(scope="module")
-def calm(tmp_path_factory: pytest.TempPathFactory) -> str:
-    place = tmp_path_factory.mktemp("calm") / "store"
-    run(plan_of(TRIANGLE, "min_gap"), place, "random", 40, Here())
-    return digest(place)
+    assert digest(tmp_path / "killed") == calm()
 
 
 def children() -> list[int]:
@@ -121,23 +121,28 @@ def children() -> list[int]:
     return sorted(each.pid for each in multiprocessing.active_children() if each.pid is not None)
 
 
-def test_rows_whose_first_process_dies_do_not_show(calm: str, tmp_path: Path) -> None:
-    """Twenty rows end their process in the middle, the first time."""
+def test_rows_whose_first_process_dies_do_not_show(tmp_path: Path) -> None:
+    run(dying(tmp_path), tmp_path / "killed", "random", 40, LocalEngine(2, 4))
+    assert digest(tmp_path / "killed") == calm()
+
+
+def dying(folder: Path) -> Plan:
+    """The plan of `calm`, twenty rows of which end their process in the middle, the first time.
+
+    Args:
+        folder: Where they note that they have.
+    """
     victims = drawn(40)[1::2]
-    first = f"os.path.join({str(tmp_path)!r}, str(self.a))"
-    plan = lethal(
-        f"if self.a in {victims} and not os.path.exists({first}): open({first}, 'x'); os._exit(3)",
-        "min_gap",
-    )
-    run(plan, tmp_path / "killed", "random", 40, LocalEngine(2, 4))
-    assert digest(tmp_path / "killed") == calm
+    first = f"os.path.join({str(folder)!r}, str(self.a))"
+    ends = f"open({first}, 'x'); os._exit(3)"
+    return lethal(f"if self.a in {victims} and not os.path.exists({first}): {ends}", "min_gap")
 
 
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
 def test_a_driver_that_is_killed_goes_on(tmp_path: Path, blow: signal.Signals) -> None:
     """Killed after so many rows, again and again; nothing stored is lost or run again."""
     place = tmp_path / "store"
-    words = words_of(SCENARIOS / "cut_in.osc", place, 60)
+    words = words_of(SCENARIOS / "cut_in.osc", place, 60, TWO)
     stored: set[int] = set()
     for rows in (1, 7, 20):
         driver_that_dies(rows, blow, words)
@@ -148,27 +153,19 @@ def test_a_driver_that_is_killed_goes_on(tmp_path: Path, blow: signal.Signals) -
     assert f"60 rows in {place}, {60 - len(stored)} new: 60 success" in ended.stdout
     assert ended.stderr == ""  # no progress beside a terminal
     whole = tmp_path / "whole"
-    drive(words_of(SCENARIOS / "cut_in.osc", whole, 60))
+    drive(words_of(SCENARIOS / "cut_in.osc", whole, 60, TWO))
     assert digest(place) == digest(whole)
 
 
-def test_a_driver_that_is_killed_after_each_two_rows(calm: str, tmp_path: Path) -> None:
-    """Twenty deaths, of a driver that has been started anew each time."""
-    source, place = tmp_path / "triangle.osc", tmp_path / "store"
-    source.write_text(TRIANGLE, encoding="utf-8")
-    drive(["build", str(source), "-o", str(tmp_path)])  # so that it is not compiled each time
-    words = words_of(source.with_suffix(".py"), place, 40)
-    for death in range(1, 21):
-        driver_that_dies(2, signal.SIGKILL, words)
-        assert len(numbers(place)) == 2 * death
-    assert ", 0 new: 40 success" in drive(words).stdout
-    assert digest(place) == calm
+def test_a_driver_that_is_killed_after_each_two_rows(tmp_path: Path) -> None:
+    die_twenty_times(tmp_path, TWO)
+    assert digest(tmp_path / "store") == calm()
 
 
 def test_rows_of_a_scenario_of_ours_are_replayed_to_the_byte(tmp_path: Path) -> None:
     """And they are the runs of `osc2tx run` with the seed of the row."""
     place = tmp_path / "store"
-    drive([*words_of(SCENARIOS / "cut_in.osc", place, 4), "--digests"])
+    drive([*words_of(SCENARIOS / "cut_in.osc", place, 4, TWO), "--digests"])
     with Store(place) as store:
         runs = list(store.runs())
     for run_ in runs[:2]:
