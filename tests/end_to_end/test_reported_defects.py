@@ -66,6 +66,8 @@ ROWS = [
     Row("until_in_a_range_of_durations", 3.0, "done@3", seeds=10),
     refused("minimum_duration_by_idling", "4 OSC809", "its duration of 5 s", code=5),
     Row("one_of_shorter_than_asked", 3.0, "long@3", seeds=10),
+    Row("one_of_shorter_than_asked", 3.0, "long@3", options=("--one-of", "seeded"), seeds=10),
+    Row("one_of_shorter_than_asked", 3.0, "long@3", options=("--one-of", "first")),
     refused("until_against_duration", "8 OSC439", "earlier than the 5 s"),
     Row("short_waits_add_up", 1.1, "done@0.1", found=tuple(f"{n} OSC440" for n in range(6, 16))),
     *(Row("assignments_take_no_time", 5.0, "done@4", options=dt) for dt in STEPS),
@@ -188,6 +190,53 @@ def test_a_document_reacts_each_time(folder: Path, tmp_path: Path) -> None:
     (document,) = scenarios(given)
     assert is_exact(document)
     check(given, document)
+
+
+MOTION = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    spot: position_3d with:
+        keep(it.x == 200m)
+        keep(it.y == -8m)
+        keep(it.z == 0m)
+    do serial:
+        {0}
+            {1}
+            speed(10mps, at: start)
+        ego.change_lane(side: left, duration: 3s)
+"""
+AT_POINT = "position(at_point: spot, at: start)"
+CHANGE = (
+    "ego.change_speed(target: 30mps, rate_peak: 1mpss, rate_profile: constant, duration: {}) with:"
+)
+
+
+@pytest.mark.parametrize("lane", ["", "\n            lane(3, at: start)"])
+def test_a_point_is_moved_to_the_nearest_lane_of_a_known_map(tmp_path: Path, lane: str) -> None:
+    path = tmp_path / "point.osc"
+    text = MOTION.format("ego.drive(duration: 2s) with:", AT_POINT + lane)
+    path.write_text(text, encoding="utf-8")
+    given = Given(path)
+    (document,) = scenarios(given)
+    assert is_exact(document), document.report.obstacles
+    check(given, document)
+
+
+@pytest.mark.parametrize(("duration", "fits"), [("1s", False), ("20s", True)])
+def test_no_document_of_a_change_that_always_fails(
+    tmp_path: Path, duration: str, fits: bool
+) -> None:
+    path = tmp_path / "change.osc"
+    path.write_text(MOTION.format(CHANGE.format(duration), AT_POINT), encoding="utf-8")
+    (document,) = scenarios(Given(path))
+    assert (document.xml is not None) is fits
+    reasons = [entry.reason for entry in document.report.obstacles]
+    assert fits or "with rate_peak 1 m/s^2 it takes 20.00 s, not 1 s: every run fails" in reasons
 
 
 def test_no_actor_and_no_method_is_no_error_of_a_check(folder: Path, shell: Shell) -> None:

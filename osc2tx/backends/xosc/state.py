@@ -54,6 +54,7 @@ class ActorState:
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
         pending: Between which accelerations (m/s^2) a change that is cut short may leave it.
         drift: Fastest speed across the road (m/s) that a change which is cut short may leave.
+        aside: Metres that a change of its place in the lane may be short of it where it is stopped.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.
     """
@@ -66,6 +67,7 @@ class ActorState:
     rate: float | None = 0.0
     pending: Interval = STEADY
     drift: float = 0.0
+    aside: float = 0.0
     unfinished: tuple[tuple[str, str], ...] = ()
 
     def with_unfinished(self, domain: str, event: str) -> ActorState:
@@ -76,13 +78,14 @@ class ActorState:
         """Return the state in which nothing changes in a domain."""
         rate = 0.0 if domain == LONGITUDINAL else self.rate
         pending = STEADY if domain == LONGITUDINAL else self.pending
-        drift = 0.0 if domain == LATERAL else self.drift
-        others = self._others(domain)
-        return replace(self, rate=rate, pending=pending, drift=drift, unfinished=others)
+        drift, aside = (0.0, 0.0) if domain == LATERAL else (self.drift, self.aside)
+        found = replace(self, rate=rate, pending=pending, drift=drift, aside=aside)
+        return replace(found, unfinished=self._others(domain))
 
     def going_on(self, other: ActorState) -> ActorState:
         """Return the state in which what changes goes on as in another one."""
-        return replace(self, rate=other.rate, pending=other.pending, drift=other.drift)
+        going = replace(self, rate=other.rate, pending=other.pending)
+        return replace(going, drift=other.drift, aside=other.aside)
 
     def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
         return tuple(pair for pair in self.unfinished if pair[0] != domain)
@@ -107,5 +110,6 @@ def merged(a: ActorState, b: ActorState) -> ActorState:
         rate=a.rate if a.rate == b.rate else None,
         pending=a.pending.over(b.pending),
         drift=max(a.drift, b.drift),
+        aside=max(a.aside, b.aside),
         unfinished=unfinished,
     )

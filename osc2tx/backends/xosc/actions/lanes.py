@@ -23,6 +23,9 @@ from osc2tx_classes import replace
 LANE_WIDTH = 3.5
 """Metres between lanes where there is no map to ask."""
 
+INSIDE = 1.2
+"""Metres from the centre that are inside of any lane: there what is cut short goes on."""
+
 
 @action("change_lane")
 def _change_lane(leaf: Leaf) -> Performance:
@@ -280,8 +283,9 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
         )
     )
     after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
-    during = replace(after, offset=None, drift=fastest(course))
-    return Change(LATERAL, (action,), course.duration, during, after)
+    goes_on = abs(offset) < INSIDE
+    during = replace(after, offset=None, drift=fastest(course), aside=way if goes_on else 0.0)
+    return Change(LATERAL, (action,), course.duration, during, after, goes_on=goes_on)
 
 
 def lateral(action: Element) -> Element:

@@ -32,6 +32,7 @@ class Change:
         time: Seconds until it is done; `None` if that is not known, infinite if it never is.
         during: What is known about the actor until then.
         after: What is known about it from then on.
+        goes_on: It comes to its end though its action is over before, if nothing else begins.
     """
 
     domain: str
@@ -39,6 +40,7 @@ class Change:
     time: float | None
     during: ActorState
     after: ActorState
+    goes_on: bool = False
 
 
 @dataclass(frozen=True, slots=True)

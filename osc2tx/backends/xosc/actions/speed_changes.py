@@ -10,7 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.speed_notes import GENERIC, note_acceleration, note_even_change
+from osc2tx.backends.xosc.actions.speed_notes import (
+    GENERIC,
+    note_acceleration,
+    note_even_change,
+    refuse_contradiction,
+)
 from osc2tx.backends.xosc.facts.actors import (
     COMFORT,
     COSINE_PEAK,
@@ -61,6 +66,9 @@ def change_speed(
     during = replace(after, speed=passed, aim=target, rate=None, pending=pending)
     if state.speed is not None and state.speed.is_known:
         start = state.speed.low
+        if peak is not None and duration is not None:
+            own = course_of_speed(start, target, profile, peak, None, leaf.limits).duration
+            refuse_contradiction(leaf, peak, own, duration)
         course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
         leaf.course = course
         leaf.demand(fastest(course))

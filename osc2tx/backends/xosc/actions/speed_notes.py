@@ -13,11 +13,14 @@ from osc2tx.backends.xosc.facts.actors import (
     way_between,
     way_by_acceleration,
 )
-from osc2tx.backends.xosc.report import Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
 
 GENERIC = Remedy(profile="generic")
 SINCE_PROFILES = Remedy(version="1.2")
+
+STEP = 0.05
+"""Seconds of a step of the run, unless it says otherwise."""
 
 NEAR = 0.05
 """Metres along the road that count as the same place."""
@@ -90,3 +93,17 @@ def note_cut(leaf: Leaf, *, is_by_duration: bool) -> None:
         f"at most {uneven.speed:.2g} m/s off from then on, until it has a new speed",
         SINCE_PROFILES,
     )
+
+
+def refuse_contradiction(leaf: Leaf, peak: float, own: float, duration: float) -> None:
+    """Refuse a peak that does not go with the duration.
+
+    Raises:
+        Inexpressible: They are more than a step of the run apart.
+    """
+    if abs(own - duration) > STEP:
+        raise Inexpressible(
+            f"with rate_peak {peak:g} m/s^2 it takes {own:.2f} s, not {duration:g} s: every run"
+            " fails",
+            leaf.node.span,
+        )

@@ -86,9 +86,9 @@ def _at_point(ctx: Context, start: Start, position: Arguments) -> tuple[Element,
         if not isinstance(point, Named):
             raise Inexpressible("the point is not known before the run", position.source.span)
         x, y, z = (_part(ctx, point.name, (name,)) or 0.0 for name in "xyz")
-        heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
         if position.get("project_on_route") is not False:
-            raise Inexpressible("a point that is moved to the nearest lane", position.source.span)
+            return _near_point(ctx, start, (x, y, z))
+        heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
     else:
         x, y, z = (position.number(name) or 0.0 for name in "xyz")
         heading = position.number("h") or 0.0
@@ -96,6 +96,28 @@ def _at_point(ctx: Context, start: Start, position: Arguments) -> tuple[Element,
             y, heading = -y, -heading
     heading, pitch, roll = turned(ctx, start, heading)
     return _world(Pose(x, y, z, heading), pitch, roll)
+
+
+def _near_point(
+    ctx: Context, start: Start, point: tuple[float, float, float]
+) -> tuple[Element, ActorState]:
+    """Return the place in the lane that is nearest to a point, or in one of the same road."""
+    near = required_roads(ctx).map.locate(*point)
+    if near is None:
+        raise Inexpressible(f"no lane is near ({point[0]:g}, {point[1]:g})", start.span)
+    return _in_lane(ctx, start, _numbered(ctx, start, LanePosition(near.road, near.lane, near.s)))
+
+
+def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
+    """Return the lane that a modifier numbers, at a place."""
+    lane = start.modifiers.get("lane")
+    if lane is None:
+        return place
+    number = round(lane.number("lane") or 1)
+    numbered = required_roads(ctx).with_number(place, number, lane.member("from", "right"))
+    if numbered is None:
+        raise Inexpressible(f"there is no lane {number} at that place", lane.source.span)
+    return numbered
 
 
 def _on_route(ctx: Context, start: Start, along: Arguments) -> tuple[Element, ActorState]:
@@ -109,14 +131,7 @@ def _on_route(ctx: Context, start: Start, along: Arguments) -> tuple[Element, Ac
         if lane is not None:
             raise Inexpressible("a lane of a way off the lanes", lane.source.span)
         return _world(place, None, None)
-    if lane is not None:
-        number = round(lane.number("lane") or 1)
-        roads = required_roads(ctx)
-        numbered = roads.with_number(place, number, lane.member("from", "right"))
-        if numbered is None:
-            raise Inexpressible(f"there is no lane {number} where the route begins")
-        place = numbered
-    return _in_lane(ctx, start, place)
+    return _in_lane(ctx, start, _numbered(ctx, start, place))
 
 
 def _on_road(ctx: Context, start: Start) -> tuple[Element, ActorState]:

@@ -31,7 +31,7 @@ def record_end_state(
     before = builder.ctx.states[leaf.member.name]
     state = _merged(before, change.after if is_over else change.during, change.domain)
     state = state.finished(change.domain).going_on(state)
-    if not is_over:
+    if not is_over and not change.goes_on:
         state = state.with_unfinished(change.domain, leaf.event)
     builder.ctx.states[leaf.member.name] = state
     for noted in (change.during, change.after):
@@ -43,13 +43,15 @@ def record_end_state(
 def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
     """Return the state in which only one domain has changed."""
     if domain == LATERAL:
-        return replace(before, offset=now.offset, lane=now.lane, pose=now.pose, drift=now.drift)
+        placed = replace(before, offset=now.offset, lane=now.lane, pose=now.pose)
+        return replace(placed, drift=now.drift, aside=now.aside)
     if domain == LONGITUDINAL:
         return replace(
             now,
             offset=before.offset,
             lane=before.lane,
             drift=before.drift,
+            aside=before.aside,
             unfinished=before.unfinished,
         )
     return replace(now, unfinished=before.unfinished)

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.flattening.events import EventTable
 from osc2tx.backends.xosc.flattening.member_names import member_name
 from osc2tx.backends.xosc.flattening.storyboard import ACTION, Act, Event
 from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.backends.xosc.xml.tree import Element
@@ -117,8 +117,19 @@ class StoryboardBuilder:
         for name, state in self._stop_states.pop().items():
             is_aside = state.offset is None and self.ctx.states[name].offset is not None
             left = ((LATERAL, self.act.name),) if is_aside else ()
-            self.ctx.states[name] = replace(state, unfinished=left)
+            self._note_stopped_aside(state)
+            self.ctx.states[name] = replace(state, aside=0.0, unfinished=left)
         self.act = self._around.pop()
+
+    def _note_stopped_aside(self, state: ActorState) -> None:
+        """Report that a change of the place in a lane stops with its act, and not in the world."""
+        if state.aside > 0.0:
+            self.ctx.report.approximate(
+                "a change of the place in the lane that is cut short",
+                self.place,
+                "it ends where it is; in the world it goes on to its place",
+                Metres(state.aside, "beside"),
+            )
 
     def note(self, entity: str, state: ActorState) -> None:
         """Note a state in which an act that is open now may be stopped."""
