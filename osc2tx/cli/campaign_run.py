@@ -240,9 +240,10 @@ def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterat
             f"  {count_of(ended.left_out, 'point')} of the sampler break a constraint and were left"
             f" out: {share:.3%} were accepted"
         )
-    best = aim and aim.best(store.measures())
-    if aim and best:
-        yield f"  {aim.kpi}: {best[1]:.6g} in row {best[0]} is the {aim.in_words} of all"
+    if aim:
+        best = aim.best(store.measures())
+        found = f"{best[1]:.6g} in row {best[0]} is the {aim.in_words} of all" if best else ""
+        yield f"  {aim.kpi}: {found or 'no row has a value, so there was nothing to go by'}"
 
 
 def _files_of(

@@ -20,6 +20,7 @@ from osc2tx.lowering.modifiers import draw_ranges, is_override
 from osc2tx.lowering.node_names import invocation_name
 from osc2tx.lowering.objects import ObjectLowering
 from osc2tx.lowering.open_durations import with_open_duration
+from osc2tx.lowering.own_durations import leaves_duration_open
 from osc2tx.lowering.parameter_settings import Instance, Setting
 from osc2tx.lowering.standing_modifiers import StandingModifiers
 from osc2tx.lowering.triggers import lower_until
@@ -122,6 +123,14 @@ class InvocationLowering:
                     f"`{modifier.span.text}` would modify what `{callee.qualified_name}` does",
                     help=instead_of_scenario(callee, modifier.name, modifier.span.text),
                 )
+        duration = next((a.value for a in arguments if a.parameter == "duration"), None)
+        if duration is not None and leaves_duration_open(self._ctx, callee):
+            self._ctx.unsupported(
+                "OSC501",
+                duration.span,
+                f"`{callee.qualified_name}` says itself how long it takes, and leaves that open",
+                help="leave the constraint out there, or the duration here",
+            )
         span = callee.node.name.span
         return ir.InvokeScenario(
             span=node.span,
@@ -132,7 +141,7 @@ class InvocationLowering:
             key=f"{span.source.name}:{span.start}",
             actor=actor,
             arguments=tuple(a for a in arguments if a.parameter != "duration"),
-            duration=next((a.value for a in arguments if a.parameter == "duration"), None),
+            duration=duration,
             until=lower_until(self._ctx, node.with_members),
         )
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from osc2tx import ir
+from osc2tx.analysis import single_value
 from osc2tx.analysis.operation_list import Key
+from osc2tx.lowering.composed_behaviors import Composed
 from osc2tx.lowering.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.open_durations import with_open_duration
@@ -29,6 +31,15 @@ def own_duration(ctx: LoweringContext, constraints: ConstraintLowering) -> ir.Ex
             ctx.given[_OWN] = drawn
             return drawn
     return None
+
+
+def leaves_duration_open(ctx: LoweringContext, behavior: Composed) -> bool:
+    """Whether constraints in a behavior say how long it takes, and let it be several times."""
+    found = ctx.analysis.types[behavior]
+    if _OWN not in found.by_key:
+        return False
+    domain = found.domains_to_set().get(_OWN)
+    return domain is None or single_value(domain) is None
 
 
 def lasting(ctx: LoweringContext, body: ir.Behavior, duration: ir.Expression | None) -> ir.Behavior:

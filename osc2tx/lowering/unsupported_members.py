@@ -6,7 +6,7 @@ objects, methods by their calls, events by those who wait for them. The rest has
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set
 
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.semantics import symbols as sym
@@ -35,14 +35,19 @@ def report_unsupported_members(
     for symbol in found:
         for statement in symbol.statements:
             _report(ctx, symbol, statement)
-    for owner in dict.fromkeys((*found, *(t for each in scenarios for t in supertypes(each)))):
-        _report_namesakes(ctx, owner)
+    owners = dict.fromkeys((*found, *(t for each in scenarios for t in supertypes(each))))
+    namespaces: dict[str, set[str]] = {}
+    for member in (each for owner in owners for each in owner.members.values()):
+        namespaces.setdefault(member.name, set()).add(member.namespace)
+    shared = {name for name, those in namespaces.items() if len(those) > 1}
+    for owner in owners:
+        _report_namesakes(ctx, owner, shared)
 
 
-def _report_namesakes(ctx: LoweringContext, owner: sym.TypeSymbol) -> None:
+def _report_namesakes(ctx: LoweringContext, owner: sym.TypeSymbol, shared: Set[str]) -> None:
     """Report members that only their namespaces tell apart: a class knows them by their names."""
-    lineage = list(reversed(list(supertypes(owner))))
-    for name in {member.name: None for member in owner.members.values()}:
+    for name in {m.name: None for m in owner.members.values() if m.name in shared}:
+        lineage = reversed(list(supertypes(owner)))
         candidates = [each for ancestor in lineage for each in ancestor.named(name)]
         others = [each for each in candidates if each.namespace != candidates[0].namespace]
         for other in others:

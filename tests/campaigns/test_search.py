@@ -155,6 +155,13 @@ def test_the_command_says_the_worst_row(tmp_path: Path) -> None:
     assert f"min_gap(ego,other): {value} in row {worst} is the least of all" in result.output
 
 
+@pytest.mark.slow
+def test_a_search_that_finds_no_value_says_so(tmp_path: Path) -> None:
+    """Both are as fast as each other, so they never meet."""
+    result = command(tmp_path, "--search", "min_ttc")
+    assert "min_ttc: no row has a value" in result.output
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -66,6 +66,8 @@ ROWS = [
     Row("until_in_a_range_of_durations", 3.0, "done@3", seeds=10),
     refused("minimum_duration_by_idling", "4 OSC809", "its duration of 5 s", code=5),
     Row("one_of_shorter_than_asked", 3.0, "long@3", seeds=10),
+    Row("one_of_shorter_than_asked", 3.0, "long@3", options=("--one-of", "seeded"), seeds=10),
+    Row("one_of_shorter_than_asked", 3.0, "long@3", options=("--one-of", "first")),
     refused("until_against_duration", "8 OSC439", "earlier than the 5 s"),
     Row("short_waits_add_up", 1.1, "done@0.1", found=tuple(f"{n} OSC440" for n in range(6, 16))),
     *(Row("assignments_take_no_time", 5.0, "done@4", options=dt) for dt in STEPS),

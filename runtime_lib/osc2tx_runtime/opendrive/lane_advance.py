@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from osc2tx_classes import dataclass
-
 from .lane_distances import Route
 from .lane_line import lane_line
 from .model import Advance, Lane, LanePosition
@@ -30,14 +28,13 @@ def lane_heading(lane: Lane, s: float) -> float:
     return heading if lane.direction > 0 else heading + math.pi
 
 
-@dataclass(slots=True)
 class _Motion:
     """Where a step has got to. `offset` is in direction of travel."""
 
-    lane: Lane
-    s: float
-    offset: float
-    left: float
+    __slots__ = ("lane", "left", "offset", "s")
+
+    def __init__(self, lane: Lane, s: float, offset: float, left: float) -> None:
+        self.lane, self.s, self.offset, self.left = lane, s, offset, left
 
 
 class Forks:

@@ -202,14 +202,15 @@ class OneOf(Composition, ParallelComposite):
         self._limit(duration)
 
     def setup(self, **kwargs: Any) -> None:
-        """Choose a member if the scenario does not race."""
+        """Choose a member if the scenario does not race, one that fills the duration."""
         super().setup(**kwargs)
         if self.context.one_of == "race" or not self._members:
             return
+        members = self._fitting() or self._members
         index = 0
         if self.context.one_of == "seeded":
-            index = self.generator("one_of").randrange(len(self._members))
-        self._members = (self._members[index],)
+            index = self.generator("one_of").randrange(len(members))
+        self._members = (members[index],)
         self._content_open = is_open(self._members[0][0])
         self.open_ended = self._content_open and self._limits is None
 
