@@ -10,7 +10,7 @@ from itertools import pairwise
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.line_ends import note_slant
+from osc2tx.backends.xosc.actions.line_ends import note_jump, note_slant
 from osc2tx.backends.xosc.actions.path_steering import note_schedule, note_steering
 from osc2tx.backends.xosc.actions.points_and_lines import (
     Line,
@@ -109,6 +109,8 @@ def along_line(
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
     if line.is_timed and not is_exact:
         note_schedule(leaf, corners)
+        if line.frame is None:
+            note_jump(leaf, corners[0])
     elif not is_exact:
         note_steering(leaf, line, corners, offsets)
     action = follow(leaf, vertices, line.is_timed, is_exact)
