@@ -138,7 +138,7 @@ function heatMap(item) {
 function fillMeasures() {
   const { measures } = DATA;
   byId("measures-card").hidden = !measures.length;
-  tableOf(byId("measures"), [["Measure"], ["Least", "number"], ["Mean", "number"], ["Greatest", "number"], ["Rows", "number"], ["Row of the least", "number"], ["Distribution"]],
+  tableOf(byId("measures"), [["Measure (SI units)"], ["Least", "number"], ["Mean", "number"], ["Greatest", "number"], ["Rows", "number"], ["Row of the least", "number"], ["Distribution"]],
     measures.map((each) => {
       const most = Math.max(1, ...each.good.map((count, at) => count + each.bad[at]));
       const bars = each.good.map((count, at) => {
