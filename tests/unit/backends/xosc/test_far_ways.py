@@ -16,10 +16,10 @@ CAR = shape_of("vehicle", "car"), limits_of("vehicle", "car")
 
 
 def off(*corners: tuple[float, float], aside: float = 0.0, smooth: bool = False) -> float:
-    points = [Waypoint(0.0, x, y, 0.0) for x, y in corners]
+    points = tuple(Waypoint(0.0, x, y, 0.0) for x, y in corners)
     (x, y), (there, on) = corners[:2]
     start = Pose(x, y + aside, 0.0, math.atan2(on - y, there - x))
-    line = points if not aside else [Waypoint(0.0, x, y + aside, 0.0), *points]
+    line = points if not aside else (Waypoint(0.0, x, y + aside, 0.0), *points)
     return off_the_line(points, line, start, 20.0, CAR, is_smooth=smooth, offsets=(0.0, 0.0))
 
 
