@@ -118,8 +118,7 @@ def _event(ctx: LoweringContext, event: ast.Expression | None) -> ir.EventRef | 
         return ir.Moment.END
     symbol = ctx.model.symbol_of(event)
     if isinstance(symbol, sym.EventSymbol) and declares_event(symbol):
-        is_of_object = isinstance(symbol.owner, sym.ActorSymbol | sym.StructSymbol)
-        if is_of_object:
+        if isinstance(symbol.owner, sym.ActorSymbol | sym.StructSymbol):
             return event_of_object(ctx, event, symbol)
         return ir.EventRef(span=event.span, name=symbol.name)
     if symbol is not None and symbol.name in MOMENTS and symbol.name != "fail":

@@ -24,6 +24,9 @@ NEAR = 0.1  # m: how far what is graded exact may be off at steps of `FINE`
 PACE = 1.0  # m/s: nobody who is approximated goes on more slowly
 LONG = 400.0  # s: beyond the end of any document
 
+WRITTEN = [(name, version) for name, tool in PROFILES.items() for version in tool.versions]
+"""The profiles, each with the versions of the documents that it has."""
+
 
 @dataclass(frozen=True)
 class Given:

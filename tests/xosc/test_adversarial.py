@@ -8,13 +8,13 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.xml.profiles import PROFILES
 from osc2tx.options import XmlOptions, XmlProfile, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.checks import schema_errors
 from tests.xosc.adversarial import FAMILIES
 from tests.xosc.parity import (
     FINE,
+    WRITTEN,
     Given,
     check,
     is_exact,
@@ -26,7 +26,6 @@ from tests.xosc.parity import (
 
 LEAST = 150  # cases that are written as exact, so that all this compares enough
 CASES = [(family, name) for family, cases in FAMILIES.items() for name in cases.names]
-WRITTEN = [(name, version) for name, tool in PROFILES.items() for version in tool.versions]
 
 pytestmark = pytest.mark.slow
 

@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.xml.profiles import PROFILES
 from osc2tx.config import GivenOptions
 from osc2tx.options import CompileOptions, XmlOptions, XmlProfile, XmlVersion
 from osc2tx_runtime import RunSettings
@@ -20,6 +19,7 @@ from tests.unit.backends.xosc.checks import schema_errors
 from tests.unit.backends.xosc.deprecations import deprecated
 from tests.xosc.parity import (
     FINE,
+    WRITTEN,
     Given,
     check,
     is_exact,
@@ -35,7 +35,6 @@ OWN = [path for path in sorted(SCENARIOS.rglob("*.osc")) if path.stem != "hello_
 ALL = [*OWN, *CASES]
 QUICK = {"cut_in", "pedestrian_crossing", "follow_leader", "C19_change_speed", "drive_to_a_place"}
 
-WRITTEN = [(name, version) for name, tool in PROFILES.items() for version in tool.versions]
 
 # Exact, and not compared with a run of the world to its end.
 WITHOUT_RUN = {

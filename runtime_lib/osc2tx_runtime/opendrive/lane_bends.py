@@ -6,7 +6,7 @@ import math
 from itertools import pairwise
 
 from .arc_length import LaneLine
-from .lane_advance import lane_heading
+from .lane_advance import lane_heading, wrap
 from .lane_line import lane_line
 from .model import Lane, LaneBends
 
@@ -35,7 +35,7 @@ def _find(lane: Lane, line: LaneLine) -> LaneBends:
     if lane.direction < 0:
         ways = [line.length - way for way in ways]
     headings = [lane_heading(lane, line.s_at(way)) for way in ways]
-    turns = [abs((other - one + math.pi) % math.tau - math.pi) for one, other in pairwise(headings)]
+    turns = [abs(wrap(other - one)) for one, other in pairwise(headings)]
     found = [
         (i * step, (i + 1) * step, turn / step)
         for i, turn in enumerate(turns)

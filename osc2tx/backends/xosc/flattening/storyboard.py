@@ -26,7 +26,7 @@ event is called so."""
 
 SHORTLY = 1e-6
 """Seconds by which a time is over where a version only knows later ones: less than any step, more
-than tools are off that sum up steps. """
+than tools are off that sum up steps."""
 
 
 @dataclass(slots=True)

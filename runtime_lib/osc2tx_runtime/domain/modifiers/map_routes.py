@@ -180,8 +180,7 @@ class RoutesOverlap(MapModifier):
         """Pairs that overlap so."""
         for first in self.candidates(graph, known, "route1"):
             for second in self.candidates(graph, known, "route2"):
-                kinds = _kinds_of_overlap(graph, first, second)
-                if self.overlap_kind in kinds:
+                if self.overlap_kind in _kinds_of_overlap(graph, first, second):
                     yield {"route1": first, "route2": second}
 
 
@@ -190,8 +189,8 @@ def _kinds_of_overlap(
 ) -> set[RouteOverlapKind]:
     """What `route_overlap_kind` says of two routes (DSL 8.12.23); nothing if they share nothing."""
     one, other = _ranges(graph, first), _ranges(graph, second)
-    shared = [r for r in one if r in other and min(one[r][1], other[r][1]) > _begin(one, other, r)]
-    if not shared:
+    both = [(one[road], other[road]) for road in one.keys() & other.keys()]
+    if not any(min(a[1], b[1]) > max(a[0], b[0]) for a, b in both):
         return set()
     found: set[RouteOverlapKind] = set()
     start, end = _ends(one, first)
@@ -202,13 +201,9 @@ def _kinds_of_overlap(
         found.add("end")
     if len(found) == 2:
         found.add("equal")
-    if all(r in other and other[r][0] <= one[r][0] and one[r][1] <= other[r][1] for r in one):
+    if len(both) == len(one) and all(b[0] <= a[0] and a[1] <= b[1] for a, b in both):
         found.add("inside")
     return {"any", *(found or ("other",))}
-
-
-def _begin(one: _Ranges, other: _Ranges, road: str) -> float:
-    return max(one[road][0], other[road][0])
 
 
 def _ends(ranges: _Ranges, segment: MapSegment) -> tuple[tuple[str, float], tuple[str, float]]:
