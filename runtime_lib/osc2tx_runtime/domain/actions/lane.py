@@ -190,7 +190,7 @@ class ChangeLane(_OnLane):
             if count < 0:
                 raise Refused(f"num_of_lanes {count} is negative")
             lanes = count * self._direction(count)
-        return lanes if self.reference is None else lanes_beside(self, self.reference, lanes)
+        return lanes if self.reference is None else lanes_beside(self, self.reference.id, lanes)
 
     def _direction(self, count: int) -> int:
         """1 for left, -1 for right."""

@@ -17,7 +17,6 @@ from osc2tx_runtime.world.lane_neighbours import (
 from osc2tx_runtime.world.lateral import excessive_shift
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
     from osc2tx_runtime.domain.planning.motion_action import MotionAction
     from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
@@ -87,7 +86,7 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
     """
     if lane.reference is not None:
         count = 0 if lane.side_of is None else lane.number
-        return lanes_beside(action, lane.reference, count if lane.side == "left" else -count)
+        return lanes_beside(action, lane.reference.id, count if lane.side == "left" else -count)
     own = action.place_of(action.actor.id)
     target = lane_with_number(action.world.map, own, lane.number, lane.from_)
     if target is None:
@@ -98,7 +97,7 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
     return _lanes_between(action, own, target)
 
 
-def lanes_beside(action: MotionAction, reference: PhysicalObject, lanes: int) -> int:
+def lanes_beside(action: MotionAction, reference: str, lanes: int) -> int:
     """Lanes to the left of the present one of the lane so many to the left of a reference.
 
     What is left of a reference in oncoming traffic is so as it drives.
@@ -106,7 +105,7 @@ def lanes_beside(action: MotionAction, reference: PhysicalObject, lanes: int) ->
     Raises:
         Refused: There is no such lane.
     """
-    own, theirs = (action.place_of(each.id) for each in (action.actor, reference))
+    own, theirs = (action.place_of(each) for each in (action.actor.id, reference))
     between = _lanes_between(action, own, theirs)
     return between - lanes if are_opposed(action.world.map, own, theirs) else between + lanes
 
