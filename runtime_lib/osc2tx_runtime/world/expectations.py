@@ -36,7 +36,7 @@ from .commands import (
 )
 from .curve import turn_between
 from .distances import side_gap
-from .lane_neighbours import neighbouring
+from .lane_neighbours import are_opposed, lane_beside, offset_from
 from .profiles import Profile
 from .protocol import PENDING, REACHED, Progress
 from .route_following import Way
@@ -214,7 +214,7 @@ def _beside(command: Beside) -> Judge:
 def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap) -> Judge:
     here = state.lane_position
     lanes = command.lanes if isinstance(command, LaneChange) else 0
-    target = None if here is None else neighbouring(road_map, here, lanes)
+    target = None if here is None else lane_beside(road_map, here, lanes)
     offset = _last(command.course, command.offset)
     if target is None:
         failed = Progress(False, "there is no such lane where it is")
@@ -226,11 +226,15 @@ def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap
         place = me.lane_position
         if place is None:
             return PENDING
+        if are_opposed(road_map, goal, place):  # it is in the lane of oncoming traffic
+            place = LanePosition(goal.road, goal.lane, place.s)
         ahead = road_map.route_distance(goal, place)
         if ahead is not None:  # the lane goes on, under whatever number
-            goal = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
-        there = (place.road, place.lane) == (goal.road, goal.lane)
-        return _near(place.offset - offset, PLACE_TOLERANCE) if there else PENDING
+            lane = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
+            goal = lane._replace(offset=goal.offset)
+        if (place.road, place.lane) != (goal.road, goal.lane):
+            return PENDING
+        return _near(offset_from(road_map, goal, me.x, me.y) - offset, PLACE_TOLERANCE)
 
     return judge
 
