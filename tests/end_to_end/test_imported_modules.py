@@ -127,7 +127,7 @@ def test_names_of_their_own_go_first(tmp_path: Path) -> None:
     write(tmp_path, a=main, b=LIBRARY)
     text = module_of(tmp_path / "a.osc")
     assert classes_in(text) == ["Approach"]
-    assert "from b import (Approach as Approach_, Limits,)\n" in text
+    assert "from b import (\n    Approach as Approach_,\n    Limits,\n)\n" in text
     assert ast.unparse(ast.parse(text)).count("self.invoke(Approach_, car=self.hero, ") == 1
 
 
@@ -208,14 +208,14 @@ def test_enums(tmp_path: Path, extended: bool) -> None:
     if extended:
         main = main.replace("\nscenario", "\nextend mood: [sad]\n\nscenario", 1)
     write(tmp_path, a=main, moods=MOODS)
-    assert "Mood: TypeAlias = Literal['calm', 'hasty']" in module_of(tmp_path / "moods.osc")
+    assert 'Mood: TypeAlias = Literal["calm", "hasty"]' in module_of(tmp_path / "moods.osc")
     text = module_of(tmp_path / "a.osc")
     if not extended:
         assert imports_in(text) == {"moods": ["Mood", "PersonCar"]}
         assert "Literal" not in text
         return
     assert imports_in(text) == {}
-    assert "Mood: TypeAlias = Literal['calm', 'hasty', 'sad']" in text
+    assert 'Mood: TypeAlias = Literal["calm", "hasty", "sad"]' in text
     assert text.count("# A copy from moods.osc: here it is not as in that file alone\n") == 2
 
 
