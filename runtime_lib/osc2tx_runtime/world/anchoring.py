@@ -81,7 +81,8 @@ def track(
     member: CommandedActor, state: ActorState, wished: ActorState, road_map: RoadMap, dt: float
 ) -> None:
     """Put a driven actor where it was measured, and its reference beside it."""
-    member.state, member.steady = state, False
+    member.state = state
+    member.upset()
     member.reference = anchored(member, wished, road_map)
     if member.tracking is None:
         member.tracking = Tracking()
