@@ -92,7 +92,7 @@ class CommandedActor(MovingActor):
 
     def pursue_speed(self, command: Command | None) -> None:
         """Puts a longitudinal command to work; None holds the speed."""
-        self.steady = False
+        self.upset()
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
@@ -110,7 +110,7 @@ class CommandedActor(MovingActor):
 
         A speed alone is what it has at this instant; nothing is said of what follows.
         """
-        self.steady = False
+        self.upset()
         self._open.forget()
         self._speed = (
             ConstantAcceleration(acceleration, speed) if acceleration else AssignedSpeed(speed)
@@ -118,7 +118,7 @@ class CommandedActor(MovingActor):
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
-        self.steady = False
+        self.upset()
         if self.tracking is not None:
             self.tracking.forget(LATERAL)
         if self._way is not None:
