@@ -1,7 +1,7 @@
 """Scenario `overtaking`.
 
-C22 Overtaking: on a road of one lane each way a car lets another one come by, overtakes a truck in
-the lane of oncoming traffic and goes back to its own.
+C22 Overtaking: on a road of one lane each way a car lets another one come by, overtakes a slow
+one in the lane of oncoming traffic and goes back to its own.
 
 Made by osc2tx from capabilities/C22_overtaking.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
@@ -32,23 +32,23 @@ class Overtaking(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="crossing.xodr"))
-        self.truck = self.cast("truck", Vehicle())
+        self.slow = self.cast("slow", Vehicle())
         self.ego = self.cast("ego", Vehicle())
         self.oncoming = self.cast("oncoming", Vehicle())
         self.far = self.argument("far", Point(x=260 * m, y=1.75 * m, z=0 * m))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.truck, lane(1), position(120 * m), speed(8 * mps))
+        self.place(self.slow, lane(1), position(120 * m), speed(8 * mps))
         self.place(self.oncoming, position(at_point=self.far), speed(12 * mps))
         self.place(
-            self.ego, lane(same_as=self.truck), position(20 * m, behind=self.truck), speed(8 * mps)
+            self.ego, lane(same_as=self.slow), position(20 * m, behind=self.slow), speed(8 * mps)
         )
 
     def behavior(self) -> Behaviour:
         return Parallel(
             "overtaking",
-            self.truck.drive(speed(8 * mps)),
+            self.slow.drive(speed(8 * mps)),
             self.oncoming.drive(speed(12 * mps)),
             self.ego_serial(),
             overlap="start",
@@ -65,7 +65,7 @@ class Overtaking(Scenario):
             self.out(),
             Until(
                 self.ego.drive("past"),
-                lambda: self.ego.space_gap(reference=self.truck, direction="longitudinal") > 12 * m,
+                lambda: self.ego.space_gap(reference=self.slow, direction="longitudinal") > 12 * m,
             ),
             self.ego.change_lane("back", num_of_lanes=1, side="outside"),
             self.ego.drive(duration=2 * s),

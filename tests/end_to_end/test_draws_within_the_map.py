@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import Trace, asam, run
 
@@ -35,7 +35,7 @@ scenario top:
 def play(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     def play(values: str, lane: int, side: str, seed: int, before: str = "") -> Trace:
         text = TEXT.format(values=values, lane=lane, side=side, before=before)
-        return run(load(draft(asam(text, tmp_path))), RunSettings(seed=seed))
+        return run(load(emit(asam(text, tmp_path))), RunSettings(seed=seed))
 
     return play
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import asam, run
 
@@ -49,7 +49,7 @@ CHANGES = {
 def test_sides_of_who_comes_the_other_way(
     load: Load, tmp_path: Path, change: str, y: float
 ) -> None:
-    trace = run(load(draft(asam(TEXT.format(change=change), tmp_path))), RunSettings())
+    trace = run(load(emit(asam(TEXT.format(change=change), tmp_path))), RunSettings())
     assert (trace.status, trace.reason) == ("success", "")
     last = [state for state in trace.of_kind("state") if state["actor"] == "ego"][-1]
     assert last["y"] == pytest.approx(y, abs=1e-5)

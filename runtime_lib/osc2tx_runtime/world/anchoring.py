@@ -14,6 +14,7 @@ from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 
 from .actor_motion import CommandedActor
 from .couplings import Couplings
+from .lane_neighbours import seen_along
 from .lane_return import abreast
 from .measurement import MeasuredMotion, Measurement
 from .protocol import LATERAL, LONGITUDINAL
@@ -104,6 +105,8 @@ def measured_state(
     on = member.lane_at(pose, before.lane_position, road_map)
     rate = 0.0
     if on is not None:
+        if member.spec.lane_bound:
+            on = seen_along(road_map, on, pose.h)
         turn = pose.h - road_map.pose(on).h
         rate = forwards * math.sin(turn) + left * math.cos(turn)
     if member.motion is None or not dt:

@@ -36,7 +36,7 @@ from .commands import (
 )
 from .curve import turn_between
 from .distances import side_gap
-from .lane_neighbours import are_opposed, lane_beside, offset_from
+from .lane_neighbours import lane_beside
 from .profiles import Profile
 from .protocol import PENDING, REACHED, Progress
 from .route_following import Way
@@ -226,15 +226,12 @@ def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap
         place = me.lane_position
         if place is None:
             return PENDING
-        if are_opposed(road_map, goal, place):  # it is in the lane of oncoming traffic
-            place = LanePosition(goal.road, goal.lane, place.s)
         ahead = road_map.route_distance(goal, place)
         if ahead is not None:  # the lane goes on, under whatever number
             lane = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
             goal = lane._replace(offset=goal.offset)
-        if (place.road, place.lane) != (goal.road, goal.lane):
-            return PENDING
-        return _near(offset_from(road_map, goal, me.x, me.y) - offset, PLACE_TOLERANCE)
+        there = (place.road, place.lane) == (goal.road, goal.lane)
+        return _near(place.offset - goal.offset - offset, PLACE_TOLERANCE) if there else PENDING
 
     return judge
 

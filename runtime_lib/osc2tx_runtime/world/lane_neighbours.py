@@ -17,6 +17,7 @@ __all__ = [
     "lanes_to_left",
     "number_of_lane",
     "offset_from",
+    "seen_along",
     "width_at",
 ]
 
@@ -101,6 +102,24 @@ def actual_lane(road_map: RoadMap, place: LanePosition) -> LanePosition:
     lane = _beside(road_map, place, _lanes_beyond(road_map, place))
     assert lane is not None
     return lane
+
+
+def seen_along(road_map: RoadMap, place: LanePosition, heading: float) -> LanePosition:
+    """A place on a road as an actor with a heading (rad) sees it.
+
+    In a lane of oncoming traffic that is beside the innermost lane of its own direction (as
+    `lane_beside` has it); without such a lane the place stays as it is.
+    """
+    pose = road_map.pose(place)
+    if math.cos(heading - pose.h) >= 0.0:
+        return place
+    across = len(road_map.roads[place.road].section_at(place.s).lanes)
+    for lanes in range(1, across):
+        for signed in (lanes, -lanes):
+            own = _beside(road_map, place, signed)
+            if own is not None and are_opposed(road_map, place, own):
+                return own._replace(offset=offset_from(road_map, own, pose.x, pose.y))
+    return place
 
 
 def width_at(road_map: RoadMap, place: LanePosition) -> float:

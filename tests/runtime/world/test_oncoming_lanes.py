@@ -12,7 +12,12 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.commands import KeepLane, LaneChange, LaneOffset
 from osc2tx_runtime.world.function_profiles import Computed
-from osc2tx_runtime.world.lane_neighbours import lane_beside, lanes_to_left, width_at
+from osc2tx_runtime.world.lane_neighbours import (
+    lane_beside,
+    lanes_to_left,
+    seen_along,
+    width_at,
+)
 from tests.runtime.opendrive.small_maps import one_road
 
 MakeSpec = Callable[..., ActorSpec]
@@ -152,3 +157,19 @@ def test_what_lies_between_ends_the_lanes() -> None:
     assert lane_beside(road_map, own, 1) is None
     with pytest.raises(ScenarioError, match="lane 2 of road 1 is no driving lane beside lane -1"):
         lanes_to_left(road_map, own, LanePosition("1", 2, 100.0))
+
+
+@pytest.mark.parametrize(
+    ("place", "heading", "seen"),
+    [
+        (LanePosition("1", 1, 50.0, 0.2), 0.1, LanePosition("1", -1, 50.0, 2.8)),
+        (LanePosition("1", 2, 50.0, -0.5), 0.0, LanePosition("1", -1, 50.0, 6.5)),
+        (LanePosition("1", -2, 50.0, 0.0), math.pi, LanePosition("1", 1, 50.0, 6.0)),
+        (LanePosition("1", 1, 50.0, 0.2), math.pi, LanePosition("1", 1, 50.0, 0.2)),
+        (LanePosition("1", -2, 50.0, 0.4), 1.5, LanePosition("1", -2, 50.0, 0.4)),
+    ],
+)
+def test_who_drives_there_sees_it_beside_its_own_lane(
+    place: LanePosition, heading: float, seen: LanePosition
+) -> None:
+    assert seen_along(STRAIGHT, place, heading) == pytest.approx(seen)
