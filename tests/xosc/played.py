@@ -6,6 +6,7 @@ may see a completion one step late. Places may differ by what that makes at the 
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -84,7 +85,7 @@ def world(
         # Others of the document hold what an event carries, or follow from parameters.
         names = json.loads(result.trace_lines[0])["parameters"]
         values = {
-            path: declared[name] for path in names if (name := path.replace(".", "_")) in declared
+            path: declared[name] for path in names if (name := re.sub(r"\W", "_", path)) in declared
         }
         if values:
             result = run_scenario(scenario, replace(settings, set={**values, **settings.set}))
