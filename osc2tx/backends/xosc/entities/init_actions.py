@@ -6,7 +6,12 @@ from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.placing import InitialPlacing
 from osc2tx.backends.xosc.entities.start_orientations import note_turn
-from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start, starts_of
+from osc2tx.backends.xosc.entities.start_statements import (
+    Start,
+    in_order,
+    speed_at_start,
+    starts_of,
+)
 from osc2tx.backends.xosc.entities.towing import towing
 from osc2tx.backends.xosc.report import NoPlace
 from osc2tx.backends.xosc.state import ActorState
@@ -20,21 +25,22 @@ def initial_actions(ctx: Context) -> list[Element]:
     """Return the start of each actor, references first, and note what is known about them."""
     for member in ctx.entities:
         ctx.states[member.name] = ActorState()
-    starts = {start.id: start for start in starts_of(ctx)}
+    starts = starts_of(ctx)
     placing = InitialPlacing(ctx, towing(ctx))
     try:
-        placing.fill(list(starts.values()))
+        placing.fill(starts)
     except NoPlace as error:
         ctx.report.cannot("placement", error.span or ctx.scenario.span, error.reason)
     privates = []
-    for name, position in placing.positions.items():
-        start = starts[name]
-        with ctx.within(start.scope), ctx.report_as("placement", start.span):
-            note_turn(ctx, start, placing.poses[name])
-            privates.append(_private(ctx, start, position))
-    for name, refusal in placing.refused.items():
-        span = refusal.span or starts[name].span
-        ctx.report.cannot("placement", span, refusal.reason, refusal.remedy)
+    for start in in_order(starts):
+        if start.id in placing.refused:
+            refusal = placing.refused[start.id]
+            span = refusal.span or start.span
+            ctx.report.cannot("placement", span, refusal.reason, refusal.remedy)
+        elif start.id in placing.positions:
+            with ctx.within(start.scope), ctx.report_as("placement", start.span):
+                note_turn(ctx, start, placing.poses[start.id])
+                privates.append(_private(ctx, start, placing.positions[start.id]))
     ctx.at_start = dict(ctx.states)
     return privates
 

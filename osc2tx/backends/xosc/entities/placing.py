@@ -20,7 +20,7 @@ class InitialPlacing(StartRoom[Start]):
     """Finds the positions of all actors at the start, and notes what is known about them there.
 
     Attributes:
-        positions: Elements, by actor, in an order in which references come first.
+        positions: Elements, by actor.
         poses: Where actors are, as far as that is known.
         refused: Why an actor has none.
     """

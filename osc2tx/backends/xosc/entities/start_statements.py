@@ -120,6 +120,19 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
     return Start(member, scope, placement, modifiers, tuple(references), is_beside)
 
 
+def in_order(starts: list[Start]) -> list[Start]:
+    """Sort so that references come first: tools put actors somewhere one after the other."""
+    placed: set[str] = set()
+    ordered: list[Start] = []
+    waiting = list(starts)
+    while waiting:
+        ready = next((s for s in waiting if placed.issuperset(s.references)), waiting[0])
+        waiting.remove(ready)
+        placed.add(ready.id)
+        ordered.append(ready)
+    return ordered
+
+
 def speed_at_start(ctx: Context, start: Start) -> float:
     """Return the speed (m/s) with which an actor starts.
 
