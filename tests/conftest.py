@@ -2,14 +2,11 @@
 
 import gc
 import os
-from collections.abc import Callable, Iterator
-from functools import lru_cache
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
-
-from osc2tx.backends.py_trees import emitter
 
 DATA_VARIABLE = "OSC2TX_TEST_DATA"
 
@@ -41,14 +38,6 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(200_000, 30, 30)
-
-
-@pytest.fixture(scope="session", autouse=True)
-def formatted_once() -> Iterator[None]:
-    """Ask black once for each text: it takes longer than all else of a compilation."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(emitter, "format_module", lru_cache(1000)(emitter.format_module))
-        yield
 
 
 @pytest.fixture

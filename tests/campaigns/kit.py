@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.campaigns.driver import Progress, run_campaign
 from osc2tx.campaigns.engine import Engine, take
 from osc2tx.campaigns.sampling import Wanted
@@ -54,7 +54,7 @@ def plan_of(text: str, *measures: str) -> Plan:
     """Compile a text; its last scenario is that of the campaign."""
     with TemporaryDirectory() as folder:
         ir = asam(text, Path(folder))
-    module = draft(ir)
+    module = emit(ir)
     files = {"case.py": module.python, "case.map.json": module.source_map}
     if module.coverage_model is not None:
         files["case.coverage.json"] = module.coverage_model

@@ -197,6 +197,19 @@ def test_c21_along_a_path_until_before_its_end(perform: Perform) -> None:
     assert run.at("ego", ride.end)["x"] == pytest.approx(180.0, abs=ROUNDED)
 
 
+def test_c22_overtaking_in_the_lane_of_oncoming_traffic(perform: Perform) -> None:
+    run = perform("C22_overtaking")
+    assert run.status == "success"
+    out, back = run.spans("ego change_lane")
+    assert run.at("ego", out.end)["x"] < run.at("slow", out.end)["x"]
+    for at, y in ((out.start, -1.75), (out.end, 1.75), (back.start, 1.75), (back.end, -1.75)):
+        state = run.at("ego", at)
+        assert state["y"] == pytest.approx(y, abs=ROUNDED)
+        assert state["h"] == pytest.approx(0.0, abs=1e-3)
+    gap = run.at("ego", back.start)["x"] - run.at("slow", back.start)["x"]
+    assert 12.0 + 4.6 < gap < 12.0 + 4.6 + 7.0 * DT + ROUNDED  # faster by 7 m/s; cars of 4.6 m
+
+
 def test_c22_outside_is_left_where_one_drives_on_the_left(perform: Perform) -> None:
     run = perform("C22_map_sides")
     assert run.status == "success"

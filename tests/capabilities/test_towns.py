@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
 from tests.capabilities.conftest import Load
@@ -107,7 +107,7 @@ def in_town(
     settings = RunSettings(
         max_time=60.0, map_path=(path.parent,), spawn=starts(perform(name), road_map, base)
     )
-    return Performance(run(load(draft(module)), settings))
+    return Performance(run(load(emit(module)), settings))
 
 
 def impossible(done: Performance) -> list[str]:

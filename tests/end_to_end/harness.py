@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.options import CompileOptions
@@ -54,8 +54,8 @@ def compile_scenario(path: Path) -> ir.Module:
 
 @cache
 def generate(path: Path) -> GeneratedModule:
-    """Return the module of a scenario of the repository as a draft: black takes its time."""
-    return draft(compile_scenario(path))
+    """Return the module of a scenario of the repository."""
+    return emit(compile_scenario(path))
 
 
 def run(scenario: type[Scenario], settings: RunSettings | None = None) -> Trace:
@@ -77,7 +77,7 @@ def permuted(node: ir.Behavior) -> ir.Behavior:
 
 def permuted_module(module: ir.Module) -> GeneratedModule:
     scenarios = tuple(replace(s, body=permuted(s.body)) for s in module.scenarios)
-    return draft(replace(module, scenarios=scenarios))
+    return emit(replace(module, scenarios=scenarios))
 
 
 def asam(text: str, folder: Path) -> ir.Module:

@@ -6,7 +6,7 @@ import ast
 import sys
 from pathlib import Path
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.building.jobs import compile_all
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
@@ -65,10 +65,10 @@ def compiled(path: Path) -> Compilation:
 
 
 def module_of(path: Path) -> str:
-    """Return the module of a file as a draft: black takes its time."""
+    """Return the module of a file."""
     (compilation,) = compile_all([path], GivenOptions())
     assert compilation.has_module and compilation.ir is not None, compilation.diagnostics
-    return draft(compilation.ir, compilation.sharing).python
+    return emit(compilation.ir, compilation.sharing).python
 
 
 def imports_in(text: str) -> dict[str, list[str]]:

@@ -73,11 +73,11 @@ FAILURES = [
         "road 1 has no lane 9 from the right at s = 60.0 m",
     ),
     Case(
-        "a lane change on a road of one lane",
-        "ego.change_lane(num_of_lanes: 1, side: left)",
+        "a lane change beyond the lanes of a road",
+        "ego.change_lane(num_of_lanes: 2, side: left)",
         1.05,
         1,
-        "there is no driving lane to the left of lane -1 of road 1 at s = 60.0 m",
+        "there are not 2 driving lanes to the left of lane -1 of road 1 at s = 60.0 m",
         map="crossing.xodr",
     ),
     Case(

@@ -21,7 +21,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
@@ -59,7 +59,7 @@ scenario acceptance:
 
 
 def compiled(body: str, folder: Path, load: Load) -> type[Scenario]:
-    return load(draft(asam(HEAD + body, folder)))
+    return load(emit(asam(HEAD + body, folder)))
 
 
 # --- time ----------------------------------------------------------------------------------------
@@ -126,7 +126,7 @@ def test_a_seeded_choice_is_one_alternative_and_each_has_its_seeds(
     path.write_text(HEAD + CHOICE, encoding="utf-8")
     compilation = Compilation(path, path.name, CompileOptions(one_of="seeded"))
     assert compilation.ir is not None
-    scenario = load(draft(compilation.ir))
+    scenario = load(emit(compilation.ir))
     choices = [chosen(scenario, seed) for seed in range(40)]
     assert choices == [chosen(scenario, seed) for seed in range(40)]
     counts = Counter(name for choice in choices for name in choice)
@@ -212,10 +212,10 @@ def test_the_members_of_a_written_parallel_have_no_order(
     assume(len(set(leaves_of_tree)) == len(leaves_of_tree))
     after = "        after: serial:\n            wait elapsed(0.5s)\n" + indented(text, 12)
     module = asam(HEAD + after + "        wait @c\n", tmp_path)
-    first = outcome(load(draft(module)))
+    first = outcome(load(emit(module)))
     draw = random.Random(seed)
     scenarios = tuple(replace(s, body=shuffled(s.body, draw)) for s in module.scenarios)
-    assert outcome(load(draft(replace(module, scenarios=scenarios)))) == first
+    assert outcome(load(emit(replace(module, scenarios=scenarios)))) == first
     assert outcome(load(permuted_module(module))) == first
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import SlotConflict
 from tests.end_to_end.harness import Trace, asam, run
@@ -42,7 +42,7 @@ def play(load: Load, tmp_path: Path) -> Callable[..., Trace]:
 
     def play(body: str, **settings: float) -> Trace:
         lines = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-        made = load(draft(asam(HEAD + lines, tmp_path)))
+        made = load(emit(asam(HEAD + lines, tmp_path)))
         return run(made, RunSettings(**settings))  # type: ignore[arg-type]
 
     return play

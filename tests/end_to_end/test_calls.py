@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError
 from osc2tx_runtime.errors import SettingsError
 from tests.end_to_end.harness import asam, run
@@ -61,7 +61,7 @@ def notes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[tupl
 @pytest.fixture
 def calls(load: Load, tmp_path: Path) -> Callable[[str], type[Scenario]]:
     def compile_one(body: str) -> type[Scenario]:
-        return load(draft(asam(HEAD + body, tmp_path)))
+        return load(emit(asam(HEAD + body, tmp_path)))
 
     return compile_one
 
@@ -166,14 +166,14 @@ scenario own_types:
     ],
 )
 def test_methods_of_own_types(load: Load, tmp_path: Path, value: str, kph: float) -> None:
-    trace = run(load(draft(asam(OWN_TYPES.replace("VALUE", value), tmp_path))))
+    trace = run(load(emit(asam(OWN_TYPES.replace("VALUE", value), tmp_path))))
     assert trace.state("ego", 0.5)["v"] == pytest.approx(kph / 3.6)
 
 
 def test_constraints_of_own_types_hold(load: Load, tmp_path: Path) -> None:
     text = OWN_TYPES.replace("VALUE", "l.middle()").replace("it.low == 10kph", "it.low == top")
     text = text.replace("    ego: coach\n", "    top: speed = 10kph\n    ego: coach\n")
-    scenario = load(draft(asam(text, tmp_path)))
+    scenario = load(emit(asam(text, tmp_path)))
     assert run(scenario).state("ego", 0.5)["v"] == pytest.approx(30 / 3.6)
     with pytest.raises(ScenarioError, match=r"`l\.low < l\.high` does not hold") as error:
         run(scenario, RunSettings(set={"top": 20.0}))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError
 from osc2tx_runtime.errors import SettingsError
 from tests.end_to_end.harness import Trace, asam, run
@@ -31,7 +31,7 @@ def drive(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     def run_one(members: str, **settings: object) -> Trace:
         body = "".join(f"    {line}\n" for line in members.strip().splitlines())
         action = "    do ego.drive(duration: 1s) with:\n        speed(v)\n"
-        scenario = load(draft(asam(HEAD + body + action, tmp_path)))
+        scenario = load(emit(asam(HEAD + body + action, tmp_path)))
         return run(scenario, RunSettings(**settings))  # type: ignore[arg-type]
 
     return run_one
@@ -191,7 +191,7 @@ keep(npc.bounding_box.length in [6m..7m])
 def test_globals_keep_their_constraints(load: Load, tmp_path: Path) -> None:
     text = HEAD.replace("scenario", "global top: speed = 50kph\nglobal v: speed\n\nscenario", 1)
     text += "    keep(v <= top)\n    do ego.drive(duration: 1s) with:\n        speed(v)\n"
-    scenario = load(draft(asam(text, tmp_path)))
+    scenario = load(emit(asam(text, tmp_path)))
     assert speed(run(scenario, RunSettings(set={"v": 10.0}))) == pytest.approx(10.0)
     with pytest.raises(ScenarioError, match=r"`v <= top` does not hold"):
         run(scenario, RunSettings(set={"v": 15.0}))
@@ -208,7 +208,7 @@ def test_constraints_of_an_invocation(load: Load, tmp_path: Path) -> None:
             keep(it.rate_profile == constant)
         ego.drive(duration: [1s..2s])
 """
-    scenario = load(draft(asam(text, tmp_path)))
+    scenario = load(emit(asam(text, tmp_path)))
     trace = run(scenario, RunSettings(set={"ego.change_speed.target": 13.0}))
     assert trace.action("case.osc:11", "end") == 2.0
     assert trace.states("ego")[-1]["v"] == pytest.approx(13.0)
@@ -234,7 +234,7 @@ scenario kept:
     do first: ego.cruise() with:
         keep(it.v in [40kph..60kph])
 """
-    scenario = load(draft(asam(text, tmp_path)))
+    scenario = load(emit(asam(text, tmp_path)))
     speeds = [run(scenario, RunSettings(seed=s)).state("ego", 0.5)["v"] for s in range(6)]
     assert len(set(speeds)) == 6
     assert all(40 * KPH <= v <= 50 * KPH + 1e-6 for v in speeds)

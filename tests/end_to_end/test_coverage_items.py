@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import Trace, asam, run
 
@@ -31,7 +31,7 @@ BODY = """    do ego.change_speed(target: 36kph, rate_profile: constant, duratio
 def sampled(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     def run_one(items: str, body: str = BODY) -> Trace:
         lines = "".join(f"    {line}\n" for line in items.strip().splitlines())
-        return run(load(draft(asam(HEAD + lines + body, tmp_path))))
+        return run(load(emit(asam(HEAD + lines + body, tmp_path))))
 
     return run_one
 
@@ -119,7 +119,7 @@ scenario sampled:
         one: ego.step(v: 10kph)
         two: ego.step(v: 30kph)
 """
-    trace = run(load(draft(asam(text, tmp_path))))
+    trace = run(load(emit(asam(text, tmp_path))))
     assert [(line["t"], line["name"], line["value"]) for line in trace.of_kind("cover")] == [
         (1.0, "one.v", pytest.approx(10.0)),
         (2.0, "two.v", pytest.approx(30.0)),
@@ -141,7 +141,7 @@ def test_runs_that_do_not_succeed_have_an_end_as_well(
     cover(none, expression: ego.speed / (ego.speed - ego.speed))
     cover(first, expression: ego.speed, unit: kph, event: start)
 """
-    trace = run(load(draft(asam(HEAD + items + body, tmp_path))), RunSettings(max_time=max_time))
+    trace = run(load(emit(asam(HEAD + items + body, tmp_path))), RunSettings(max_time=max_time))
     assert trace.status == outcome
     ends = [line for line in trace.of_kind("cover") if line["t"] > 0]
     assert [(line["t"], line["name"], line["outcome"]) for line in ends] == [(time, "v", outcome)]
@@ -163,7 +163,7 @@ scenario sampled:
             wait elapsed(1s)
         ego.drive(duration: 30s)
 """
-    trace = run(load(draft(asam(text, tmp_path))), RunSettings(max_time=5.0))
+    trace = run(load(emit(asam(text, tmp_path))), RunSettings(max_time=5.0))
     assert trace.status == "timeout"
     assert not list(trace.of_kind("cover"))
 
@@ -204,7 +204,7 @@ scenario sampled:
     assert items["one.gear"].text == "the gear"
     assert [bucket.value for bucket in items["two.gear"].graded] == [3]
     assert [bucket.value for bucket in items["open.gear"].graded] == [1, 2, 3]
-    trace = run(load(draft(module)))
+    trace = run(load(emit(module)))
     found = [
         (line["t"], line["name"], line["value"])
         for kind in ("cover", "record")

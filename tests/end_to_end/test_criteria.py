@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.running.main import verdict
@@ -72,7 +72,7 @@ def play(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     """Run a scenario with the head above."""
 
     def play(body: str, road: str = "highway", **settings: object) -> Trace:
-        scenario = load(draft(asam(HEAD.replace("{map}", road) + body, tmp_path)))
+        scenario = load(emit(asam(HEAD.replace("{map}", road) + body, tmp_path)))
         return run(scenario, RunSettings(**settings))  # type: ignore[arg-type]
 
     return play
@@ -86,7 +86,7 @@ def test_a_collision_fails_the_run_if_it_is_to(play: Callable[..., Trace]) -> No
 
 
 def test_a_collision_is_said_in_any_case(load: Load, tmp_path: Path) -> None:
-    scenario = load(draft(asam(HEAD.replace("{map}", "highway") + BUMP, tmp_path)))
+    scenario = load(emit(asam(HEAD.replace("{map}", "highway") + BUMP, tmp_path)))
     first, *_ = verdict("top", run_scenario(scenario))
     assert first == "top: success after 5.00 s, with 1 collision"
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import asam, run
 
@@ -47,7 +47,7 @@ def story(
     order: tuple[str, ...], load: Callable[[GeneratedModule], type[Scenario]], folder: Path
 ) -> list[str]:
     """Run the scenario; return what is told, at one time in any order and without source lines."""
-    trace = run(load(draft(asam(TEXT.format("\n    ".join(order)), folder))))
+    trace = run(load(emit(asam(TEXT.format("\n    ".join(order)), folder))))
     assert trace.of_kind("variable"), "the run samples nothing"
     told = [json.loads(line) for line in trace.ordered[1:] if line.startswith("{")]
     for line in told:

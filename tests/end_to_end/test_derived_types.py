@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx.semantics.library import shared_library
@@ -45,7 +45,7 @@ def test_derived(
         assert errors <= INCOMPLETE
         return
     assert compilation.ir is not None
-    scenario_class = load(draft(compilation.ir))
+    scenario_class = load(emit(compilation.ir))
     if name == "bm_engine":  # what drives is the world's own, not the scenario's
         with pytest.raises(UnsupportedError, match="name one of its models"):
             scenario_class(RunSettings())

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import ScenarioError
 from tests.end_to_end.harness import asam
@@ -28,7 +28,7 @@ def drawn(load: Load, tmp_path: Path) -> Callable[[str, int], list[dict[str, Any
     """Declare a scenario with the first seeds, and return its values."""
 
     def drawn(members: str, seeds: int) -> list[dict[str, Any]]:
-        scenario = load(draft(asam(HEAD + members + TAIL, tmp_path)))
+        scenario = load(emit(asam(HEAD + members + TAIL, tmp_path)))
         return [scenario(RunSettings(seed=seed)).parameters for seed in range(seeds)]
 
     return drawn

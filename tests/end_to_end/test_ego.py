@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunResult, RunSettings, Scenario, run_scenario
 from osc2tx_runtime.errors import CapabilityError
 from tests.end_to_end.harness import asam
@@ -33,7 +33,7 @@ def follow(
     module = ModuleType("drivers")
     exec(compile(driver, "drivers.py", "exec"), vars(module))
     monkeypatch.setitem(sys.modules, "drivers", module)
-    return load(draft(asam(blocks[0][1], tmp_path)))
+    return load(emit(asam(blocks[0][1], tmp_path)))
 
 
 def run(follow: type[Scenario], expect: bool = True) -> RunResult:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import asam, permuted_module, run
 
@@ -42,7 +42,7 @@ scenario ending:{MEMBERS}
             wait elapsed(10s)
 """
     module = asam(text, tmp_path)
-    trace = run(load(draft(module)))
+    trace = run(load(emit(module)))
     assert trace.status == status
     assert trace.lines[-1]["steps"] == 20
     assert reason in trace.lines[-1]["reason"]
@@ -58,7 +58,7 @@ scenario ending:{MEMBERS}
     do ego.change_speed(target: 72kph, rate_profile: constant, duration: 4s) with:
         speed(0kph, at: start)
 """
-    trace = run(load(draft(asam(text, tmp_path))))
+    trace = run(load(emit(asam(text, tmp_path))))
     assert trace.status == "failure"
     assert trace.lines[-1]["steps"] == pytest.approx(41, abs=1)
 
@@ -79,7 +79,7 @@ scenario ending:{MEMBERS}
         one: ego.step(v: 10kph)
         two: ego.step(v: 30kph)
 """
-    trace = run(load(draft(asam(text, tmp_path))))
+    trace = run(load(emit(asam(text, tmp_path))))
     assert trace.status == "success"
     assert trace.lines[-1]["steps"] == 40
     # What holds throughout holds at the start of the run, and is driven to later.

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 from tests.golden.test_stages import options_for
@@ -23,7 +23,7 @@ def test_runs_to_a_verdict(
     path = case / "input.osc"
     compilation = Compilation(path, path.name, options)
     assert compilation.ir is not None
-    scenario = load(draft(compilation.ir))
+    scenario = load(emit(compilation.ir))
     try:
         result = run_scenario(scenario, RunSettings(max_time=30.0))
         verdict = f"{result.status} after {result.time:.2f} s: {result.reason}"

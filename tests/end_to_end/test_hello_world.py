@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.config import ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.report.trace_reader import read_run
@@ -141,7 +141,7 @@ def test_two_runs_and_permuted_branches_give_the_same_bytes(
     trace: Trace, load: Load, settings: RunSettings
 ) -> None:
     module = compile_scenario(FILE)
-    assert run(load(draft(module)), settings).text == trace.text
+    assert run(load(emit(module)), settings).text == trace.text
     assert run(load(permuted_module(module)), settings).ordered == trace.ordered
     assert read_run(trace.text.splitlines()).skipped == 0  # the report knows every line
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.building.build import BuildOptions, build
 from osc2tx.building.jobs import compile_all
 from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
@@ -46,7 +46,7 @@ def test_imports_change_nothing_in_a_run(tmp_path: Path) -> None:
     write(tmp_path, a=MAIN.replace("LIBRARY", "b.osc"), b=LIBRARY)
     compilation = compiled(tmp_path / "a.osc")
     assert compilation.ir is not None and compilation.module is not None
-    with scenarios_of_module(draft(compilation.ir)) as copies:
+    with scenarios_of_module(emit(compilation.ir)) as copies:
         expected = trace_of(copies["top"])
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert list(scenarios) == ["top"]
@@ -127,7 +127,7 @@ def test_names_of_their_own_go_first(tmp_path: Path) -> None:
     write(tmp_path, a=main, b=LIBRARY)
     text = module_of(tmp_path / "a.osc")
     assert classes_in(text) == ["Approach"]
-    assert "from b import (Approach as Approach_, Limits,)\n" in text
+    assert "from b import (\n    Approach as Approach_,\n    Limits,\n)\n" in text
     assert ast.unparse(ast.parse(text)).count("self.invoke(Approach_, car=self.hero, ") == 1
 
 
@@ -182,7 +182,7 @@ def test_a_file_of_types_makes_a_module(tmp_path: Path) -> None:
     assert compilation.ir is not None and compilation.module is not None
     assert imports_in(compilation.module.python) == {"kinds": ["Limits", "Truck"]}
     assert "Limits(low=30 * kph, high=50 * kph, margin=3 * m)" in compilation.module.python
-    with scenarios_of_module(draft(compilation.ir)) as copies:
+    with scenarios_of_module(emit(compilation.ir)) as copies:
         expected = trace_of(copies["top"])
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert trace_of(scenarios["top"]) == expected
@@ -208,14 +208,14 @@ def test_enums(tmp_path: Path, extended: bool) -> None:
     if extended:
         main = main.replace("\nscenario", "\nextend mood: [sad]\n\nscenario", 1)
     write(tmp_path, a=main, moods=MOODS)
-    assert "Mood: TypeAlias = Literal['calm', 'hasty']" in module_of(tmp_path / "moods.osc")
+    assert 'Mood: TypeAlias = Literal["calm", "hasty"]' in module_of(tmp_path / "moods.osc")
     text = module_of(tmp_path / "a.osc")
     if not extended:
         assert imports_in(text) == {"moods": ["Mood", "PersonCar"]}
         assert "Literal" not in text
         return
     assert imports_in(text) == {}
-    assert "Mood: TypeAlias = Literal['calm', 'hasty', 'sad']" in text
+    assert 'Mood: TypeAlias = Literal["calm", "hasty", "sad"]' in text
     assert text.count("# A copy from moods.osc: here it is not as in that file alone\n") == 2
 
 
@@ -230,7 +230,7 @@ actor tanker inherits truck:
     write(tmp_path, a=user.replace("\nscenario top", f"{special}\nscenario top"), kinds=TYPES)
     compilation = compiled(tmp_path / "a.osc")
     assert compilation.ir is not None and compilation.module is not None
-    with scenarios_of_module(draft(compilation.ir)) as copies:
+    with scenarios_of_module(emit(compilation.ir)) as copies:
         expected = trace_of(copies["top"])
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert trace_of(scenarios["top"]) == expected

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import asam, permuted_module, run
 
@@ -33,7 +33,7 @@ def test_names_go_by_place(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
     module = asam(TEXT, tmp_path)
-    plain, permuted = run(load(draft(module))), run(load(permuted_module(module)))
+    plain, permuted = run(load(emit(module))), run(load(permuted_module(module)))
     assert {line["name"] for line in plain.of_kind("event")} == {
         "gain_speed.faster",
         "gain_speed_2.faster",
@@ -69,7 +69,7 @@ def test_draws_go_by_place(
 ) -> None:
     """Those that are written alike draw different values, each its own in any order."""
     module = asam(ALIKE, tmp_path)
-    plain, permuted = run(load(draft(module))), run(load(permuted_module(module)))
+    plain, permuted = run(load(emit(module))), run(load(permuted_module(module)))
     assert permuted.ordered == plain.ordered
     speeds = {line["actor"]: line["v"] for line in plain.of_kind("state") if line["t"] == 0.5}
     assert len(speeds) == len(set(speeds.values())) >= 3
@@ -90,6 +90,6 @@ def test_a_draw_stays_when_members_change_places(
     assert text != swapped
     found = []
     for each in (text, swapped):
-        trace = run(load(draft(asam(each, tmp_path))))
+        trace = run(load(emit(asam(each, tmp_path))))
         found.append(sorted(line["v"] for line in trace.of_kind("state") if line["t"] == 0.5))
     assert found[0] == found[1]

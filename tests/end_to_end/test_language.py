@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, run_scenario
@@ -64,7 +64,7 @@ def test_outcome(
         codes = {d.code for d in compilation.diagnostics if d.severity.name == "ERROR"}
         assert f"refused {' '.join(sorted(codes))}" == case.outcome
         return
-    result = run_scenario(load(draft(compilation.ir)), RunSettings(max_time=20.0))
+    result = run_scenario(load(emit(compilation.ir)), RunSettings(max_time=20.0))
     lines = (json.loads(line) for line in result.trace_lines)
     events = [f"{line['name']}@{line['t']:g}" for line in lines if line["kind"] == "event"]
     assert " ".join([result.status, f"{result.time:g}", *events]) == case.outcome

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError
@@ -52,7 +52,7 @@ scenario lists:{MEMBERS}
     do ego.drive(duration: 1s) with:
         speed(v)
 """
-    assert v_of(run(load(draft(asam(text, tmp_path))))) == pytest.approx(kph / 3.6)
+    assert v_of(run(load(emit(asam(text, tmp_path))))) == pytest.approx(kph / 3.6)
 
 
 def test_lists_of_actors(load: Load, tmp_path: Path) -> None:
@@ -65,7 +65,7 @@ scenario lists:{MEMBERS}
         fleet[0].change_speed(target: 36kph)
         wait fleet.count(it.speed > 35kph) == 2
 """
-    trace = run(load(draft(asam(text, tmp_path))))
+    trace = run(load(emit(asam(text, tmp_path))))
     assert trace.status == "success"
     assert 35 / 3.6 < trace.states("npc")[-1]["v"] <= 40 / 3.6
     assert v_of(trace) == pytest.approx(10.0)
@@ -85,7 +85,7 @@ scenario lists:{MEMBERS}
         wait speeds[n] > 5kph
 """
     with pytest.raises(ScenarioError, match="the condition has no value: list index"):
-        run(load(draft(asam(text, tmp_path))))
+        run(load(emit(asam(text, tmp_path))))
 
 
 def test_constraints_of_a_list_are_checked(load: Load, tmp_path: Path) -> None:
@@ -97,7 +97,7 @@ scenario lists:{MEMBERS}
     do ego.drive(duration: 1s) with:
         speed(speeds[n])
 """
-    scenario = load(draft(asam(text, tmp_path)))
+    scenario = load(emit(asam(text, tmp_path)))
     assert v_of(run(scenario)) == pytest.approx(20 / 3.6)
     with pytest.raises(ScenarioError, match=r"`speeds\[n\] > 15 \* kph .*` does not hold"):
         run(scenario, RunSettings(set={"n": 0}))
@@ -121,7 +121,7 @@ scenario lists:{MEMBERS}
     path.write_text(text, encoding="utf-8")
     compilation = Compilation(path, path.name, CompileOptions("2.2"))
     assert compilation.ir is not None, compilation.diagnostics
-    trace = run(load(draft(compilation.ir)))
+    trace = run(load(emit(compilation.ir)))
     ends = [line["t"] for line in trace.of_kind("action") if line["status"] == "end"]
     speeds = [trace.state("ego", t)["v"] * 3.6 for t in ends]
     assert speeds == pytest.approx([30.0, 15.0, 10.0], abs=0.01)
@@ -149,7 +149,7 @@ scenario lists:{MEMBERS}
         ego.step(speeds: [30kph, 20kph], goal: there, way: slow)
         %s
 """
-    scenario = load(draft(asam(text.replace("        %s\n", ""), tmp_path)))
+    scenario = load(emit(asam(text.replace("        %s\n", ""), tmp_path)))
     assert run(scenario).states("ego")[-1]["v"] == pytest.approx(0.5 * (20 / 3.6 + 1))
     with pytest.raises(SettingsError, match=r"`step.*speeds` has no value.*invokes"):
-        run(load(draft(asam(text.replace("%s", "ego.step()"), tmp_path))))
+        run(load(emit(asam(text.replace("%s", "ego.step()"), tmp_path))))

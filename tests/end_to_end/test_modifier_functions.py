@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.building.build import build
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.needed_modules import sibling_modules
@@ -127,7 +127,7 @@ def test_runs_are_those_of_copies(tmp_path: Path) -> None:
     write(tmp_path, a=USER, kinds=MODIFIERS)
     compilation = compiled(tmp_path / "a.osc")
     assert compilation.ir is not None and compilation.module is not None
-    with scenarios_of_module(draft(compilation.ir)) as copies:
+    with scenarios_of_module(emit(compilation.ir)) as copies:
         expected = trace_of(copies["top"])
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert trace_of(scenarios["top"]) == expected

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.catalogue import catalogue
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
@@ -62,7 +62,7 @@ def classes(tmp_path_factory: pytest.TempPathFactory, load: Load) -> dict[str, t
     assert compilation.ir is not None, [
         d for d in compilation.diagnostics if d.severity is Severity.ERROR
     ]
-    found = load(draft(compilation.ir))
+    found = load(emit(compilation.ir))
     module = __import__(found.__module__)
     return {
         value.name: value

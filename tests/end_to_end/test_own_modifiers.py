@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.options import CompileOptions
@@ -75,7 +75,7 @@ def speed_at_end(trace: Trace, line: int) -> float:
 
 
 def test_bodies_are_carried_out(load: Load, tmp_path: Path) -> None:
-    trace = run(load(draft(asam(HEAD + BODY, tmp_path))))
+    trace = run(load(emit(asam(HEAD + BODY, tmp_path))))
     assert trace.status == "success"
     start = trace.states("ego")[0]
     assert (start["v"], start["lane"]) == (10.0, -3)
@@ -88,7 +88,7 @@ def test_modifiers_nest(load: Load, tmp_path: Path) -> None:
     body = """ego.drive(duration: 1s) with:
         quick_start([15mps..16mps])
 """
-    trace = run(load(draft(asam(HEAD + body, tmp_path))))
+    trace = run(load(emit(asam(HEAD + body, tmp_path))))
     start = trace.states("ego")[0]
     assert 15.0 <= start["v"] <= 16.0
     assert start["lane"] == -2
@@ -137,7 +137,7 @@ def test_what_does_not_fit_is_refused(
 
 def test_what_nobody_says_of_a_modifier_is_left_to_settings(load: Load, tmp_path: Path) -> None:
     body = "ego.drive(duration: 1s) with:\n        bare()\n"
-    scenario = load(draft(asam(HEAD + body, tmp_path)))
+    scenario = load(emit(asam(HEAD + body, tmp_path)))
     with pytest.raises(ScenarioError, match=r"leaves ego\.drive\.bare\.limit open"):
         run(scenario)
 
@@ -145,7 +145,7 @@ def test_what_nobody_says_of_a_modifier_is_left_to_settings(load: Load, tmp_path
 def test_a_constraint_of_a_modifier_is_checked_before_the_run(load: Load, tmp_path: Path) -> None:
     head = HEAD.replace("    ego: vehicle\n", "    ego: vehicle\n    v: speed = 15mps\n")
     body = "ego.drive(duration: 1s) with:\n        careful(v)\n        starting()\n"
-    scenario = load(draft(asam(head + body, tmp_path)))
+    scenario = load(emit(asam(head + body, tmp_path)))
     assert run(scenario).status == "success"
     with pytest.raises(ScenarioError, match="the scenario allows at most 20"):
         run(scenario, RunSettings(set={"v": 25.0}))
@@ -162,7 +162,7 @@ OVERRIDE = """parallel:
 
 
 def test_an_override_of_an_invocation(load: Load, tmp_path: Path) -> None:
-    trace = run(load(draft(asam(HEAD + OVERRIDE, tmp_path))))
+    trace = run(load(emit(asam(HEAD + OVERRIDE, tmp_path))))
     assert trace.status == "success"
     assert trace.states("ego")[-1]["t"] == pytest.approx(3.0)  # 4 m/s at 4 m/s^2 from 2 s on
     assert trace.states("ego")[-1]["v"] == pytest.approx(6.0)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import Trace, asam, run
 
@@ -24,7 +24,7 @@ def trace(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path_factory: pytest.TempPathFactory
 ) -> Trace:
     text = CASE.read_text(encoding="utf-8")
-    return run(load(draft(asam(text, tmp_path_factory.mktemp("paths")))))
+    return run(load(emit(asam(text, tmp_path_factory.mktemp("paths")))))
 
 
 def ends(trace: Trace, name: str) -> list[float]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import Scenario
@@ -41,7 +41,7 @@ def test_two_cars_on_paths_apart(load: Load, tmp_path: Path, difference: str) ->
     source.write_text(APART.replace("DIFFERENCE", difference), encoding="utf-8")
     compilation = Compilation(source, source.name, CompileOptions(dialect="carla"))
     assert compilation.ir is not None, compilation.diagnostics
-    module = draft(compilation.ir)
+    module = emit(compilation.ir)
     assert f"{difference.removeprefix('path_')}=self.first" in module.python
     trace = run(load(module))
     assert trace.status == "success"

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, OneOfPolicy
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError
@@ -42,7 +42,7 @@ def drive(load: Load, tmp_path: Path) -> Drive:
     def run_one(members: str, one_of: OneOfPolicy = "race", **settings: object) -> Trace:
         body = "".join(f"    {line}\n" for line in members.strip().splitlines())
         module = compiled(HEAD + body, tmp_path, CompileOptions(one_of=one_of))
-        return run(load(draft(module)), RunSettings(**settings))  # type: ignore[arg-type]
+        return run(load(emit(module)), RunSettings(**settings))  # type: ignore[arg-type]
 
     return run_one
 
@@ -172,11 +172,11 @@ def test_a_conditional_subtype_is_told_by_its_member(load: Load, tmp_path: Path)
     fixed = text.replace(
         "ego: vehicle", "ego: vehicle with:\n        keep(it.vehicle_category == V)"
     )
-    truck = load(draft(compiled(fixed.replace("== V", "== truck"), tmp_path)))
+    truck = load(emit(compiled(fixed.replace("== V", "== truck"), tmp_path)))
     assert times(run(truck), "big") == pytest.approx([1.0], abs=STEP)
-    car = load(draft(compiled(fixed.replace("== V", "== car"), tmp_path)))
+    car = load(emit(compiled(fixed.replace("== V", "== car"), tmp_path)))
     assert times(run(car, RunSettings(max_time=2.0)), "big") == []
-    unsaid = load(draft(compiled(text, tmp_path)))
+    unsaid = load(emit(compiled(text, tmp_path)))
     with pytest.raises(ScenarioError, match="nothing says the vehicle_category of ego"):
         run(unsaid)
 
@@ -219,13 +219,13 @@ scenario top:
 
 def test_a_path_of_carla_is_a_road_with_room(load: Load, tmp_path: Path) -> None:
     options = CompileOptions(dialect="carla")
-    three = load(draft(compiled(CARLA.replace("LANES", "3"), tmp_path, options)))
+    three = load(emit(compiled(CARLA.replace("LANES", "3"), tmp_path, options)))
     trace = run(three)
     assert trace.status == "success"
     npc, ego = trace.state("npc", 0.0), trace.state("ego_vehicle", 0.0)
     assert (npc["road"], npc["lane"]) == (ego["road"], ego["lane"])
     assert npc["v"] == pytest.approx(30 / 3.6)
-    nine = load(draft(compiled(CARLA.replace("LANES", "9"), tmp_path, options)))
+    nine = load(emit(compiled(CARLA.replace("LANES", "9"), tmp_path, options)))
     with pytest.raises(ScenarioError, match="at least 9 lanes") as refused:
         run(nine)
     assert refused.value.source == "case.osc:4"

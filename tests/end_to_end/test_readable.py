@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario, ScenarioError
 from tests.end_to_end.harness import asam, run
 
@@ -55,7 +55,7 @@ scenario readable:
 def test_what_actors_tell(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
-    scenario = load(draft(asam(SCENARIO, tmp_path)))
+    scenario = load(emit(asam(SCENARIO, tmp_path)))
     trace = run(scenario)
     assert trace.status == "success"
     # From 10 m/s at t = 2 s with 2 m/s2: 7 m/s at 3.5 s, 5 m/s at 4.5 s, 4 m/s at 5 s.
@@ -68,7 +68,7 @@ def test_what_actors_tell(
 def test_values_before_the_run(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
-    scenario = load(draft(asam(SCENARIO, tmp_path)))()
+    scenario = load(emit(asam(SCENARIO, tmp_path)))()
     utc = calendar.timegm((2024, 2, 29, 11, 0, 15))  # 12:30:15 one and a half hours east
     assert scenario.noon == pytest.approx(utc)  # type: ignore[attr-defined]
     assert scenario.spot.norm() == 5.0  # type: ignore[attr-defined]
@@ -112,7 +112,7 @@ scenario along:
 def test_distances_along_routes(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
-    trace = run(load(draft(asam(ALONG, tmp_path))))
+    trace = run(load(emit(asam(ALONG, tmp_path))))
     assert trace.status == "success"
     # At 10 m/s from x = s = 100 m, on a lane that begins at s = 0; the path ends at x = 190 m.
     assert trace.event("on_lane") == 2.0
@@ -123,7 +123,7 @@ def test_distances_along_routes(
 def test_off_the_route_is_an_error(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
-    scenario = load(draft(asam(ALONG.replace("lane(2", "lane(1"), tmp_path)))
+    scenario = load(emit(asam(ALONG.replace("lane(2", "lane(1"), tmp_path)))
     with pytest.raises(ScenarioError, match="ego: the actor is on lane -4 of road 1, not on lane"):
         run(scenario)
 
@@ -137,7 +137,7 @@ def test_a_route_through_points(
         '    to_: odr_point = road.create_odr_point("1", "-3", 190m, 0m)\n'
         "    way: compound_route = road.create_route([from_, to_])\n",
     )
-    generated = draft(asam(text, tmp_path))
+    generated = emit(asam(text, tmp_path))
     assert "self.road.create_route([self.from_, self.to_])" in generated.python
     trace = run(load(generated))
     assert trace.event("on_path") == 6.0

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario
 from osc2tx_runtime.errors import PlacementError
 from tests.end_to_end.harness import Trace, asam, run
@@ -49,7 +49,7 @@ PARTS = {"side": "right", "lane": "", "start_speed": ""}
 def play(load: Load, tmp_path: Path) -> Callable[..., States]:
     def play(**parts: str) -> States:
         text = OVERTAKING.format(**{**PARTS, **parts})
-        trace: Trace = run(load(draft(asam(text, tmp_path))))
+        trace: Trace = run(load(emit(asam(text, tmp_path))))
         assert (trace.status, trace.time) == ("success", 4.0), trace.reason
         found: States = {}
         for state in trace.of_kind("state"):

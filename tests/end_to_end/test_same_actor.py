@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import Scenario, ScenarioError
@@ -55,7 +55,7 @@ def test_it_is_that_actor(load: Load, tmp_path: Path, text: str) -> None:
     compilation = Compilation(_file(tmp_path, text), "case.osc", CompileOptions())
     assert compilation.analysis is not None
     assert "scenario top: concrete" in [str(each) for each in compilation.analysis.levels]
-    trace = run(load(draft(asam(HEAD + text, tmp_path))))
+    trace = run(load(emit(asam(HEAD + text, tmp_path))))
     assert trace.status == "success"
     (header,) = trace.of_kind("header")
     assert set(header["actors"]) == {"ego"}
@@ -67,12 +67,12 @@ def test_two_that_are_handed_in_are_checked(load: Load, tmp_path: Path) -> None:
     other = "    npc: vehicle\n    npc.lane(1, at: start)\n    npc.position(9m, at: start)\n"
     text = f"{LEG}{TOP}{other}    do leg(first: ego, second: npc)\n"
     with pytest.raises(ScenarioError, match="`second == first` does not hold"):
-        run(load(draft(asam(HEAD + text, tmp_path))))
+        run(load(emit(asam(HEAD + text, tmp_path))))
 
 
 def test_of_two_equal_actors_the_more_special_one_is_declared(load: Load, tmp_path: Path) -> None:
     text = f"actor bus inherits vehicle\n\n{TOP}    who: bus\n    keep(who == ego)\n{DRIVE}"
-    actors = run(load(draft(asam(HEAD + text, tmp_path)))).lines[0]["actors"]
+    actors = run(load(emit(asam(HEAD + text, tmp_path)))).lines[0]["actors"]
     assert (actors["who"]["kind"], "ego" in actors) == ("bus", False)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import Scenario
 from tests.end_to_end.harness import asam, run
 
@@ -38,7 +38,7 @@ scenario sampled:
 def test_only_new_values_are_traced(
     load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
-    trace = run(load(draft(asam(TEXT, tmp_path))))
+    trace = run(load(emit(asam(TEXT, tmp_path))))
     lines = trace.of_kind("variable")
     ticks = [line["t"] for line in trace.of_kind("event") if line["name"] == "tick"]
     assert ticks == [1.0, 2.0, 3.0]  # before and after the assignment: one instant
@@ -74,7 +74,7 @@ scenario top:
         wait more.after == more.before + 5mps
         emit told
 """
-    trace = run(load(draft(asam(faster, tmp_path))))
+    trace = run(load(emit(asam(faster, tmp_path))))
     sampled = [(line["t"], line["name"], line["value"]) for line in trace.of_kind("variable")]
     assert sampled == [(1.0, "more.before", 10.0), (3.0, "more.after", 15.0)]
     assert [(line["t"], line["value"]) for line in trace.of_kind("cover")] == [(3.0, 15.0)]

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario
@@ -46,7 +46,7 @@ def test_names_mean_what_they_mean_there(
     path.write_text(TEXT, encoding="utf-8")
     compiled = Compilation(path, path.name, CompileOptions("2.1", "carla"))
     assert compiled.ir is not None, compiled.diagnostics
-    trace = run(load(draft(compiled.ir)), RunSettings(allow_external=("math.sin",)))
+    trace = run(load(emit(compiled.ir)), RunSettings(allow_external=("math.sin",)))
     assert trace.status == "success"
     states = trace.of_kind("state")
     assert len({line["actor"] for line in states}) == 1

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.report.trace_reader import read_run
 from tests.end_to_end.harness import (
@@ -50,8 +50,8 @@ def test_it_succeeds_without_collision(run_named: Callable[..., Trace], name: st
 @pytest.mark.parametrize("name", OWN)
 def test_repetition_and_permutation_change_nothing(load: Load, name: str) -> None:
     module = compile_scenario(SCENARIOS / f"{name}.osc")
-    first = run(load(draft(module)))
-    assert run(load(draft(module))).text == first.text
+    first = run(load(emit(module)))
+    assert run(load(emit(module))).text == first.text
     assert run(load(permuted_module(module))).ordered == first.ordered
 
 

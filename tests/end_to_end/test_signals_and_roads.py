@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError
@@ -81,7 +81,7 @@ scenario roads:
 
 @pytest.fixture
 def trace_of(load: Load, tmp_path: Path) -> Callable[[str], Trace]:
-    return lambda text: run(load(draft(asam(text, tmp_path))))
+    return lambda text: run(load(emit(asam(text, tmp_path))))
 
 
 def test_car_stops_before_the_line_and_goes_at_green(trace_of: Callable[[str], Trace]) -> None:
@@ -306,7 +306,7 @@ def test_cycles_of_a_file(load: Load, tmp_path: Path) -> None:
     (tmp_path / "lights.json").write_text(
         json.dumps([{"group": "1", "start_offset": 0.5, "phases": PHASES}]), encoding="utf-8"
     )
-    scenario = load(draft(asam(FROM_FILE, tmp_path)))
+    scenario = load(emit(asam(FROM_FILE, tmp_path)))
     trace = run(scenario, RunSettings(map_path=(tmp_path,)))
     states = [(line["t"], line["state"]) for line in trace.of_kind("signal")]
     changes = [(0.0, "stop"), (0.5, "go"), (2.5, "stop_attention"), (3.5, "stop")]
@@ -333,7 +333,7 @@ def test_files_that_hold_no_cycles(
 ) -> None:
     if text is not None:
         (tmp_path / "lights.json").write_text(text, encoding="utf-8")
-    scenario = load(draft(asam(FROM_FILE, tmp_path)))
+    scenario = load(emit(asam(FROM_FILE, tmp_path)))
     with pytest.raises(ScenarioError, match=reason) as caught:
         run(scenario, RunSettings(map_path=(tmp_path,)))
     assert caught.value.source == "case.osc:9" and caught.value.exit_code == 4

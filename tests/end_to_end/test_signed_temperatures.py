@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from tests.capabilities.conftest import Load
@@ -32,7 +32,7 @@ scenario cold:
     ],
 )
 def test_what_the_world_gets(text: str, kelvin: float, load: Load, tmp_path: Path) -> None:
-    scenario = load(draft(asam(f"{HEAD}    do env.air(temperature: {text})\n", tmp_path)))
+    scenario = load(emit(asam(f"{HEAD}    do env.air(temperature: {text})\n", tmp_path)))
     (line,) = [each for each in run(scenario).lines if each["kind"] == "environment"]
     assert line["temperature"] == pytest.approx(kelvin)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import Scenario
@@ -68,7 +68,7 @@ def speeds(trace: Trace) -> set[float]:
 def test_they_hold_for_every_action(
     load: Load, tmp_path: Path, types: str, actor: str, rest: str
 ) -> None:
-    trace = run(load(draft(asam(case(types, actor, rest), tmp_path))))
+    trace = run(load(emit(asam(case(types, actor, rest), tmp_path))))
     assert trace.status == "success"
     assert speeds(trace) == {10.0}
 
@@ -81,7 +81,7 @@ def test_those_of_a_composition_end_with_it(load: Load, tmp_path: Path) -> None:
             v.speed(10mps)
         v.change_speed(target: 15mps, duration: 2s)
 """
-    trace = run(load(draft(asam(case("", "vehicle", rest), tmp_path))))
+    trace = run(load(emit(asam(case("", "vehicle", rest), tmp_path))))
     assert trace.status == "success"
     assert speeds(trace) == {10.0, 15.0}
 
@@ -89,7 +89,7 @@ def test_those_of_a_composition_end_with_it(load: Load, tmp_path: Path) -> None:
 def test_a_range_is_one_value_for_all(load: Load, tmp_path: Path) -> None:
     rest = f"    v.speed([5mps..15mps])\n{TREE}"
     module = asam(case("", "vehicle", rest), tmp_path)
-    trace = run(load(draft(module)))
+    trace = run(load(emit(module)))
     assert trace.status == "success"
     (speed,) = speeds(trace)
     assert speed == pytest.approx(trace.lines[0]["parameters"]["v.speed"], abs=2e-6)

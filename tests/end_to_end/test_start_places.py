@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import PlacementError
 from tests.end_to_end.harness import Trace, asam, run
@@ -58,7 +58,7 @@ def play(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     """Run a `do` block in the scenario above."""
 
     def play(body: str, seed: int = 0) -> Trace:
-        return run(load(draft(asam(HEAD + body, tmp_path))), RunSettings(seed=seed))
+        return run(load(emit(asam(HEAD + body, tmp_path))), RunSettings(seed=seed))
 
     return play
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import SCENARIOS, asam, generate, run
 
@@ -39,7 +39,7 @@ scenario drawn:
 
 def parameters(load: Load, folder: Path, more: str, seed: int) -> dict[str, object]:
     folder.mkdir()
-    scenario = load(draft(asam(TEXT.format(more=more), folder)))
+    scenario = load(emit(asam(TEXT.format(more=more), folder)))
     found: dict[str, object] = run(scenario, RunSettings(seed=seed)).lines[0]["parameters"]
     return found
 
@@ -66,7 +66,7 @@ def test_parameters_do_not_share_their_first_number(load: Load, tmp_path: Path) 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_the_values_of_a_header_give_the_same_trace(load: Load, tmp_path: Path, seed: int) -> None:
-    for module in (draft(asam(TEXT.format(more=""), tmp_path)), generate(SCENARIOS / "cut_in.osc")):
+    for module in (emit(asam(TEXT.format(more=""), tmp_path)), generate(SCENARIOS / "cut_in.osc")):
         scenario = load(module)
         drawn = run(scenario, RunSettings(seed=seed)).text
         header = json.loads(drawn.partition("\n")[0])

@@ -18,7 +18,7 @@ from traceback import extract_tb, format_exception
 from types import FrameType
 from typing import Literal
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
@@ -156,7 +156,7 @@ def _compile_quickly(path: Path, options: CompileOptions) -> GeneratedModule | N
     if not compilation.has_module or compilation.ir is None:
         render_all(compilation.diagnostics, color=False, folder=path.parent)
         return None
-    module = draft(compilation.ir, compilation.sharing)
+    module = emit(compilation.ir, compilation.sharing)
     compile(module.python, "fuzzed.py", "exec")
     return module
 

@@ -3,7 +3,6 @@
 Each case is a folder with `input.osc` and `expected/`, found by walking.
 """
 
-import ast
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -11,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.emitter import draft
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 
@@ -56,16 +54,6 @@ def test_py_trees(case: Path, golden: Golden) -> None:
     compilation = compile_case(case / "input.osc", options_for(case))
     assert compilation.module is not None
     golden(compilation.module.python, case / "expected" / f"{compilation.module.stem}.py")
-
-
-@pytest.mark.parametrize("case", cases("py_trees"), ids=case_id)
-def test_a_draft_does_the_same(case: Path) -> None:
-    """Tests that only run a module leave black out."""
-    compilation = compile_case(case / "input.osc", options_for(case))
-    assert compilation.ir is not None and compilation.module is not None
-    texts = (draft(compilation.ir).python, compilation.module.python)
-    first, second = (ast.dump(ast.parse(text)) for text in texts)
-    assert first == second
 
 
 @pytest.mark.parametrize("stage", ["ir", "py_trees"])

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from tests.xosc.case_texts import EGO, Case, indented, point, source
 from tests.xosc.cut_short import composed, cut
 from tests.xosc.modified import lines, relative, timed
+from tests.xosc.oncoming import oncoming
 from tests.xosc.starts import OPEN, starts, turned
 
 # --- conditions on another actor ------------------------------------------------------------------
@@ -249,6 +250,7 @@ FAMILIES: Mapping[str, Family] = {
     "cut": _family(cut()),
     "composed": _family(composed()),
     "timed": _family(timed()),
+    "oncoming": _family(oncoming()),
     "relative": _family(relative()),
     "lines": _family(lines()),
     "placed": _family(_placed()),

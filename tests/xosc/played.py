@@ -17,7 +17,7 @@ from types import MappingProxyType
 import pytest
 from lxml import etree
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, draft
+from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
@@ -67,8 +67,8 @@ class Difference:
 
 @cache
 def module(path: Path, options: CompileOptions) -> GeneratedModule:
-    """Return the module of a file as a draft: black takes its time."""
-    return draft(module_of(compiled(path, options)))
+    """Return the module of a file."""
+    return emit(module_of(compiled(path, options)))
 
 
 def world(

@@ -5,8 +5,8 @@
 others. `scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of
 `view`, with names from `naming` and fragments from `code` that scenario text cannot break out of;
 `uses` collects imports, `runtime_api` is what is known of the runtime. The templates
-(`environment`) only place view models; `formatting` lets black have the last word. `source_map`
-holds the lines that the module does not cite itself.
+(`environment`) only place view models, in black's `layout`; where that may differ, `formatting`
+asks black. `source_map` holds the lines that the module does not cite itself.
 """
 
 from __future__ import annotations

@@ -73,11 +73,19 @@ class Level:
 
 
 def literal(value: bool | int | float | str) -> PyExpr:
-    """Return a literal; strings are quoted by `repr`, infinities and NaN spelled out."""
+    """Return a literal; strings are quoted as black does it, infinities and NaN spelled out."""
     if isinstance(value, float) and not math.isfinite(value):
         return PyExpr(f'float("{value!r}")', Level.ATOM)
+    if isinstance(value, str):
+        return PyExpr(_string(value), Level.ATOM)
     text = _float(value) if isinstance(value, float) else repr(value)
     return PyExpr(text, Level.UNARY if text.startswith("-") else Level.ATOM)
+
+
+def _string(value: str) -> str:
+    """Quote a string; with `'` only where it has quotes itself."""
+    quoted = repr(value)
+    return quoted if '"' in value or quoted.startswith('"') else f'"{quoted[1:-1]}"'
 
 
 def _float(value: float) -> str:

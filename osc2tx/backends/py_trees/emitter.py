@@ -78,12 +78,6 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         module: Its IR.
         sharing: Where it has the classes of imported files from; all are copies if left out.
     """
-    written = draft(module, sharing)
-    return replace(written, python=format_module(written.python))
-
-
-def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
-    """Write a module in the layout of the templates: it does the same, but is not for readers."""
     sharing = sharing or Sharing()
     names = _all_names(module, sharing)
     uses = Uses(names)
@@ -142,7 +136,8 @@ def draft(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
     stem = module_name(module.source)
     model = render_coverage_model(module.source, scenarios)
-    return GeneratedModule(module.source, stem, text, render_source_map(maps), model)
+    python = format_module(text)
+    return GeneratedModule(module.source, stem, python, render_source_map(maps), model)
 
 
 def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from osc2tx.backends.py_trees import layout
 from osc2tx.resources import resource_dir
 
 if TYPE_CHECKING:
@@ -19,10 +20,10 @@ def template_folder() -> Path:
 
 @cache
 def environment() -> Environment:
-    """Return the environment: strict about undefined names, no filters of our own."""
+    """Return the environment: strict about undefined names, with filters that lay code out."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    return Environment(
+    made = Environment(
         loader=FileSystemLoader(template_folder()),
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -30,3 +31,5 @@ def environment() -> Environment:
         autoescape=False,
         keep_trailing_newline=True,
     )
+    made.filters |= {"statement": layout.statement, "returned": layout.returned}
+    return made

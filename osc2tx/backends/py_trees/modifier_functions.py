@@ -19,7 +19,7 @@ from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
-from osc2tx.backends.py_trees.view import CallView, UserModifierView
+from osc2tx.backends.py_trees.view import ArgumentView, CallView, UserModifierView
 
 
 def write_modifiers(
@@ -54,12 +54,13 @@ def write_modifiers(
         calls = CallWriter(expressions, uses.name, uses.modifier, functions)
         parameters = [_parameter(p, expressions, types) for p in modifier.parameters]
         about = ("", *modifier.comments) if modifier.comments else ()
+        written = tuple(calls.modifiers(modifier.calls))
         listed = ", ".join(("*", *parameters)) if parameters else ""
         signature = f"{names[modifier.key]}({listed}) -> list[{uses.name('Modifier')}]"
         return UserModifierView(
             signature=PyExpr(signature, Level.ATOM),
             docstring=tuple(map(PyDocLine.of, (f"Modifier `{modifier.name}`.", *about))),
-            value=CallView(None, tuple(calls.modifiers(modifier.calls)), exploded=True),
+            value=ArgumentView(call=CallView(None, written, exploded=True)),
         )
 
     return tuple(map(write, modifiers))

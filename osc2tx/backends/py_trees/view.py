@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName
+from osc2tx.backends.py_trees.formatting import LINE_LENGTH
 from osc2tx_classes import dataclass
 
 
@@ -17,15 +18,6 @@ class ArgumentView:
     keyword: PyName | None = None
     comments: tuple[PyComment, ...] = ()
 
-    def room(self) -> float:
-        """How many columns it takes on one line, at least; none that black may write otherwise."""
-        length = len(f"{self.keyword}=") if self.keyword else 0
-        if self.call is not None:
-            callee = str(self.call.callee or "")
-            return length + len(callee) + 2 + self.call.room()
-        text = str(self.code)
-        return length + len(text) if text.isascii() and "**" not in text else 0
-
 
 @dataclass(frozen=True, slots=True)
 class CallView:
@@ -35,22 +27,6 @@ class CallView:
     arguments: tuple[ArgumentView, ...] = ()
     exploded: bool = False
     end_comments: tuple[PyComment, ...] = ()
-
-    @property
-    def has_lines(self) -> bool:
-        """Whether each argument has a line: black is told so where it would do that by itself.
-
-        What it need not find out costs no second pass, see `formatting`.
-        """
-        return self.exploded or (len(self.arguments) > 1 and self.room() > LEAST_ROOM)
-
-    def room(self) -> float:
-        """How many columns the arguments take on one line, at least."""
-        return sum(argument.room() for argument in self.arguments) + 2 * len(self.arguments) - 2
-
-
-LEAST_ROOM = 100 - 8
-"""Columns that no argument list has, of lines with the least indentation."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +77,12 @@ class ImportView:
     module: str
     names: tuple[PyName | PyExpr, ...]
     is_long: bool = False
+
+    @property
+    def has_lines(self) -> bool:
+        """Whether each name has a line, as one has where there are too many."""
+        line = f"from {self.module} import {', '.join(map(str, self.names))}"
+        return self.is_long or len(line) > LINE_LENGTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +174,7 @@ class UserModifierView:
 
     signature: PyExpr
     docstring: tuple[PyDocLine, ...]
-    value: CallView
+    value: ArgumentView
     copied: PyComment | None = None
 
 

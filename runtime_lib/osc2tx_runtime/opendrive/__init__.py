@@ -24,7 +24,7 @@ from __future__ import annotations
 from .crosswalks import Crosswalk
 from .errors import MapError
 from .geodesy import GeoReference, GeoReferenceError, TransverseMercator
-from .lane_cursor import LaneCursor
+from .lane_cursor import LaneCursor, Stretch
 from .lane_distances import Route
 from .model import (
     DRIVING,
@@ -69,6 +69,7 @@ __all__ = [
     "Signal",
     "SignalPlace",
     "SignalReference",
+    "Stretch",
     "TransverseMercator",
     "read_map",
     "read_map_text",

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable
+from typing import NamedTuple
 
 from .arc_length import SLOWEST_RATE, LaneLine
 from .geometry import Segment
@@ -18,7 +19,37 @@ from .lane_line import lane_line
 from .model import Lane, LanePosition, Pose, new_tuple
 from .poses import lane_pose
 
-__all__ = ["LaneCursor"]
+__all__ = ["LaneCursor", "Stretch"]
+
+_SHORT = 1e-3  # m before the joints at which a stretch ends; seams are a little beside them
+
+
+class Stretch(NamedTuple):
+    """A piece of a lane along which it is straight or an arc, level, and as wide everywhere.
+
+    Attributes:
+        begin: First s (m).
+        end: Behind the last s (m).
+        node: An s from which arc length grows evenly.
+        length: The arc length there (m).
+        rate: Lane metres per metre of s.
+        t: Of its centre (m).
+        direction: Of travel: 1 along s, -1 against it.
+        segment: The piece of the reference line.
+        start: The s at which that starts.
+        curvature: Of the reference line (1/m).
+    """
+
+    begin: float
+    end: float
+    node: float
+    length: float
+    rate: float
+    t: float
+    direction: int
+    segment: Segment
+    start: float
+    curvature: float
 
 
 class LaneCursor:
@@ -153,6 +184,39 @@ class LaneCursor:
             heading = h + math.atan2(slope, 1.0 - k * t)
             heading = wrap(heading if lane.direction > 0 else heading + math.pi)
         return new_tuple(Pose, (x - t * self._sin, y + t * self._cos, 0.0, heading, 0.0, 0.0))
+
+    def stretch(self, p: LanePosition) -> Stretch | None:
+        """The even piece of the lane around a place in its middle; None where it is not even."""
+        s = p.s
+        if (p is not self._place or not self._begin <= s < self._end) and not self._go_to(p):
+            return None
+        lane, line = self._lane, self._line
+        if not self._is_flat or p.offset != 0.0:
+            return None
+        self._find_centre(lane, s)
+        self._find_segment(lane, s)
+        curvature = self._segment.constant_curvature()
+        row = max(bisect_right(line.nodes, s) - 1, 0)
+        node, (length, rate, c, d) = line.nodes[row], line.rows[row]
+        begin = max(self._begin, self._centre_start, self._segment_start, node) + _SHORT
+        end = min(self._end, self._centre_end, self._segment_end)
+        end = min([end, *line.nodes[row + 1 : row + 2]]) - _SHORT
+        t, *changes = self._centre
+        even = rate > SLOWEST_RATE and not (c or d or any(changes))
+        if curvature is None or not even or not begin <= s < end:
+            return None
+        return Stretch(
+            begin,
+            end,
+            node,
+            length,
+            rate,
+            t + p.offset * lane.direction,
+            lane.direction,
+            self._segment,
+            self._segment_start,
+            curvature,
+        )
 
     def _find_centre(self, lane: Lane, s: float) -> None:
         starts = lane.centre.starts

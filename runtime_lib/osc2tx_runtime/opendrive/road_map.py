@@ -173,11 +173,22 @@ class RoadMap:
         return tuple(ids if direction > 0 else reversed(ids))
 
     def neighbour(
-        self, p: LanePosition, side: SideLeftRight, count: int = 1
+        self,
+        p: LanePosition,
+        side: SideLeftRight,
+        count: int = 1,
+        *,
+        either_way: bool = False,
     ) -> LanePosition | None:
-        """Place beside `p`, `count` drivable lanes of the same direction away; None if absent.
+        """Place beside `p`, `count` drivable lanes away; None if absent.
 
         Shoulders, medians and the like end the search, lanes without width do not.
+
+        Args:
+            p: The place.
+            side: As seen in direction of travel of its lane.
+            count: How many lanes.
+            either_way: Lanes of oncoming traffic count as well.
         """
         lane, s = self._lane(p.road, p.lane, p.s)
         step = lane.direction if side == "left" else -lane.direction
@@ -185,7 +196,7 @@ class RoadMap:
         while left > 0:
             beside += step if beside + step else 2 * step  # lane 0 has no width
             found = lane.section.lanes.get(beside)
-            if found is None or found.direction != lane.direction:
+            if found is None or not (either_way or found.direction == lane.direction):
                 return None
             if found.type in DRIVING and found.width_at(s) >= _THIN:
                 left -= 1

@@ -4,9 +4,10 @@ Input: placed actors and one command per actor and slot. Output: states, collisi
 `protocol` (what every world offers); `embedded` is the one there is, and `plant` what moves its
 actors: a simulator, or nothing. In order of control flow: `commands`, `actor_motion` (the commands
 of one actor) and `actor_step` (one actor over one step) with `longitudinal` and `lateral` (commands
-at work) on the closed forms of `profiles` and `function_profiles` give the wished states; `scene`
-hands them to the plant with `reference_path` beyond them, `measurement` is what comes back,
-`anchoring` puts the actors there, `tracking` says whether they have done what they were to do.
+at work) on the closed forms of `profiles` and `function_profiles` give the wished states; `cruise`
+gives those of who just goes on; `scene` hands them to the plant with `reference_path` beyond them,
+`measurement` is what comes back, `anchoring` puts the actors there, `tracking` says whether they
+have done what they were to do.
 `driving`, `drivers` and `single_track` let somebody else drive, `expectations` measure that.
 `attitude`, `collision`, `distances`, `feasibility` serve all; `state` and `actor_dimensions` are
 plain values.

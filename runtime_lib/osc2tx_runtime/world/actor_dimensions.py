@@ -76,6 +76,11 @@ class Shape:
         """Metres from the reference point forward to the box centre."""
         return 0.5 * self.length - self.rear
 
+    @property
+    def reach(self) -> float:
+        """Metres from the reference point to the farthest corner."""
+        return math.hypot(max(self.rear, self.front), 0.5 * self.width)
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:

@@ -57,6 +57,7 @@ class CommandedActor(MovingActor):
     motion: MeasuredMotion | None = None
     heading: float | None = None
     aside: float | None = None
+    _last: tuple[Progress, Progress] | None = None  # progress when it was asked for news
 
     def progress(self, slot: str) -> Progress:
         """Progress of the command in a slot, by reference and measurement."""
@@ -92,7 +93,7 @@ class CommandedActor(MovingActor):
 
     def pursue_speed(self, command: Command | None) -> None:
         """Puts a longitudinal command to work; None holds the speed."""
-        self.steady = False
+        self.upset()
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
@@ -110,7 +111,7 @@ class CommandedActor(MovingActor):
 
         A speed alone is what it has at this instant; nothing is said of what follows.
         """
-        self.steady = False
+        self.upset()
         self._open.forget()
         self._speed = (
             ConstantAcceleration(acceleration, speed) if acceleration else AssignedSpeed(speed)
@@ -118,7 +119,7 @@ class CommandedActor(MovingActor):
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Puts a lateral command to work; None keeps the lane, or returns to one."""
-        self.steady = False
+        self.upset()
         if self.tracking is not None:
             self.tracking.forget(LATERAL)
         if self._way is not None:
@@ -182,6 +183,19 @@ class CommandedActor(MovingActor):
             and not (self.wheels is not None and self.wheels.limited)
         )
         return self.steady
+
+    def has_news(self) -> bool:
+        """Whether progress may be another than when this was asked before."""
+        if not (self.steady or self.is_steady()):
+            self._last = None
+            return True
+        before, self._last = self._last, (self.speed_progress(), self.side_progress())
+        return self._last != before
+
+    def upset(self) -> None:
+        """As of all who move; its progress is to be looked at."""
+        super().upset()
+        self._last = None
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command, by the reference."""

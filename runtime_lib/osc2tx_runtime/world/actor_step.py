@@ -14,6 +14,7 @@ from .actor_dimensions import TYRES, Limits
 from .attitude import LEVEL, Tilt, tilt_on
 from .attitude_control import Turning
 from .commands import SpeedChange, Standstill
+from .cruise import Cruise
 from .curve_following import Course, Steering
 from .friction import held_by
 from .friction_circle import Wheels, curvature_ahead
@@ -73,13 +74,15 @@ class MovingActor:
         route: Decides at forks; None: the smallest change of heading.
         blocked: Why it cannot go on; None while it can.
         jumped: In the last step it was put somewhere instead of moving there.
+        way: Metres that no corner of it moved more than in the last step; negative: nobody knows.
         wheels: Its grip on the road; None for those without wheels.
         tilt: Pitch and roll that it was told; wheels that roll forget them.
         left: Where it was in its lane before the last step.
         home: Lane that it returns to; None: it is in one, or goes to none.
         residual: What seams of the map have left it beside its lane; None: nothing.
         steady: What it is told cannot fail, and nothing was told since that was found.
-        still: It stood in the last step, and stands on for as long as it is steady.
+        still: It stood in the last step, and stands on until it is upset.
+        cruise: How it went in the last step, and goes on until it is upset; None: otherwise.
     """
 
     spec: ActorSpec
@@ -90,6 +93,7 @@ class MovingActor:
     route: Route | None = None
     blocked: str | None = None
     jumped: bool = False
+    way: float = -1.0
     wheels: Wheels | None = None
     tilt: Tilt = LEVEL
     left: LanePosition | None = None
@@ -97,6 +101,7 @@ class MovingActor:
     residual: Residual | None = None
     steady: bool = False
     still: bool = False
+    cruise: Cruise | None = None
     _stopping: Longitudinal | None = None  # behind the end of its lane
     _course: Course | None = None
     _way: Way | None = None
@@ -123,9 +128,7 @@ class MovingActor:
     def moved(self, inputs: StepInputs, road_map: RoadMap) -> ActorState:
         """State at the next step; the snapshot itself stays as it is."""
         state, dt = self.reference, inputs.dt
-        if self.still and self.steady:
-            return state
-        self.still = False
+        self.still, self.cruise, self.way = False, None, -1.0
         if self._course is not None and self._speed is None and state.v == 0.0:
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
@@ -193,13 +196,28 @@ class MovingActor:
         if offset != place.offset:
             place = LanePosition(place.road, place.lane, place.s, offset)
         self.bound = place
-        return self.on_lane(place, speed, rate, (speed - self.reference.v) / dt, road_map)
+        state = self.on_lane(place, speed, rate, (speed - self.reference.v) / dt, road_map)
+        if rate == 0.0 and self._goes_on(state):
+            stretch = self.cursor.stretch(place)
+            self.cruise = None if stretch is None else Cruise(place, stretch, path, state)
+        return state
+
+    def cruised(self) -> ActorState | None:
+        """State at the next step of one who goes on as before; None if it may not."""
+        cruise = self.cruise
+        if cruise is None:
+            return None
+        state = cruise.after()
+        if state is not None:
+            self.left, self.bound, self.way = self.bound, state.lane_position, cruise.way
+        return state
 
     def _standing(self, speed: float, dt: float) -> ActorState:
         """The same place; the same state if nothing else changes."""
         state, a = self.reference, (speed - self.reference.v) / dt
         if speed == state.v and a == state.a and state.lateral_speed == 0.0:
             self.still = self.home is None and self.residual is None and self._stays()
+            self.way = 0.0
             return state
         return state._replace(v=speed, a=a, lateral_speed=0.0)
 
@@ -212,6 +230,20 @@ class MovingActor:
             or (isinstance(run, ProfileRun) and run.progress().done)
         )
         return held and self.is_steady() and isinstance(self._side, HoldOffset)
+
+    def _goes_on(self, state: ActorState) -> bool:
+        """Whether one who drives goes on as it has come to a state, until it is told something."""
+        run, before = self._speed, self.reference
+        return (
+            type(run) is ProfileRun
+            and state.v == before.v
+            and state.lateral_speed == 0.0
+            and abs(state.v) > _STILL
+            and run.progress().done
+            and self._side.progress().done
+            and self.residual is None
+            and self.is_steady()
+        )
 
     def is_steady(self) -> bool:
         """Sees whether what it is told cannot fail."""
@@ -361,7 +393,12 @@ class MovingActor:
     def unbind(self) -> None:
         """Is on no lane any more, and goes straight on."""
         self.bound, self._course, self.home = None, None, None
-        self.residual, self._stopping, self.steady = None, None, False
+        self.residual, self._stopping = None, None
+        self.upset()
+
+    def upset(self) -> None:
+        """Is told or befallen by something: how it goes on is to be found anew."""
+        self.steady, self.still, self.cruise, self.way = False, False, None, -1.0
 
     def turn_away(self) -> None:
         """Is turned by force: a vehicle goes back to its lane from there."""
@@ -372,6 +409,7 @@ class MovingActor:
         """State after a jump to a place on a lane."""
         self.bound, self.left, self.blocked, self.tilt = bound, None, None, LEVEL
         self._course, self.home, self._astray = None, None, False
-        self.residual, self._stopping, self.steady = None, None, False
+        self.residual, self._stopping = None, None
+        self.upset()
         self._side = HoldOffset()
         return self.on_lane(bound, speed, 0.0, 0.0, road_map)

@@ -14,6 +14,7 @@ from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 
 from .actor_motion import CommandedActor
 from .couplings import Couplings
+from .lane_neighbours import seen_along
 from .lane_return import abreast
 from .measurement import MeasuredMotion, Measurement
 from .protocol import LATERAL, LONGITUDINAL
@@ -48,10 +49,6 @@ def arrive(
         Their states, in the same order.
     """
     members = tuple(cast.values())
-    if not found:
-        for member, state in zip(members, wished, strict=True):
-            member.state = member.reference = state
-        return wished
     for actor in jumped:
         cast[actor].motion = None
     measured = {actor for actor in found if not couplings.is_towed(actor)}
@@ -80,7 +77,8 @@ def track(
     member: CommandedActor, state: ActorState, wished: ActorState, road_map: RoadMap, dt: float
 ) -> None:
     """Put a driven actor where it was measured, and its reference beside it."""
-    member.state, member.steady = state, False
+    member.state = state
+    member.upset()
     member.reference = anchored(member, wished, road_map)
     if member.tracking is None:
         member.tracking = Tracking()
@@ -107,6 +105,8 @@ def measured_state(
     on = member.lane_at(pose, before.lane_position, road_map)
     rate = 0.0
     if on is not None:
+        if member.spec.lane_bound:
+            on = seen_along(road_map, on, pose.h)
         turn = pose.h - road_map.pose(on).h
         rate = forwards * math.sin(turn) + left * math.cos(turn)
     if member.motion is None or not dt:

@@ -73,7 +73,10 @@ class EmbeddedWorld:
         self._bends = BendsAhead(road_map)
         self._specs: dict[str, ActorSpec] = {}
         self._cast: dict[str, CommandedActor] = {}
+        self._ids: tuple[str, ...] = ()
+        self._members: tuple[CommandedActor, ...] = ()
         self._changes: dict[str, StateChange] = {}
+        self._changed: Sequence[str] = ()
         self._outside: tuple[CommandedActor, ...] = ()  # driven by somebody else
         self._couplings = Couplings()
         self._lights = Lights()
@@ -99,7 +102,7 @@ class EmbeddedWorld:
 
     def begin(self) -> None:
         """Puts the actors where they were placed, before step 0."""
-        members = tuple(self._cast.values())
+        members = self._members
         for member in members:
             member.follows = self._plant.control(member.spec.id) not in EXTERNAL
         self._outside = tuple(member for member in members if not member.follows)
@@ -134,12 +137,13 @@ class EmbeddedWorld:
         start = Start(at, speed or 0.0, heading, tilt, aside)
         self._cast[actor] = placed(self._specs[actor], start, self.map, self._surroundings.road)
         self._cast = {each: self._cast[each] for each in self._specs if each in self._cast}
+        self._ids, self._members = tuple(self._cast), tuple(self._cast.values())
         self._lights.add(actor)
         self._contacts.begin()
 
     def actors(self) -> tuple[str, ...]:
         """Ids of the placed actors in the order of the cast."""
-        return tuple(self._cast)
+        return self._ids
 
     def set_route(self, actor: str, route: Route | None) -> None:
         """Decides which branch the actor takes at forks."""
@@ -202,10 +206,9 @@ class EmbeddedWorld:
         """Progress of the command in a slot."""
         return self._member(actor).progress(slot)
 
-    def unsteady(self) -> Sequence[str]:
-        """Actors of which a command may have failed in the last step; the others just go on."""
-        cast = self._cast.items()
-        return [each for each, member in cast if not (member.steady or member.is_steady())]
+    def changed(self) -> Sequence[str]:
+        """Actors of which the progress of a command may have changed in the last step."""
+        return self._changed
 
     def reference(self, actor: str) -> ActorState:
         """State that commands start from: as it was wished, abreast of where the actor is."""
@@ -287,8 +290,9 @@ class EmbeddedWorld:
         if change.jumps or change.turns:
             member.motion = None
             self._track.interrupt(actor)
+            self._contacts.turn()
         if change.jumps:
-            self._contacts.put(tuple(self._cast).index(actor), member.state)
+            self._contacts.put(self._ids.index(actor), member.state)
 
     def attach(self, tow: str, trailer: str | None) -> None:
         """Couples a trailer to a vehicle; None uncouples what it tows."""
@@ -316,36 +320,49 @@ class EmbeddedWorld:
         self._surroundings.set(values)
         for member in self._cast.values():
             if member.wheels is not None:
-                member.wheels.road, member.steady = self._surroundings.road, False
+                member.wheels.road = self._surroundings.road
+                member.upset()
         return self._lights.follow(self._surroundings.automatic_light)
 
     # --- time ---------------------------------------------------------------------------------
 
     def step(self) -> None:
         """Goes from step k to k+1."""
-        members = tuple(self._cast.values())
+        members, ids = self._members, self._ids
         # All read the snapshot; none is replaced before every actor has moved.
-        before = {actor: member.state for actor, member in self._cast.items()}
+        before = [member.state for member in members]
         towed = self._couplings.towed()
-        wished = [
-            member.reference if member.still and member.steady else self._wish(member, towed)
-            for member in members
-        ]
+        wished, others = [], []
+        for member in members:
+            state = member.reference if member.still else member.cruised()
+            if state is None:
+                others.append(member)
+                state = self._wish(member, towed)
+            wished.append(state)
         self._couplings.draw(self._cast, wished, self.dt, self.map)
-        jumped = frozenset([member.spec.id for member in members if member.jumped])
+        jumped = frozenset([m.spec.id for m in others if m.jumped]) if others else NOBODY
         put, kicked = self._take_changes() if self._changes else (NOBODY, NOBODY)
         elsewhere = put | jumped
         self._scene.wish(members, wished, elsewhere, kicked)
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = arrive(self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt)
+        states = wished
+        if found:
+            states = arrive(
+                self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt
+            )
+        else:
+            for member, state in zip(members, wished, strict=True):
+                member.state = member.reference = state
         for tow, trailer, angle in self._couplings.take_folded():
             self._scene.note_jack_knife(tow, trailer, angle)
-        self._track.add(before, jumped)
-        self._contacts.step(before, states, jumped, self._couplings.pairs())
+        self._track.add(ids, before, jumped)
+        ways = [member.way for member in members]
+        self._contacts.step(ids, before, states, ways, jumped, self._couplings.pairs())
         self._friction.step(members, elsewhere, self._surroundings.road)
         for member in self._outside:
             member.observe(self)
+        self._changed = [member.spec.id for member in others if member.has_news()]
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)

@@ -36,7 +36,7 @@ from .commands import (
 )
 from .curve import turn_between
 from .distances import side_gap
-from .lane_neighbours import neighbouring
+from .lane_neighbours import lane_beside
 from .profiles import Profile
 from .protocol import PENDING, REACHED, Progress
 from .route_following import Way
@@ -214,7 +214,7 @@ def _beside(command: Beside) -> Judge:
 def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap) -> Judge:
     here = state.lane_position
     lanes = command.lanes if isinstance(command, LaneChange) else 0
-    target = None if here is None else neighbouring(road_map, here, lanes)
+    target = None if here is None else lane_beside(road_map, here, lanes)
     offset = _last(command.course, command.offset)
     if target is None:
         failed = Progress(False, "there is no such lane where it is")
@@ -228,9 +228,10 @@ def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap
             return PENDING
         ahead = road_map.route_distance(goal, place)
         if ahead is not None:  # the lane goes on, under whatever number
-            goal = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
+            lane = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
+            goal = lane._replace(offset=goal.offset)
         there = (place.road, place.lane) == (goal.road, goal.lane)
-        return _near(place.offset - offset, PLACE_TOLERANCE) if there else PENDING
+        return _near(place.offset - goal.offset - offset, PLACE_TOLERANCE) if there else PENDING
 
     return judge
 

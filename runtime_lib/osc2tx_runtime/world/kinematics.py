@@ -14,10 +14,11 @@ A jump is no motion: nothing is taken from a step in which an actor was put some
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple, Protocol
 
+from osc2tx_runtime.opendrive.model import new_tuple
 from osc2tx_runtime.world.measured import Measured
 from osc2tx_runtime.world.velocities import (
     Acceleration,
@@ -52,9 +53,10 @@ class Motion(Protocol):
 
 
 class _Step(NamedTuple):
-    """The states before a step, and who jumped in it."""
+    """The states before a step, by the ids of the actors, and who jumped in it."""
 
-    states: Mapping[str, ActorState]
+    ids: Sequence[str]
+    states: Sequence[ActorState]
     jumped: frozenset[str]
 
 
@@ -62,22 +64,23 @@ class Track:
     """The last two steps of all actors."""
 
     def __init__(self) -> None:
-        self._steps: tuple[_Step, ...] = ()
+        self._last: _Step | None = None
+        self._before: _Step | None = None  # the one before that
 
-    def add(self, before: Mapping[str, ActorState], jumped: frozenset[str]) -> None:
+    def add(self, ids: Sequence[str], before: Sequence[ActorState], jumped: frozenset[str]) -> None:
         """Note a step that was made.
 
         Args:
-            before: The states before it.
+            ids: The actors.
+            before: Their states before it.
             jumped: Who was put somewhere in it.
         """
-        self._steps = (*self._steps[-1:], _Step(before, jumped))
+        self._before, self._last = self._last, new_tuple(_Step, (ids, before, jumped))
 
     def interrupt(self, actor: str) -> None:
         """Note that an actor was put somewhere, or turned, at the present step."""
-        if self._steps:
-            last = self._steps[-1]
-            self._steps = (*self._steps[:-1], last._replace(jumped=last.jumped | {actor}))
+        if self._last is not None:
+            self._last = self._last._replace(jumped=self._last.jumped | {actor})
 
     def of(self, actor: str, now: ActorState, dt: float, *, lies: bool = False) -> Kinematics:
         """Return the motion of an actor.
@@ -89,10 +92,10 @@ class Track:
             lies: Its pitch and roll are those of the surface below it.
         """
         states = [now]
-        for step in reversed(self._steps):
-            if actor in step.jumped or actor not in step.states:
+        for step in (self._last, self._before):
+            if step is None or actor in step.jumped or actor not in step.ids:
                 break
-            states.append(step.states[actor])
+            states.append(step.states[step.ids.index(actor)])
         return Kinematics(states, dt, lies=lies)
 
 

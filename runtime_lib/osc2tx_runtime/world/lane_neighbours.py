@@ -9,12 +9,16 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 
 __all__ = [
+    "actual_lane",
+    "are_opposed",
+    "lane_beside",
     "lane_under",
     "lane_with_number",
     "lanes_to_left",
-    "neighbouring",
     "number_of_lane",
     "offset_from",
+    "seen_along",
+    "width_at",
 ]
 
 
@@ -44,20 +48,84 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
     On different roads both are counted from the right edge.
 
     Raises:
-        ScenarioError: One of them is no driving lane.
+        ScenarioError: One of them is no driving lane, or they are oncoming lanes of one road with
+            something else between them.
     """
     numbers = [number_of_lane(road_map, each, "right") for each in (lane, place)]
     for each, number in zip((lane, place), numbers, strict=True):
         if number == 0:
             raise ScenarioError(f"lane {each.lane} of road {each.road} is no driving lane")
-    return numbers[0] - numbers[1]
+    over, beyond = _lanes_beyond(road_map, lane), _lanes_beyond(road_map, place)
+    if not are_opposed(road_map, place, lane):
+        return numbers[0] + over - numbers[1] - beyond
+    for lanes in range(1, len(road_map.roads[place.road].section_at(place.s).lanes)):
+        for signed in (lanes, -lanes):
+            found = _beside(road_map, place, signed)
+            if found is not None and found.lane == lane.lane:
+                return signed - over - beyond
+    raise ScenarioError(
+        f"lane {lane.lane} of road {lane.road} is no driving lane beside lane {place.lane}"
+    )
 
 
-def neighbouring(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
-    """The drivable lane so many to the left (negative: right) of a place; None without one."""
-    if lanes == 0:
+def are_opposed(road_map: RoadMap, place: LanePosition, other: LanePosition) -> bool:
+    """Whether two places of one road are on lanes that lead opposite ways."""
+    ways = [road_map.travel_direction(each.road, each.lane) for each in (place, other)]
+    return place.road == other.road and ways[0] != ways[1]
+
+
+def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
+    """Centre of the driving lane so many to the left of that of a place; None without one.
+
+    An actor in a lane of oncoming traffic goes on in its own direction: that lane is given as an
+    offset from the innermost lane of the own direction, in which the actor is then said to be.
+
+    Args:
+        road_map: The map.
+        place: In a driving lane, or beside the innermost one in a lane of oncoming traffic.
+        lanes: How many; negative: to the right.
+    """
+    wanted = _lanes_beyond(road_map, place) + lanes
+    target = _beside(road_map, place, wanted)
+    if target is None or not are_opposed(road_map, place, target):
+        return target
+    step = 1 if wanted > 0 else -1
+    own = LanePosition(place.road, place.lane, place.s)
+    while (further := road_map.neighbour(own, _side(step))) is not None:
+        own = further
+    centre = road_map.pose(target)
+    return own._replace(offset=offset_from(road_map, own, centre.x, centre.y))
+
+
+def actual_lane(road_map: RoadMap, place: LanePosition) -> LanePosition:
+    """Centre of the lane that a place is in, which may be one of oncoming traffic."""
+    lane = _beside(road_map, place, _lanes_beyond(road_map, place))
+    assert lane is not None
+    return lane
+
+
+def seen_along(road_map: RoadMap, place: LanePosition, heading: float) -> LanePosition:
+    """A place on a road as an actor with a heading (rad) sees it.
+
+    In a lane of oncoming traffic that is beside the innermost lane of its own direction (as
+    `lane_beside` has it); without such a lane the place stays as it is.
+    """
+    pose = road_map.pose(place)
+    if math.cos(heading - pose.h) >= 0.0:
         return place
-    return road_map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
+    across = len(road_map.roads[place.road].section_at(place.s).lanes)
+    for lanes in range(1, across):
+        for signed in (lanes, -lanes):
+            own = _beside(road_map, place, signed)
+            if own is not None and are_opposed(road_map, place, own):
+                return own._replace(offset=offset_from(road_map, own, pose.x, pose.y))
+    return place
+
+
+def width_at(road_map: RoadMap, place: LanePosition) -> float:
+    """Width (m) of the lane that a place is in, which may be one of oncoming traffic."""
+    lane = actual_lane(road_map, place)
+    return road_map.lane_width(lane.road, lane.lane, lane.s)
 
 
 def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:
@@ -80,3 +148,30 @@ def lane_under(road_map: RoadMap, bound: LanePosition, pose: Pose) -> LanePositi
         if abs(offset) >= abs(bound.offset):
             return bound
         bound = LanePosition(beside.road, beside.lane, beside.s, offset)
+
+
+def _side(lanes: int) -> SideLeftRight:
+    return "left" if lanes > 0 else "right"
+
+
+def _beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
+    """Centre of the driving lane so many to the left of the lane of a place, of any direction."""
+    if lanes == 0:
+        return LanePosition(place.road, place.lane, place.s)
+    return road_map.neighbour(place, _side(lanes), abs(lanes), either_way=True)
+
+
+def _lanes_beyond(road_map: RoadMap, place: LanePosition) -> int:
+    """How many lanes of oncoming traffic to the left of its lane a place is by its offset."""
+    if abs(place.offset) <= 0.5 * road_map.lane_width(place.road, place.lane, place.s):
+        return 0
+    here, lanes, apart = road_map.pose(place), 0, abs(place.offset)
+    step = 1 if place.offset > 0.0 else -1
+    while True:
+        further = _beside(road_map, place, lanes + step)
+        if further is None or not are_opposed(road_map, place, further):
+            return lanes
+        nearer = abs(offset_from(road_map, further, here.x, here.y))
+        if nearer >= apart:
+            return lanes
+        lanes, apart = lanes + step, nearer

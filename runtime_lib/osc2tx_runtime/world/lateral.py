@@ -26,7 +26,8 @@ from .commands import (
     Sideways,
     Slant,
 )
-from .lane_neighbours import neighbouring, offset_from
+from .function_profiles import Mapped
+from .lane_neighbours import lane_beside, offset_from
 from .lateral_feedback import BesideRun, SidewaysRun
 from .lateral_limits import HEADING_LIMIT, SIDEWAYS
 from .profiles import Cosine, Linear, Profile, Quintic, cosine_duration, fastest_cosine
@@ -56,6 +57,7 @@ LANE_CHANGE_WIDTH = 3.5
 
 _AT_REST = 1e-6  # m/s of lateral speed
 _RUN_OUT = 0.4  # s: how far a lateral speed carries when nothing holds it
+_SAME_LANE = 1.0  # m: as much as the centre of one lane of oncoming traffic wanders on the way
 
 
 class Lateral(Protocol):
@@ -109,10 +111,12 @@ class Impossible(HoldOffset):
 class Shift:
     """A change of the offset in closed form."""
 
-    __slots__ = ("_lag", "_profile", "_steps", "_time", "end")
+    __slots__ = ("_lag", "_profile", "_steps", "_time", "centre", "end")
 
-    def __init__(self, profile: Profile, end: float) -> None:
+    def __init__(self, profile: Profile, end: float, centre: float = 0.0) -> None:
+        """Takes the course and the end of the offset (m), and what it is in the target lane."""
         self._profile = profile
+        self.centre = centre
         self._steps = 0
         self._lag = 0.0
         self._time = 0.0
@@ -217,45 +221,48 @@ def lateral_of(
         at work.
     """
     x, y, rate = motion
+    lane = LanePosition(physical.road, physical.lane, physical.s)
     match command:
-        case LaneChange():
-            target = neighbouring(road_map, physical, command.lanes)
+        case LaneChange() | LaneOffset():
+            lanes = command.lanes if isinstance(command, LaneChange) else 0
+            target = lane_beside(road_map, physical, lanes)
             if target is None:
-                return bound, Impossible(_no_lane(road_map, physical, command.lanes))
-            end = command.offset
-        case LaneOffset():
-            target, end = physical, command.offset
+                return bound, Impossible(_no_lane(road_map, physical, lanes))
+            start, end = offset_from(road_map, target, x, y), command.offset
         case Beside():
             return bound, BesideRun(command, limits, rate)
         case Sideways() | Slant():
             return bound, SidewaysRun(command)
         case RunOut():
-            target, rate = physical, command.speed
-            start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
+            target, rate = lane, command.speed
+            start = offset_from(road_map, target, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane() if isinstance(before, BesideRun | SidewaysRun):
             # It may have come to another lane; what is left of the lateral speed runs out.
-            target = physical
-            start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
+            target, start = lane, offset_from(road_map, lane, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane():
             if not isinstance(before, Shift) or before.progress().done:
                 return bound, HoldOffset()
-            if (bound.road, bound.lane) == (physical.road, physical.lane):
+            target = lane_beside(road_map, physical, 0) or lane
+            is_there = (bound.road, bound.lane) == (target.road, target.lane)
+            if is_there and abs(before.centre - target.offset) < _SAME_LANE:
                 return bound, before  # cut short in the lane it was to end in: let it end
-            target, end = physical, 0.0  # cut short before that: back to where it is now
+            # Cut short before that: back to where it is now.
+            start, end = offset_from(road_map, target, x, y), 0.0
         case _:
             raise UnsupportedError(f"{type(command).__name__} is no command for an actor on a lane")
-    start = offset_from(road_map, LanePosition(target.road, target.lane, target.s), x, y)
-    course: tuple[DynamicProfile, float | None, float | None] = ("none", None, None)
-    if isinstance(command, (LaneChange, LaneOffset)):
-        if command.course is not None:
-            return LanePosition(target.road, target.lane, target.s, start), Shift(
-                command.course, end
-            )
-        course = (command.profile, command.rate_peak, command.duration)
-    profile = shift_profile(start, end, rate, course, limits)
-    return LanePosition(target.road, target.lane, target.s, start), Shift(profile, end)
+    centre = target.offset
+    course: Profile
+    if isinstance(command, (LaneChange, LaneOffset)) and command.course is not None:
+        course = Mapped(command.course, 1.0, centre) if centre else command.course
+    else:
+        said: tuple[DynamicProfile, float | None, float | None] = ("none", None, None)
+        if isinstance(command, (LaneChange, LaneOffset)):
+            said = (command.profile, command.rate_peak, command.duration)
+        course = shift_profile(centre + start, centre + end, rate, said, limits)
+    here = LanePosition(target.road, target.lane, target.s, centre + start)
+    return here, Shift(course, centre + end, centre)
 
 
 def excessive_shift(
@@ -271,12 +278,12 @@ def excessive_shift(
     Args:
         road_map: The map.
         me: The actor.
-        target: Lane in which it ends.
-        offset: Metres left of its centre.
+        target: Centre of the lane in which it ends.
+        offset: Metres left of it.
         duration: Seconds.
         limits: Of the actor.
     """
-    here = offset_from(road_map, LanePosition(target.road, target.lane, target.s), me.x, me.y)
+    here = offset_from(road_map, target, me.x, me.y)
     least = fastest_cosine(offset - here, limits.lateral)
     if duration >= least - 1e-9:
         return None

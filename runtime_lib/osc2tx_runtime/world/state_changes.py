@@ -70,6 +70,7 @@ class StateChange:
         member.reference = self._applied_to(member.reference)
         if self.tilt != LEVEL:
             member.tilt = self.tilt
+            member.upset()
         if self.speed is not None or self.acceleration is not None:
             member.go_on_with(member.reference.v, member.reference.a)
 

@@ -55,10 +55,10 @@ def lane_of(road: str, number: int) -> Lane:
 AT_ONCE = 1.0
 CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
     (
-        lambda s: s.a.change_lane(num_of_lanes=3, side="left"),
+        lambda s: s.a.change_lane(num_of_lanes=6, side="left"),
         "a.change_lane",
         1.05,
-        "there are not 3 driving lanes to the left of lane -3 of road 1 at s = 60.0 m",
+        "there are not 6 driving lanes to the left of lane -3 of road 1 at s = 60.0 m",
     ),
     (
         lambda s: s.a.drive(lane(7)),
@@ -127,10 +127,10 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         "a is on road 1, so it cannot change to lane -1 of road 2",
     ),
     (
-        lambda s: s.a.follow_lane(target=lane_of("1", 2), duration=2.0),
+        lambda s: s.a.follow_lane(target=lane_of("1", 4), duration=2.0),
         "a.follow_lane",
         AT_ONCE,
-        "lane 2 of road 1 is not beside lane -3 at s = 60.0 m",
+        "lane 4 of road 1 is no driving lane",
     ),
     (
         lambda s: s.a.drive(distance(-5.0)),

@@ -117,10 +117,10 @@ def test_parallel_changes_do_not_disturb_each_other(car_world: CarWorld) -> None
 
 def test_missing_lane_is_a_reason_and_the_car_drives_on(car_world: CarWorld) -> None:
     world = car_world()
-    world.command("a", LATERAL, LaneChange(2))
+    world.command("a", LATERAL, LaneChange(5))
     states = history(world, 1.0)
     assert world.progress("a", LATERAL).failed == (
-        "there are not 2 driving lanes to the left of lane -2 of road 1 at s = 100.0 m"
+        "there are not 5 driving lanes to the left of lane -2 of road 1 at s = 100.0 m"
     )
     assert states[-1].lane == -2 and states[-1].v == 10.0
 

@@ -29,7 +29,7 @@ def world_with(road_map: RoadMap, driving: int, standing: int) -> EmbeddedWorld:
         world.place(spec.id, LanePosition("1", lane, s), 10.0 if i < driving else 0.0)
     for _ in range(3):
         world.step()
-        world.unsteady()
+        world.changed()
     return world
 
 
@@ -37,7 +37,7 @@ def drives_on(world: EmbeddedWorld) -> Callable[[], None]:
     def steps() -> None:
         for _ in range(10):
             world.step()
-            world.unsteady()
+            world.changed()
 
     return steps
 
@@ -86,10 +86,10 @@ def test_contacts_are_those_of_all_pairs_whoever_stands(seed: int) -> None:
     ids = [f"{i:02}" for i in range(len(states))]
     known: set[tuple[str, str]] = set()
     for _ in range(60):
-        before, jumped = dict(zip(ids, states, strict=True)), set()
+        before, jumped = states.copy(), set()
         if random.random() < 0.2:
             put = random.randrange(len(ids))
-            states[put] = before[ids[put]] = somewhere()
+            states[put] = before[put] = somewhere()
             contacts.put(put, states[put])
         after, begin = states.copy(), states.copy()
         for i in range(random.choice([0, 0, 1, 2])):
@@ -101,7 +101,7 @@ def test_contacts_are_those_of_all_pairs_whoever_stands(seed: int) -> None:
         for i, actor in enumerate(ids):
             if actor in jumped:
                 begin[i] = after[i]
-        contacts.step(before, after, jumped, ())
+        contacts.step(ids, before, after, [-1.0] * len(ids), jumped, ())
         found = touching(begin, after)
         assert set(contacts.new) == found - known
         known, states = found, after

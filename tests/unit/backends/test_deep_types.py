@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
 from tests.work import calls
@@ -23,7 +23,7 @@ def work(folder: Path, depth: int) -> int:
     path.write_text(TEXT.format(structs=structs, last=depth), encoding="utf-8")
     module = Compilation(path, path.name, CompileOptions(target="py")).ir
     assert module is not None
-    return calls(lambda: draft(module))
+    return calls(lambda: emit(module))
 
 
 def test_long_lineages(tmp_path: Path) -> None:

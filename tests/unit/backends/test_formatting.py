@@ -1,6 +1,7 @@
-"""The text of a module is what black makes of it, and black passes over it no more than it must."""
+"""Of a module's statements black is asked for those that it may write otherwise, and no others."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import black
 import pytest
@@ -9,44 +10,55 @@ from osc2tx.backends.py_trees.formatting import LINE_LENGTH, format_module
 from osc2tx.diagnostics import InternalCompilerError
 
 MODE = black.Mode(line_length=LINE_LENGTH, target_versions={black.TargetVersion.PY311})
-LONG = ", ".join(f"argument_{n}=value.of('{n}')" for n in range(6))
+ROOT = Path(__file__).parents[3]
+LONG = ", ".join(f"argument_{n}=value.of({n})" for n in range(6))
 
 TEXTS = {
-    "white space and quotes": ("x = f(\n'a',\n  'b'\n)\n", 1),
-    "a comma that stays": (f"x = f(\n{LONG},\n)\n", 1),
-    "a comma that black adds": (f"x = f({LONG})\n", 2),
-    "parentheses that go": ("from a import (b, c)\n", 2),
-    "in its style already": ('x = f("a")\n', 1),
+    "in its style already": ('x = f("a")\n', 0),
+    "quotes": ("x = 'a'\ny = 'b'\nz = 1\n", 2),
+    "a comma that stays": ("x = f(a,)\n", 1),
+    "a comma that black adds": (f"x = f({LONG})\n", 1),
+    "characters of two columns": (f'x = f("{"字" * 40}", "{"字" * 6}")\n', 1),
+    "a long line in a method": (f"class A:\n    def f(self):\n        return f({LONG})\n", 1),
+    "a long signature": (f"class A:\n    def f(self, *, {LONG}):\n        return [0, 1]\n", 1),
+    "a decorated class": (f"@f({LONG})\nclass A:\n    x = 'a'\n", 1),
+    "a slice": ("x = a[b + 1:c]\n", 1),
+    "a part beside a comment": ("x = f(\n    # why\n    -3.5 * kph\n)\n", 1),
+    "comments of any length": (f"# '{LONG}'\nx = f(\n    # '{LONG}'\n    a,\n)\n", 0),
+    "a docstring": (f'class A:\n    """Do not: \'{LONG}\'.\n\n    {LONG}\n    """\n', 0),
+    "an indented docstring": ('class A:\n    """A.\n        b\n    """\n', 1),
 }
 
 
 @pytest.fixture
-def passes(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The texts that black's two-pass function is asked for."""
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The texts that black is asked for."""
     found: list[str] = []
-    both: Callable[..., str] = black.format_str
+    format_str: Callable[..., str] = black.format_str
 
     def noted(text: str, *, mode: black.Mode) -> str:
         found.append(text)
-        return both(text, mode=mode)
+        return format_str(text, mode=mode)
 
     monkeypatch.setattr(black, "format_str", noted)
     return found
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_as_black_does_it(name: str, passes: list[str]) -> None:
+def test_as_black_does_it(name: str, asked: list[str]) -> None:
     text, count = TEXTS[name]
     formatted = format_module(text)
-    assert len(passes) == count - 1
+    assert len(asked) == count
     assert formatted == black.format_str(text, mode=MODE)
 
 
-def test_without_that_function_of_black(monkeypatch: pytest.MonkeyPatch) -> None:
-    text, _ = TEXTS["a comma that black adds"]
-    expected = format_module(text)
-    monkeypatch.delattr(black, "_format_str_once")
-    assert format_module(text) == expected
+@pytest.mark.slow
+def test_what_is_committed_is_as_black_has_it() -> None:
+    modules = [*ROOT.glob("generated/**/*.py"), *ROOT.glob("tests/golden/py_trees/*/expected/*.py")]
+    assert len(modules) > 100
+    for module in modules:
+        text = module.read_text(encoding="utf-8")
+        assert black.format_str(text, mode=MODE) == text, module
 
 
 def test_what_is_no_python_is_a_bug() -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import osc2tx_runtime
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.backends.py_trees.own_names import PYTHON_NAMES
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
@@ -61,7 +61,7 @@ def module_of(folder: Path, **names: str) -> ast.Module:
     path.write_text(TEXT.format(**{**OWN, **names}), encoding="utf-8")
     compilation = Compilation(path, path.name, CompileOptions("2.2", target="py"))
     assert compilation.has_module and compilation.ir is not None, compilation.diagnostics
-    return ast.parse(draft(compilation.ir, compilation.sharing).python)
+    return ast.parse(emit(compilation.ir, compilation.sharing).python)
 
 
 def defined(tree: ast.Module) -> Iterator[str]:

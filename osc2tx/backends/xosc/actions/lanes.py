@@ -15,6 +15,7 @@ from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_shift, fastest
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition
+from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming, number_of_oncoming
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
@@ -23,16 +24,13 @@ from osc2tx_classes import replace
 LANE_WIDTH = 3.5
 """Metres between lanes where there is no map to ask."""
 
-INSIDE = 1.2
-"""Metres from the centre that are inside of any lane: there what is cut short goes on."""
-
 
 @action("change_lane")
 def _change_lane(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
     reference = arguments.entity("reference")
     target = segment_of(leaf.ctx, arguments.get("target"))
-    lanes = _lanes(leaf) if target is None else _lanes_to(leaf, target)
+    lanes = _lanes(leaf) if target is None else lanes_to_segment(leaf, target)
     offset = arguments.number("offset") or 0.0
     profile = arguments.member("rate_profile", "none")
     peak = arguments.number("rate_peak")
@@ -50,7 +48,7 @@ def _change_lane(leaf: Leaf) -> Performance:
     return Performance((change, *apply_modifiers(leaf)), "goal")
 
 
-def _lanes_to(leaf: Leaf, target: MapSegment) -> int:
+def lanes_to_segment(leaf: Leaf, target: MapSegment) -> int:
     """Return how many lanes to the left a lane of the map is."""
     roads, here = leaf.ctx.roads, leaf.state.lane
     if target.lane is None:
@@ -115,10 +113,10 @@ def lane_change(
     here, target = (None, None) if own_lanes is None else _from_and_to(leaf, own_lanes)
     count = 1 if own_lanes is None else own_lanes
     to_lane = math.copysign(_distance(leaf, here, target, count), count)
-    way = abs(to_lane + offset - _offset(state))
+    way = abs(to_lane + offset - offset_of(state))
     course = course_of_shift(way, profile, peak, duration, leaf.limits)
     if not jumps:
-        _note_drift(leaf, way, (profile, peak, duration), course)
+        note_drift(leaf, way, (profile, peak, duration), course)
         note_slow(leaf, way, course)
     time = 0.0 if jumps else course.duration
     if own_lanes is None and duration is None and not jumps:
@@ -128,14 +126,17 @@ def lane_change(
             f"how far the lane of {reference} is away is only known during the run",
             f"it takes {time:.3g} s, as to a lane beside it",
         )
-    shape = "step" if jumps else _shape(leaf, course, profile)
+    shape = "step" if jumps else shape_of(leaf, course, profile)
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
         if own_lanes is None:
             leaf.ctx.require_support("RelativeTargetLane/entityRef", leaf.node.span)
         reference, lanes = None, count
     goal = element("RelativeTargetLane", entityRef=reference or leaf.member.name, value=lanes)
-    if is_absolute and target is not None and leaf.ctx.can("AbsoluteTargetLane", "1.0"):
+    number = _number_among_oncoming(leaf, here, target, offset)
+    if number is not None:
+        goal = element("AbsoluteTargetLane", value=number)
+    elif is_absolute and target is not None and leaf.ctx.can("AbsoluteTargetLane", "1.0"):
         goal = element("AbsoluteTargetLane", value=target.lane)
     action = lateral(
         element(
@@ -150,7 +151,35 @@ def lane_change(
     return Change(LATERAL, (action,), time, during, after)
 
 
-def _note_drift(
+def _number_among_oncoming(
+    leaf: Leaf, here: LanePosition | None, target: LanePosition | None, offset: float
+) -> int | None:
+    """Return the number of the target lane if it or the present one is of oncoming traffic.
+
+    Raises:
+        Inexpressible: It is, and the number may change on the way, or there is an offset: its side
+            is not the same for all tools.
+    """
+    roads = leaf.ctx.roads
+    if roads is None or here is None or target is None:
+        return None
+    oncoming = next((place for place in (target, here) if is_oncoming(roads.map, place)), None)
+    if oncoming is None:
+        return None
+    leaf.ctx.require_support("AbsoluteTargetLane", leaf.node.span)
+    number = number_of_oncoming(roads.map, oncoming)
+    if number is None:
+        raise Inexpressible(
+            "the lane of oncoming traffic does not stay beside its own all the way, so its number"
+            " is only known during the run",
+            leaf.node.span,
+        )
+    if offset:
+        raise Inexpressible("an offset in a lane of oncoming traffic has no one side")
+    return number if oncoming is target else target.lane
+
+
+def note_drift(
     leaf: Leaf, way: float, said: tuple[str, float | None, float | None], course: Profile
 ) -> None:
     """Report that a change takes over a speed across the road: the XML begins without any."""
@@ -166,7 +195,7 @@ def _note_drift(
     )
 
 
-def _shape(leaf: Leaf, course: Profile, profile: str) -> str:
+def shape_of(leaf: Leaf, course: Profile, profile: str) -> str:
     """Return the literal for a course; where the scenario leaves it open, any is right."""
     is_free = profile == "none" and not leaf.ctx.profile.has_shapes
     return "linear" if isinstance(course, Linear) or is_free else "sinusoidal"
@@ -193,7 +222,9 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     if roads is None or mine is None or theirs is None:
         return None
     between = roads.lanes_between(mine, theirs)
-    return None if between is None else between + lanes
+    if between is None:
+        return None
+    return between - lanes if roads.are_opposed(mine, theirs) else between + lanes
 
 
 def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosition | None]:
@@ -207,11 +238,12 @@ def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosit
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is None or lane is None:
         return lane, None
-    here: LanePosition | None = lane
-    target = roads.beside(lane, lanes)
-    if target is None and not leaf.is_start:
-        here = roads.may_be_beside(lane, lanes)
-        target = None if here is None else roads.beside(here, lanes)
+    here, target = lane, roads.either_way_beside(lane, lanes)
+    if not leaf.is_start and (target is None or is_oncoming(roads.map, target)):
+        # Lanes of its own direction that begin on the way come first.
+        later = roads.may_be_beside(lane, lanes)
+        if later is not None:
+            here, target = later, roads.beside(later, lanes)
     if target is None:
         side = "left" if lanes > 0 else "right"
         raise Inexpressible(
@@ -229,63 +261,15 @@ def _distance(
     roads = leaf.ctx.roads
     if roads is None or lane is None or target is None:
         return LANE_WIDTH * abs(lanes)
-    here, there = roads.pose(LanePosition(lane.road, lane.lane, lane.s)), roads.pose(target)
+    centre = roads.either_way_beside(lane, 0)
+    assert centre is not None
+    here, there = roads.pose(centre), roads.pose(target)
     return math.hypot(here.x - there.x, here.y - there.y)
 
 
-def _offset(state: ActorState) -> float:
+def offset_of(state: ActorState) -> float:
+    """Return how far (m) left of the centre of its lane an actor is, as far as it is known."""
     return state.offset.low if state.offset is not None and state.offset.is_known else 0.0
-
-
-@action("follow_lane")
-def _follow_lane(leaf: Leaf) -> Performance:
-    arguments = leaf.arguments
-    offset = arguments.number("offset") or 0.0
-    profile = arguments.member("rate_profile", "none")
-    peak = arguments.number("rate_peak")
-    target = segment_of(leaf.ctx, arguments.get("target"))
-    if target is not None and _lanes_to(leaf, target) != 0:
-        raise Inexpressible("it is in another lane; a change of the lane has to come before")
-    changes = apply_modifiers(leaf)
-    if leaf.state.offset == known(offset):
-        return Performance(changes, "open")
-    return Performance((offset_change(leaf, offset, profile, peak), *changes), "open")
-
-
-def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -> Change:
-    """Return the change of the place in the lane."""
-    way = abs(offset - _offset(leaf.state))
-    course = course_of_shift(way, profile, peak, None, leaf.limits)
-    _note_drift(leaf, way, (profile, peak, None), course)
-    note_slow(leaf, way, course)
-    shape = _shape(leaf, course, profile)
-    if isinstance(course, Linear):
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
-            "the XML says no length for a change of the offset, and a steady one has no peak that"
-            " gives it",
-            Metres(way, "beside, until it is there"),
-        )
-    # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
-    half_turn = math.pi / course.duration
-    peak_rate = 0.5 * way * half_turn * half_turn
-    action = lateral(
-        element(
-            "LaneOffsetAction",
-            element(
-                "LaneOffsetActionDynamics",
-                dynamicsShape=shape,
-                maxLateralAcc=round(peak_rate, 6),
-            ),
-            element("LaneOffsetTarget", element("AbsoluteTargetLaneOffset", value=offset)),
-            continuous=False,
-        )
-    )
-    after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
-    goes_on = abs(offset) < INSIDE
-    during = replace(after, offset=None, drift=fastest(course), aside=way if goes_on else 0.0)
-    return Change(LATERAL, (action,), course.duration, during, after, goes_on=goes_on)
 
 
 def lateral(action: Element) -> Element:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.gap_elements import Gap, reach
-from osc2tx.backends.xosc.actions.lanes import drawn_side, lane_change, lanes_to, offset_change
+from osc2tx.backends.xosc.actions.lane_offsets import offset_change
+from osc2tx.backends.xosc.actions.lanes import drawn_side, lane_change, lanes_to
 from osc2tx.backends.xosc.actions.lateral_offsets import offset_in_lane
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier

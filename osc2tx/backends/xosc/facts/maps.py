@@ -17,7 +17,12 @@ from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
 from osc2tx_runtime.world.bends_ahead import BendsAhead
-from osc2tx_runtime.world.lane_neighbours import lane_with_number
+from osc2tx_runtime.world.lane_neighbours import (
+    are_opposed,
+    lane_beside,
+    lane_with_number,
+    lanes_to_left,
+)
 from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.traffic_light_states import Signals
 
@@ -26,9 +31,6 @@ __all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places",
 
 MOST_MAPS = 32
 """Maps that are kept once read."""
-
-MOST_LANES = 8
-"""Lanes beside each other among which one is looked for."""
 
 
 class Roads:
@@ -46,10 +48,17 @@ class Roads:
         return BendsAhead(self.map).sharpest()
 
     def beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
-        """Return the lane so many to the left of a place; negative: to the right."""
+        """Return the lane of its direction so many to the left of a place; negative: right."""
         if lanes == 0:
             return place
         return self.map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
+
+    def either_way_beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
+        """Return the centre of a lane beside that of a place, of oncoming traffic as well.
+
+        That is given as an offset from the innermost lane of the direction of the place.
+        """
+        return lane_beside(self.map, place, lanes)
 
     def may_be_beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
         """Return where, from a lane on, the lanes ahead first have one so many to their left."""
@@ -69,16 +78,16 @@ class Roads:
 
     def lanes_between(self, place: LanePosition, other: LanePosition) -> int | None:
         """Return how many lanes to the left another lane of the same road is; `None`: it is not."""
-        for lanes in range(-MOST_LANES, MOST_LANES + 1):
-            beside = self.beside(place, lanes)
-            if beside is not None and (beside.road, beside.lane) == (other.road, other.lane):
-                return lanes
-        return None
+        if place.road != other.road:
+            return None
+        try:
+            return lanes_to_left(self.map, place, other)
+        except ScenarioError:
+            return None
 
     def are_opposed(self, place: LanePosition, other: LanePosition) -> bool:
         """Whether two places of one road are on lanes that lead opposite ways."""
-        ways = [self.map.travel_direction(each.road, each.lane) for each in (place, other)]
-        return place.road == other.road and ways[0] != ways[1]
+        return are_opposed(self.map, place, other)
 
     def ahead(self, place: LanePosition, distance: float) -> LanePosition | None:
         """Return the place so far (m) along the lane."""

@@ -10,10 +10,16 @@ from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import band_of, now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.planning.lanes_ahead import leads_beside, may_leave_lane_before
-from osc2tx_runtime.domain.planning.lateral_targets import check_shift, jump_aside, lanes_to
+from osc2tx_runtime.domain.planning.lateral_targets import (
+    check_shift,
+    jump_aside,
+    lanes_beside,
+    lanes_to,
+    target_of_shift,
+)
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide, SideLeftRight
+from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
 from osc2tx_runtime.errors import BeyondMapError, ScenarioError
 from osc2tx_runtime.language.action import ActionOptions
 from osc2tx_runtime.language.registry import LATERAL, action
@@ -21,11 +27,7 @@ from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import LaneChange
-from osc2tx_runtime.world.lane_neighbours import (
-    lanes_to_left,
-    neighbouring,
-    offset_from,
-)
+from osc2tx_runtime.world.lane_neighbours import lane_beside, offset_from
 from osc2tx_runtime.world.lateral import shift_profile
 
 from .modifiable import ModifiableAction
@@ -73,7 +75,7 @@ class _OnLane(ModifiableAction):
             jump_aside(self, lanes, offset)
             return
         peak = self.rate_peak
-        there = neighbouring(self.world.map, self.place_of(self.actor.id), lanes)
+        there = lane_beside(self.world.map, self.place_of(self.actor.id), lanes)
         time = None
         if there is not None and duration is not None and self.rate_profile != "asap":
             time = self._time(there, offset, duration, peak)
@@ -85,8 +87,8 @@ class _OnLane(ModifiableAction):
         self, there: LanePosition, offset: float, duration: Duration, peak: float | None
     ) -> float | None:
         """How long it is to take, where the duration leaves a choice."""
-        here, place = self.here, LanePosition(there.road, there.lane, there.s)
-        start = offset_from(self.world.map, place, here.x, here.y)
+        here = self.here
+        start = offset_from(self.world.map, there, here.x, here.y)
         course = (self.rate_profile, peak, None)
         own = shift_profile(start, offset, here.lateral_speed, course, self.limits).duration
         low, high = duration if isinstance(duration, tuple) else (duration, duration)
@@ -106,14 +108,15 @@ class _OnLane(ModifiableAction):
 class ChangeLane(_OnLane):
     """End in another lane, aligned with it.
 
-    Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m.
+    Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be one
+    of oncoming traffic: there the actor goes on in its own direction.
 
     Args:
         actor: Who.
         *modifiers: What they say about the speed.
         num_of_lanes: How many lanes away from the reference.
         side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
-            Without a side one is drawn from the seed among those that exist.
+            Without a side one is drawn from the seed among those with a lane of its direction.
         reference: Default: the actor itself.
         offset: Metres left of the centre of the target lane at the end.
         rate_profile: Course of the lateral speed.
@@ -158,8 +161,9 @@ class ChangeLane(_OnLane):
             return
         if self.target is not None or self.reference is not None or may_leave_lane_before(self):
             return
-        side: SideLeftRight = "left" if self._direction(count) == 1 else "right"
-        if not leads_beside(graph_of(self.world.map), place, side, count):
+        lanes = count * self._direction(count)
+        if not leads_beside(graph_of(self.world.map), place, lanes):
+            side = "left" if lanes > 0 else "right"
             raise BeyondMapError(
                 f"nowhere on its way are there {count} driving lanes to the {side} of lane"
                 f" {place.lane} of road {place.road}",
@@ -169,6 +173,11 @@ class ChangeLane(_OnLane):
     def on_start(self) -> None:
         """Commands the change."""
         self.shift(self._lanes(), value_of(self.offset), self.duration)
+
+    @property
+    def looks_further(self) -> bool:
+        """Only after a jump."""
+        return self.may_jump
 
     def on_update(self) -> Status:
         """Ends in the lane, after a jump at the next step."""
@@ -180,16 +189,13 @@ class ChangeLane(_OnLane):
         """Lanes to the left of the present one; negative: to the right."""
         if self.target is not None:
             return lanes_to(self, self.target)
-        own = self.place_of(self.actor.id)
-        beside = 0
-        if self.reference is not None:
-            beside = lanes_to_left(self.world.map, own, self.place_of(self.reference.id))
-        if self.side == "same":
-            return beside
-        count = now(self.num_of_lanes)
-        if count < 0:
-            raise Refused(f"num_of_lanes {count} is negative")
-        return beside + count * self._direction(count)
+        lanes = 0
+        if self.side != "same":
+            count = now(self.num_of_lanes)
+            if count < 0:
+                raise Refused(f"num_of_lanes {count} is negative")
+            lanes = count * self._direction(count)
+        return lanes if self.reference is None else lanes_beside(self, self.reference.id, lanes)
 
     def _direction(self, count: int) -> int:
         """1 for left, -1 for right."""
@@ -244,5 +250,7 @@ class FollowLane(_OnLane):
         """Commands the offset."""
         lanes = 0 if self.target is None else lanes_to(self, self.target)
         low, high = band_of(self.offset, self.offset_range)
-        here = self.place_of(self.actor.id).offset if lanes == 0 else 0.0
+        here = 0.0
+        if lanes == 0:
+            here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset
         self.shift(lanes, min(max(here, low), high), None)

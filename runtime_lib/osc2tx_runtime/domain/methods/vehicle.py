@@ -58,13 +58,14 @@ class VehicleMethods:
     ) -> Behaviour:
         """End in another lane, aligned with it (§8.8.3.3).
 
-        Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m.
+        Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be
+        one of oncoming traffic: there the actor goes on in its own direction.
 
         Args:
             *modifiers: What they say about the speed.
             num_of_lanes: How many lanes away from the reference.
             side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
-                Without a side one is drawn from the seed among those that exist.
+                Without a side one is drawn from the seed among those with a lane of its direction.
             reference: Default: the actor itself.
             offset: Metres left of the centre of the target lane at the end.
             rate_profile: Course of the lateral speed.

@@ -11,11 +11,10 @@ from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.shapes import OwnShape
 from osc2tx_runtime.enums import DynamicProfile
-from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import Beside, Command, LaneChange, LaneOffset
 from osc2tx_runtime.world.distances import lateral_on_road
 from osc2tx_runtime.world.function_profiles import Computed
-from osc2tx_runtime.world.lane_neighbours import offset_from
+from osc2tx_runtime.world.lane_neighbours import offset_from, width_at
 from osc2tx_runtime.world.lateral import shift_profile
 
 from .feasibility import check_one_way, check_peak
@@ -80,7 +79,7 @@ def lane_command(action: ModifiedMotion, lateral: Lateral | None) -> Command | N
     if lateral is not None:
         offset = _offset(action, lateral, lanes or 0)
     shaped = next((modifier for modifier in found if modifier.shape is not None), None)
-    if not lanes and lateral is None and shaped is None and action.here.offset == 0.0:
+    if not lanes and lateral is None and shaped is None and _is_centred(action):
         return None
     if action.may_jump and not (shaped and isinstance(shaped.shape, OwnShape)):
         jump_aside(action, lanes or 0, offset)
@@ -122,8 +121,7 @@ def _own_across(
 ) -> Profile | None:
     """The place left of the centre of the lane to be in, over time, as an own shape has it."""
     there = target_of_shift(action, lanes)
-    width = action.world.map.lane_width(there.road, there.lane, there.s)
-    course = _own(action, shaped, width)
+    course = _own(action, shaped, width_at(action.world.map, there))
     if course is None:
         return None
     first, here = course.value(0.0), _start(action, lanes)
@@ -145,19 +143,21 @@ def _own(
     return Computed(lambda t: shaped.place(own.value(t), action.here.width, width), own.duration)
 
 
+def _is_centred(action: ModifiedMotion) -> bool:
+    return action.here.offset == 0.0 or action.here.offset == target_of_shift(action, 0).offset
+
+
 def _start(action: ModifiedMotion, lanes: int) -> float:
     """How far (m) left it is of the centre of the lane to be in."""
     there, here = target_of_shift(action, lanes), action.here
-    lane = LanePosition(there.road, there.lane, there.s)
-    return offset_from(action.world.map, lane, here.x, here.y)
+    return offset_from(action.world.map, there, here.x, here.y)
 
 
 def _offset(action: ModifiedMotion, lateral: Lateral, lanes: int) -> float:
     """Metres left of the centre of the lane to be in."""
     there = target_of_shift(action, lanes)
-    width = action.world.map.lane_width(there.road, there.lane, there.s)
-    here = action.here.offset or 0.0 if lanes == 0 else 0.0
-    return lateral.offset(action.here.width, width, here)
+    here = (action.here.offset or 0.0) - there.offset if lanes == 0 else 0.0
+    return lateral.offset(action.here.width, width_at(action.world.map, there), here)
 
 
 def _lanes(action: ModifiedMotion) -> int | None:

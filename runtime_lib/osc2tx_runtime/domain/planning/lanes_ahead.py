@@ -7,11 +7,11 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.routes.road_graph import RoadGraph
-from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.language.action import Action
 from osc2tx_runtime.language.registry import LATERAL
 from osc2tx_runtime.language.tree import Serial
 from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.lane_neighbours import lane_beside
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import MotionAction
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["leads_beside", "may_leave_lane_before"]
 
 
-def leads_beside(graph: RoadGraph, place: LanePosition, side: SideLeftRight, count: int) -> bool:
-    """Whether a lane has so many others beside it, here or anywhere that it leads to."""
+def leads_beside(graph: RoadGraph, place: LanePosition, lanes: int) -> bool:
+    """Whether a lane has so many others to its left, here or anywhere that it leads to."""
     lane = graph.segment_of(graph.map.lane_key(place))
     reached, seen = [lane], {lane}
     for each in reached:
@@ -29,7 +29,7 @@ def leads_beside(graph: RoadGraph, place: LanePosition, side: SideLeftRight, cou
         section = graph.map.roads[each.road].sections[each.section or 0]
         middle = 0.5 * (section.begin + section.end)
         there = LanePosition(each.road, each.lane, place.s if each == lane else middle)
-        if graph.map.neighbour(there, side, count) is not None:
+        if lane_beside(graph.map, there, lanes) is not None:
             return True
         onward = [after for after in graph.after(each) if after not in seen]
         seen.update(onward)

@@ -47,6 +47,7 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C21_position_modifier": ("1.2", "1.3", "1.4"),  # a course of the speed
     "C21_position_shape": NOTHING,  # a course of the place
     "C22_lateral_speeds": NOTHING,  # a speed across
+    "C22_overtaking": ("1.2", "1.3", "1.4"),  # the sign of a distance along
     "C23_physical_movement": ("1.2", "1.3", "1.4"),  # limited jerk
     "C26_pitch_and_roll": NOTHING,  # a pitch in a condition
     "C27_point_distance": ("1.2", "1.3", "1.4"),  # limited jerk

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.backends.py_trees.emitter import draft
+from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.catalogue import catalogue
 from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
@@ -57,7 +57,7 @@ ACTIONS = {
 
 def in_the_world(path: Path, options: CompileOptions) -> float | None:
     """Return when the event occurs; `None` if the world refuses to wait for it."""
-    with scenarios_of_module(draft(module_of(compiled(path, options)))) as scenarios:
+    with scenarios_of_module(emit(module_of(compiled(path, options)))) as scenarios:
         try:
             result = run_scenario(scenarios["endings"], RunSettings(dt=DT))
         except UnsupportedError as error:

@@ -1,0 +1,77 @@
+"""Statements and calls in black's layout: one line where they fit, else one for each argument.
+
+What black might lay out otherwise stays on one line; `formatting` has black look at it.
+"""
+
+from __future__ import annotations
+
+from osc2tx.backends.py_trees.formatting import INDENT, LINE_LENGTH, is_plain
+from osc2tx.backends.py_trees.view import ArgumentView, CallView, StatementView
+
+
+def statement(view: StatementView, column: int) -> str:
+    """Lay a statement out from a column on, below its comments."""
+    indent = " " * column
+    start = indent
+    if view.target is not None:
+        annotation = f": {view.annotation}" if view.annotation is not None else ""
+        start = f"{indent}{view.target}{annotation} = "
+    lines = [""] if view.blank_before else []
+    lines += [f"{indent}{comment}" for comment in view.comments]
+    return "\n".join((*lines, _argument(view.value, column, start, "")))
+
+
+def returned(view: ArgumentView, column: int) -> str:
+    """Lay a statement out that returns a value."""
+    return _argument(view, column, f"{' ' * column}return ", "")
+
+
+def _argument(view: ArgumentView, column: int, start: str, end: str) -> str:
+    """Lay an argument out that begins in a column, between what else is on its lines."""
+    if view.keyword:
+        start = f"{start}{view.keyword}="
+    if view.call is None:
+        return f"{start}{view.code}{end}"
+    opening, closing = _brackets(view.call)
+    start, end = f"{start}{opening}", f"{closing}{end}"
+    arguments = _on_one_line(view.call)
+    if arguments is not None:
+        line = f"{start}{arguments}{end}"
+        if len(line) <= LINE_LENGTH or not is_plain(line):
+            return line
+    return "\n".join((start, *_lines(view.call, arguments, column + INDENT), " " * column + end))
+
+
+def _lines(call: CallView, on_one_line: str | None, column: int) -> list[str]:
+    """Lay the arguments of a call out that has several lines."""
+    indent = " " * column
+    if on_one_line is not None and column + len(on_one_line) <= LINE_LENGTH:
+        return [indent + on_one_line]
+    comma = "," if call.exploded or len(call.arguments) > 1 else ""
+    lines = []
+    for each in call.arguments:
+        lines += [f"{indent}{comment}" for comment in each.comments]
+        lines.append(_argument(each, column, indent, comma))
+    return lines + [f"{indent}{comment}" for comment in call.end_comments]
+
+
+def _on_one_line(call: CallView) -> str | None:
+    """Write the arguments of a call on one line; None where they need several."""
+    if call.end_comments or (call.exploded and call.arguments):
+        return None
+    written = []
+    for each in call.arguments:
+        text = str(each.code)
+        if each.call is not None:
+            inner = _on_one_line(each.call)
+            if inner is None:
+                return None
+            text = inner.join(_brackets(each.call))
+        if each.comments:
+            return None
+        written.append(f"{each.keyword}={text}" if each.keyword else text)
+    return ", ".join(written)
+
+
+def _brackets(call: CallView) -> tuple[str, str]:
+    return (f"{call.callee}(", ")") if call.callee else ("[", "]")
