@@ -6,7 +6,9 @@ import sys
 
 import pytest
 
+from osc2tx_classes import replace
 from osc2tx_runtime import RunSettings
+from osc2tx_runtime.language.resting import Resting
 from osc2tx_runtime.report.trace_reader import read_run
 from tests.capabilities.conftest import SETTINGS, Load
 from tests.capabilities.kit import CAPABILITIES, Line, Perform, Performance
@@ -47,6 +49,31 @@ def test_it_runs_to_its_end(perform: Perform, name: str) -> None:
     assert (run.status, run.result["reason"]) == ("success", "")
     assert run.of_kind("collision") == []
     assert read_run(run.trace.text.splitlines()).skipped == 0  # the report knows every line
+
+
+class Awake(set[object]):
+    """Takes nobody up."""
+
+    def add(self, _: object) -> None:
+        """Let it be visited."""
+
+
+class Restless(Resting):
+    """Where nobody rests."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.nodes = Awake()
+
+
+@pytest.mark.parametrize("name", RUNNING)
+def test_who_rests_has_nothing_to_do(
+    perform: Perform, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The trace is the same, to the byte, if every node is visited in every pass."""
+    trace = perform(name).trace.text
+    monkeypatch.setattr("osc2tx_runtime.language.context.Resting", Restless)
+    assert perform(name, replace(SETTINGS)).trace.text == trace
 
 
 # What is not as vehicles move, and who asked for it: kinds of findings of the scan by scenario.

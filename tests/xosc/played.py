@@ -6,6 +6,7 @@ may see a completion one step late. Places may differ by what that makes at the 
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
@@ -114,7 +115,7 @@ def world(
     """Return what the embedded world does with the values that a document declares."""
     parameters, outcome = _outcome(Run(path, name, options, repr(settings), settings))
     # Others of the document hold what an event carries, or follow from parameters.
-    documented = {parameter: parameter.replace(".", "_") for parameter in parameters}
+    documented = {each: re.sub(r"\W", "_", each) for each in parameters}
     values = {each: declared[said] for each, said in documented.items() if said in declared}
     if values:
         settings = replace(settings, set={**values, **settings.set})

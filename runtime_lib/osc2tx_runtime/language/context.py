@@ -16,11 +16,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Protocol
 
-from py_trees.behaviour import Behaviour
-
 from osc2tx_runtime.clock import lateness, whole_steps
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
+from osc2tx_runtime.language.resting import Resting
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.slots import Effect, Effects, Owner, Slots
 from osc2tx_runtime.language.trace import TraceWriter
@@ -84,7 +83,7 @@ class ExecutionContext:
         collisions: Time in seconds and the two actors of each new contact.
         first_come: What has a duration or an `until` ends with whichever comes first.
         label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
-        resting: Nodes that have nothing to do until they are woken; nobody needs to pulse them.
+        resting: Who in the tree has nothing to do until it is woken.
     """
 
     def __init__(
@@ -120,8 +119,7 @@ class ExecutionContext:
         self.slots = Slots()
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
-        self.resting: set[Behaviour] = set()
-        self._resting_with: dict[str, dict[Behaviour, None]] = {}  # actors to their leaves
+        self.resting = Resting()
         self._cast: tuple[str, ...] | None = None
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}
@@ -192,8 +190,7 @@ class ExecutionContext:
     def begin_step(self, step: int) -> None:
         """Go to a step; its first pass comes next."""
         self.step = step
-        if self.resting:
-            self._wake_with(self.world.unsteady())
+        self.resting.begin_step(step, self.world.changed)
         self._left.clear()
         self.effects.begin_step()
         self.snapshot += 1
@@ -215,6 +212,8 @@ class ExecutionContext:
                 f"events chase each other at {self.time:.3f} s without time going on"
                 + (f": {names}" if names else "")
             )
+        if self._posted or self._assigned:
+            self.resting.wake_all()
         posted, self._posted = self._posted, {}
         for event, arguments in posted.items():
             event.occur(self.tick, self.step, arguments)
@@ -225,6 +224,7 @@ class ExecutionContext:
                 self.trace.variable(variable.name, value)
             self._assigned.clear()
         self._pass_wanted = self._settling_wanted = False
+        self.resting.begin_pass()
 
     def has_news(self) -> bool:
         """Return whether events or values want another pass of this instant."""
@@ -238,7 +238,7 @@ class ExecutionContext:
         self.effects.apply()
         self.snapshot += 1
         self.settled = False
-        self.resting.clear()
+        self.resting.wake_all()
 
     def settles(self) -> bool:
         """Return whether a pass is wanted after all others of this instant; say so in `settled`."""
@@ -246,21 +246,6 @@ class ExecutionContext:
             return False
         self.settled = True
         return True
-
-    # --- who has nothing to do ---
-
-    def rest(self, leaf: Behaviour, actor_id: str) -> None:
-        """Let a leaf be until effects are carried out, or the world asks to look at its actor."""
-        self.resting.add(leaf)
-        self._resting_with.setdefault(actor_id, {})[leaf] = None
-
-    def _wake_with(self, actor_ids: Iterable[str]) -> None:
-        for actor_id in actor_ids:
-            for leaf in self._resting_with.pop(actor_id, ()):
-                node: Behaviour | None = leaf
-                while node is not None:
-                    self.resting.discard(node)
-                    node = node.parent
 
     # --- who controls what ---
 

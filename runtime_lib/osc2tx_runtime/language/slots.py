@@ -40,6 +40,11 @@ class Slots:
         self._left: dict[SlotKey, Command | None] = {}
         self._passed: dict[SlotKey, list[Owner]] = {}
 
+    @property
+    def is_touched(self) -> bool:
+        """Whether anything happened to them at this instant."""
+        return bool(self._touched or self._passed)
+
     def leave(self, key: SlotKey, command: Command | None) -> None:
         """Let a slot pursue a command while it has no owner; None holds what is."""
         if command is not self._left.get(key):
@@ -147,6 +152,8 @@ class Effects:
 
     def is_pending(self, owner: Owner | None = None) -> bool:
         """Whether something, or what an owner wants, is not carried out yet."""
+        if not self._wanted:
+            return False
         wanted = self._wanted.values()
         return any(wanted) if owner is None else any(owner in each for each in wanted)
 

@@ -18,6 +18,7 @@ __all__ = ["checked_world"]
 ANSWERS: Mapping[str, Any] = {
     "actors": Sequence[str],
     "capabilities": frozenset,
+    "changed": Collection[str],
     "collisions": Sequence[tuple[str, str]],
     "control": str,
     "dt": float,
@@ -32,7 +33,6 @@ ANSWERS: Mapping[str, Any] = {
     "state": ActorState,
     "take_notes": Sequence[tuple[str, Mapping[str, Any]]],
     "trailer_of": str | None,
-    "unsteady": Collection[str],
     "warnings": Sequence[str],
 }
 

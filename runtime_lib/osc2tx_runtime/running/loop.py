@@ -137,16 +137,18 @@ def loop(
     step = 0
     while True:
         context.begin_step(step)
-        status = settle(pulse, context, signals.get(step, ()))
-        check_claims(context)
-        context.commit()
+        status = settle(root, pulse, context, signals.get(step, ()))
+        if context.slots.is_touched:
+            check_claims(context)
+            context.commit()
         if status is SUCCESS:
             return Outcome("success", "", step)
         if status is FAILURE:
             return Outcome("failure", failure_reason(root, context), step, failure_place(root))
         if step >= last_step:
             return Outcome("timeout", timeout_reason(root, context), step, timeout_place(root))
-        context.trace.end_instant(context.time, states(context))
+        if context.trace.enabled:
+            context.trace.end_instant(context.time, states(context))
         if on_progress is not None and step % progress_steps == 0:
             on_progress(context.time, settings.max_time)
         world.step()
@@ -164,9 +166,12 @@ def loop(
 
 
 def settle(
-    pulse: Callable[[], Status], context: ExecutionContext, signals: tuple[PostedEvent, ...]
+    root: Behaviour,
+    pulse: Callable[[], Status],
+    context: ExecutionContext,
+    signals: tuple[PostedEvent, ...],
 ) -> Status:
-    """Pulse the tree until nothing more happens at this instant.
+    """Pulse the tree until nothing more happens at this instant; not at all while it rests.
 
     Events come to rest first. Then all assignments that are pending are carried out together, and
     with the new snapshot it goes on, until nothing more is pending.
@@ -179,10 +184,11 @@ def settle(
     context.begin_pass()
     if context.step == 0:
         post_all(context, signals)
-    status = pulse()
+    resting = context.resting.nodes
+    status = RUNNING if root in resting else pulse()
     while status is RUNNING and (context.has_news() or assigns(context) or context.settles()):
         context.begin_pass()
-        status = pulse()
+        status = RUNNING if root in resting else pulse()
     assigns(context)
     return status
 

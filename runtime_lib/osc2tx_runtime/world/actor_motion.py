@@ -57,6 +57,7 @@ class CommandedActor(MovingActor):
     motion: MeasuredMotion | None = None
     heading: float | None = None
     aside: float | None = None
+    _last: tuple[Progress, Progress] | None = None  # progress when it was asked for news
 
     def progress(self, slot: str) -> Progress:
         """Progress of the command in a slot, by reference and measurement."""
@@ -182,6 +183,19 @@ class CommandedActor(MovingActor):
             and not (self.wheels is not None and self.wheels.limited)
         )
         return self.steady
+
+    def has_news(self) -> bool:
+        """Whether progress may be another than when this was asked before."""
+        if not (self.steady or self.is_steady()):
+            self._last = None
+            return True
+        before, self._last = self._last, (self.speed_progress(), self.side_progress())
+        return self._last != before
+
+    def upset(self) -> None:
+        """As of all who move; its progress is to be looked at."""
+        super().upset()
+        self._last = None
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command, by the reference."""

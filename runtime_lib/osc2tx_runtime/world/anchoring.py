@@ -49,10 +49,6 @@ def arrive(
         Their states, in the same order.
     """
     members = tuple(cast.values())
-    if not found:
-        for member, state in zip(members, wished, strict=True):
-            member.state = member.reference = state
-        return wished
     for actor in jumped:
         cast[actor].motion = None
     measured = {actor for actor in found if not couplings.is_towed(actor)}

@@ -135,7 +135,7 @@ class Contacts:
         if self._gone + self._way > self._room or not looked_at <= self._sought:
             self._seek(looked_at)
         self._gone += self._way
-        touching = list(self._found(begin))
+        touching = list(self._found(begin)) if self._is_anybody_due() else ()
         if touching or self._touching:
             stay = [pair for pair in self._touching if self._sought.isdisjoint(pair)]
             self._compare(ids, [*touching, *stay], coupled)
@@ -180,6 +180,13 @@ class Contacts:
         pairs = [(i, j) for _, i, j, _ in self._due]
         self._apart = {pair: self._apart[pair] for pair in pairs if pair in self._apart}
         self._gone, self._room = 0.0, margin
+
+    def _is_anybody_due(self) -> bool:
+        """Whether a pair is to be looked at in this step."""
+        due, evenly = self._due, self._due_evenly
+        if self._close or (due and due[0][0] <= self._gone):
+            return True
+        return bool(evenly) and evenly[0][0] <= self._steps
 
     def _found(self, begin: Sequence[ActorState]) -> Iterator[tuple[int, int]]:
         """Yield the pairs that touch in a step."""

@@ -76,6 +76,7 @@ class EmbeddedWorld:
         self._ids: tuple[str, ...] = ()
         self._members: tuple[CommandedActor, ...] = ()
         self._changes: dict[str, StateChange] = {}
+        self._changed: Sequence[str] = ()
         self._outside: tuple[CommandedActor, ...] = ()  # driven by somebody else
         self._couplings = Couplings()
         self._lights = Lights()
@@ -205,10 +206,9 @@ class EmbeddedWorld:
         """Progress of the command in a slot."""
         return self._member(actor).progress(slot)
 
-    def unsteady(self) -> Sequence[str]:
-        """Actors of which a command may have failed in the last step; the others just go on."""
-        cast = self._cast.items()
-        return [each for each, member in cast if not (member.steady or member.is_steady())]
+    def changed(self) -> Sequence[str]:
+        """Actors of which the progress of a command may have changed in the last step."""
+        return self._changed
 
     def reference(self, actor: str) -> ActorState:
         """State that commands start from: as it was wished, abreast of where the actor is."""
@@ -332,18 +332,28 @@ class EmbeddedWorld:
         # All read the snapshot; none is replaced before every actor has moved.
         before = [member.state for member in members]
         towed = self._couplings.towed()
-        wished = [
-            member.reference if member.still else member.cruised() or self._wish(member, towed)
-            for member in members
-        ]
+        wished, others = [], []
+        for member in members:
+            state = member.reference if member.still else member.cruised()
+            if state is None:
+                others.append(member)
+                state = self._wish(member, towed)
+            wished.append(state)
         self._couplings.draw(self._cast, wished, self.dt, self.map)
-        jumped = frozenset([member.spec.id for member in members if member.jumped])
+        jumped = frozenset([m.spec.id for m in others if m.jumped]) if others else NOBODY
         put, kicked = self._take_changes() if self._changes else (NOBODY, NOBODY)
         elsewhere = put | jumped
         self._scene.wish(members, wished, elsewhere, kicked)
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = arrive(self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt)
+        states = wished
+        if found:
+            states = arrive(
+                self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt
+            )
+        else:
+            for member, state in zip(members, wished, strict=True):
+                member.state = member.reference = state
         for tow, trailer, angle in self._couplings.take_folded():
             self._scene.note_jack_knife(tow, trailer, angle)
         self._track.add(ids, before, jumped)
@@ -352,6 +362,7 @@ class EmbeddedWorld:
         self._friction.step(members, elsewhere, self._surroundings.road)
         for member in self._outside:
             member.observe(self)
+        self._changed = [member.spec.id for member in others if member.has_news()]
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)

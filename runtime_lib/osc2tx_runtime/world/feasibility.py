@@ -56,8 +56,6 @@ class FrictionWatch:
             road: Condition of the roads.
         """
         self._steps += 1
-        limit = adhesion_of(road) * GRAVITY
-        at_once = _AT_ONCE + limit * self._dt
         for actor in jumped:
             self._turning.pop(actor, None)
         turning = self._turning
@@ -74,16 +72,21 @@ class FrictionWatch:
                 and member.spec.id not in turning
             ):
                 continue  # straight on, nearly always
-            across, aside = 0.0, self._set_aside(member, jumped)
-            if abs(aside) > at_once:
-                member.heading = state.h  # a jump, and no turning
-                if member.is_physical:
-                    self._note(member, "jumps", (0.0, aside), limit, road)
-            if state.h != member.heading or member.spec.id in turning:
-                across = state.v * self._turned(member, state.h, jumped)
-            least = _AT_THE_LIMIT * min(limit, member.spec.limits.overturn)
-            if across * across + state.a * state.a > least * least and member.is_physical:
-                self._judge(member, state.a, across, limit, road)
+            self._look(member, jumped, road)
+
+    def _look(self, member: CommandedActor, jumped: Collection[str], road: RoadCondition) -> None:
+        """Looks at one of them."""
+        state, limit = member.reference, adhesion_of(road) * GRAVITY
+        across, aside = 0.0, self._set_aside(member, jumped)
+        if abs(aside) > _AT_ONCE + limit * self._dt:
+            member.heading = state.h  # a jump, and no turning
+            if member.is_physical:
+                self._note(member, "jumps", (0.0, aside), limit, road)
+        if state.h != member.heading or member.spec.id in self._turning:
+            across = state.v * self._turned(member, state.h, jumped)
+        least = _AT_THE_LIMIT * min(limit, member.spec.limits.overturn)
+        if across * across + state.a * state.a > least * least and member.is_physical:
+            self._judge(member, state.a, across, limit, road)
 
     def _judge(
         self,

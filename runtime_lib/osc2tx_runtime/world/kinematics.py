@@ -64,7 +64,8 @@ class Track:
     """The last two steps of all actors."""
 
     def __init__(self) -> None:
-        self._steps: tuple[_Step, ...] = ()
+        self._last: _Step | None = None
+        self._before: _Step | None = None  # the one before that
 
     def add(self, ids: Sequence[str], before: Sequence[ActorState], jumped: frozenset[str]) -> None:
         """Note a step that was made.
@@ -74,13 +75,12 @@ class Track:
             before: Their states before it.
             jumped: Who was put somewhere in it.
         """
-        self._steps = (*self._steps[-1:], new_tuple(_Step, (ids, before, jumped)))
+        self._before, self._last = self._last, new_tuple(_Step, (ids, before, jumped))
 
     def interrupt(self, actor: str) -> None:
         """Note that an actor was put somewhere, or turned, at the present step."""
-        if self._steps:
-            last = self._steps[-1]
-            self._steps = (*self._steps[:-1], last._replace(jumped=last.jumped | {actor}))
+        if self._last is not None:
+            self._last = self._last._replace(jumped=self._last.jumped | {actor})
 
     def of(self, actor: str, now: ActorState, dt: float, *, lies: bool = False) -> Kinematics:
         """Return the motion of an actor.
@@ -92,8 +92,8 @@ class Track:
             lies: Its pitch and roll are those of the surface below it.
         """
         states = [now]
-        for step in reversed(self._steps):
-            if actor in step.jumped or actor not in step.ids:
+        for step in (self._last, self._before):
+            if step is None or actor in step.jumped or actor not in step.ids:
                 break
             states.append(step.states[step.ids.index(actor)])
         return Kinematics(states, dt, lies=lies)

@@ -175,8 +175,8 @@ class World(Protocol):
     def progress(self, actor: str, slot: str) -> Progress:
         """Progress of the command in a slot."""
 
-    def unsteady(self) -> Collection[str]:
-        """Actors of which a command may have failed in the last step; the others just go on."""
+    def changed(self) -> Collection[str]:
+        """Actors of which the progress of a command may have changed in the last step."""
 
     def assign(
         self,

@@ -86,7 +86,7 @@ class FakeWorld:
     def take_notes(self) -> tuple[()]:
         return ()
 
-    def unsteady(self) -> tuple[()]:
+    def changed(self) -> tuple[()]:
         return ()
 
 

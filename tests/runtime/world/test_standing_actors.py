@@ -29,7 +29,7 @@ def world_with(road_map: RoadMap, driving: int, standing: int) -> EmbeddedWorld:
         world.place(spec.id, LanePosition("1", lane, s), 10.0 if i < driving else 0.0)
     for _ in range(3):
         world.step()
-        world.unsteady()
+        world.changed()
     return world
 
 
@@ -37,7 +37,7 @@ def drives_on(world: EmbeddedWorld) -> Callable[[], None]:
     def steps() -> None:
         for _ in range(10):
             world.step()
-            world.unsteady()
+            world.changed()
 
     return steps
 

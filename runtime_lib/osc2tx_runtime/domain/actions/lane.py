@@ -174,6 +174,11 @@ class ChangeLane(_OnLane):
         """Commands the change."""
         self.shift(self._lanes(), value_of(self.offset), self.duration)
 
+    @property
+    def looks_further(self) -> bool:
+        """Only after a jump."""
+        return self.may_jump
+
     def on_update(self) -> Status:
         """Ends in the lane, after a jump at the next step."""
         if self.may_jump and not self.has_goal:

@@ -72,7 +72,7 @@ class ModifiableAction(ModifiedMotion):
         self._counted = (0, 0.0)
         self._watched: PlaceWatch | None = None
         self._toward: object = None  # the lane of a reference, or its heading
-        self._only_goes_on = False
+        self._waits = False  # for news of its actor, or for its time to be over
 
     def become(self, method: Method) -> None:
         """Take the method; a goal bounds the action."""
@@ -160,7 +160,7 @@ class ModifiableAction(ModifiedMotion):
         """Start."""
         self._reached, self._jumped, self._covered, self._to_cover = False, False, 0.0, None
         self._toward = self._watched = None
-        self._only_goes_on = False
+        self._waits = False
         super().initialise()
 
     def on_started(self) -> None:
@@ -186,7 +186,7 @@ class ModifiableAction(ModifiedMotion):
             super().command(LONGITUDINAL, Careful(None))
         if side is not None:
             self.command(LATERAL, side)
-        self._only_goes_on = self._has_nothing_to_see_to()
+        self._waits = self._has_nothing_to_see_to()
 
     def command(self, slot: str, command: Command) -> None:
         """Command the actor, with care if a modifier asks for it."""
@@ -206,28 +206,27 @@ class ModifiableAction(ModifiedMotion):
         standard = self.context.settings.conduct == "standard"
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
-    def pulse(self) -> Status:
-        """Look only for what hinders it, where it has nothing else to see to; then rest."""
-        if self._only_goes_on and self.status is Status.RUNNING:
-            progress_of, actor_id = self.context.world.progress, self.actor.id
-            for slot in self.slots or (LONGITUDINAL,):
-                if progress_of(actor_id, slot).failed is not None:
-                    break
-            else:
-                self.context.rest(self, actor_id)
-                return Status.RUNNING
-        return super().pulse()
-
     def _has_nothing_to_see_to(self) -> bool:
-        """Whether only what surrounds the action ends it, and it commands nothing any more."""
-        watched = (self._limits, self._to_cover, self._watched, self._toward, self.orient)
+        """Whether it commands nothing any more, and ends by progress or time alone."""
+        watched = (self._to_cover, self._watched, self._toward, self._phase, self.orient)
         return (
-            self.registered.ends == "open"
-            and not self.has_goal
-            and all(each is None for each in watched)
+            all(each is None for each in watched)
             and self._is_ours
-            and type(self).on_update is ModifiableAction.on_update
+            and not self.looks_further
+            and self.option() != "must_be_physical"
         )
+
+    @property
+    def looks_further(self) -> bool:
+        """Whether it looks at more than its goal and its references in each pass."""
+        return type(self).on_update is not ModifiableAction.on_update
+
+    def _rest(self) -> None:
+        """Rest, unless the time is over that it may take."""
+        resting = self.context.resting
+        if self._limits is None or self._limits.rest():
+            resting.with_actor(self, self.actor.id)
+            resting.nodes.add(self)
 
     def on_update(self) -> Status:
         """Ends with its goal; keeps up with references."""
@@ -257,6 +256,8 @@ class ModifiableAction(ModifiedMotion):
         if over and self.has_goal and not self._reached:
             missed = None if self._watched is None else self._watched.missed
             return self.fail(missed or self._not_reached())
+        if self._waits and status is Status.RUNNING and self.elapsed_steps:
+            self._rest()  # at its start its commands are not at work yet
         return Status.SUCCESS if over else status
 
     def _not_reached(self) -> str:

@@ -113,10 +113,12 @@ class Measures(MeasuredObject):
         0 while both overlap in this direction. Lateral moves are free: vehicles in neighbouring
         lanes have a longitudinal gap as well.
         """
-        shape, other = self.state.shape, reference.state.shape
+        world = self.context.world
+        me, other = world.state(self.id), world.state(reference.id)
         if direction == "longitudinal":
-            return Measured(gap_between(-self._distance_along(reference), shape, other))
-        return Measured(side_gap(self._distance_across(reference), shape, other))
+            along = -self._way(world.map, me, reference, other)
+            return Measured(gap_between(along, me.shape, other.shape))
+        return Measured(side_gap(self._distance_across(reference), me.shape, other.shape))
 
     def time_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space gap over the speed of the follower (s); lateral: over the approach speed."""

@@ -12,6 +12,7 @@ from osc2tx_runtime.world.state import ActorState
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
+    from osc2tx_runtime.opendrive import RoadMap
 
 __all__ = ["MeasuredObject", "RoutePosition"]
 
@@ -34,7 +35,13 @@ class MeasuredObject:
     def _distance_along(self, reference: MeasuredObject) -> float:
         """Route distance (m) to the reference, positive if it is ahead."""
         world = self.context.world
-        along = along_lanes(world.map, world.state(self.id), world.state(reference.id))
+        return self._way(world.map, world.state(self.id), reference, world.state(reference.id))
+
+    def _way(
+        self, road_map: RoadMap, me: ActorState, reference: MeasuredObject, there: ActorState
+    ) -> float:
+        """Route distance (m) from one state to another one, of the reference."""
+        along = along_lanes(road_map, me, there)
         if along is None:
             raise self._no_way(reference)
         return along

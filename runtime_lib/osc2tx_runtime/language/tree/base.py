@@ -186,7 +186,7 @@ class Node(Behaviour):
             elif new_status is SUCCESS:
                 self.ended_late = self.lateness()
             self._stop_children(new_status)
-            self.context.resting.discard(self)
+            self.context.resting.forget(self)
             self.terminate(new_status)
             self._post_life_event(new_status)
             self.context.trace.node_ends(self, self.context.time, new_status.name)

@@ -36,6 +36,7 @@ class Composition(Node):
     _members: tuple[Member, ...] = ()
     _active: list[Member]  # those at work, where several are
     _is_plain = True  # only the members decide what becomes of it
+    _may_rest = True  # only they, and the time
 
     def setup(self, **kwargs: Any) -> None:
         """Take the context; find out what ends by itself. Members were set up before."""
@@ -108,25 +109,28 @@ class Composition(Node):
         raise NotImplementedError
 
     def _pulse_active(self) -> list[tuple[Behaviour, Status]]:
-        """Pulse the members at work that do not rest; return those that end, with their status.
-
-        A composition whose members all rest has nothing to do either.
-        """
-        resting, active, rests = self.context.resting, self._active, self._is_plain
+        """Pulse the members at work that do not rest; return those that end, with their status."""
+        resting, active, rests = self.context.resting.nodes, self._active, self._may_rest
         ended: list[tuple[Behaviour, Status]] = []
         for child, pulse in active:
             if child in resting:
                 continue
-            rests = False
             status = pulse()
             if status is not RUNNING:
                 ended.append((child, status))
+            elif child not in resting:
+                rests = False
         if ended:
             gone = {child for child, _ in ended}
             self._active = [member for member in active if member[0] not in gone]
         elif rests and active:
-            resting.add(self)
+            self._rest()
         return ended
+
+    def _rest(self) -> None:
+        """Rest as all members at work do, until its time may be over."""
+        if self._limits is None or self._limits.rest():
+            self.context.resting.nodes.add(self)
 
 
 class Serial(Composition, SequenceComposite):
@@ -164,17 +168,15 @@ class Serial(Composition, SequenceComposite):
         return sum(known) if len(known) == len(lengths) else None
 
     def _advance(self) -> Status:
-        members, context = self._members, self.context
+        members, context, resting = self._members, self.context, self.context.resting.nodes
         late = context.late
         while self._index < len(members):
             self.current_child, pulse = members[self._index]
-            if self.current_child in context.resting:
-                if self._is_plain:
-                    context.resting.add(self)
-                return RUNNING
-            status = pulse()
+            status = RUNNING if self.current_child in resting else pulse()
             if status is not SUCCESS:
                 context.late = late
+                if self.current_child in resting:
+                    self._rest()
                 return status
             self._index += 1
             context.late = ended_late(self.current_child)

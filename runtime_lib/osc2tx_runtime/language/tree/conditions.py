@@ -23,13 +23,13 @@ __all__ = [
     "Condition",
     "Deadline",
     "Edge",
+    "Level",
     "Watch",
     "elapsed",
     "evaluate",
     "every",
     "fall",
     "rise",
-    "watch_level",
 ]
 
 SETTLED_STEPS = 2
@@ -114,21 +114,32 @@ def every(period: float, offset: float = 0.0) -> Condition:
     return Condition(f"every {period:g} s", watch)
 
 
-def watch_level(function: Callable[[], bool], context: ExecutionContext) -> Watch:
-    """Watch a function that counts while it is true, sampled once per snapshot."""
-    sampled, value = -1, False
+class Level:
+    """Watches a function that counts while it is true, sampled once per snapshot.
 
-    def happened() -> bool:
-        nonlocal sampled, value
-        if context.snapshot != sampled:
-            sampled = context.snapshot
+    Args:
+        function: The function.
+        context: The run.
+    """
+
+    __slots__ = ("_context", "_function", "_sampled", "_value")
+
+    def __init__(self, function: Callable[[], bool], context: ExecutionContext) -> None:
+        self._function = function
+        self._context = context
+        self._sampled = -1
+        self._value = False
+
+    def __call__(self) -> bool:
+        """Return whether the function is true in the present snapshot."""
+        snapshot = self._context.snapshot
+        if snapshot != self._sampled:
             try:  # as in `evaluate`
-                value = bool(function())
+                self._value = bool(self._function())
             except EVALUATION_ERRORS as error:
                 raise without_value(error) from error
-        return value
-
-    return happened
+            self._sampled = snapshot
+        return self._value
 
 
 class Deadline:
@@ -139,18 +150,19 @@ class Deadline:
         context: The run.
 
     Attributes:
-        late: Seconds by which the end lies before the step at which it shows.
+        step: At which it shows.
+        late: Seconds by which the end lies before that step.
     """
 
-    __slots__ = ("_context", "_step", "late")
+    __slots__ = ("_context", "late", "step")
 
     def __init__(self, seconds: float, context: ExecutionContext) -> None:
         self._context = context
-        self._step, self.late = context.due(seconds, context.late)
+        self.step, self.late = context.due(seconds, context.late)
 
     def __call__(self) -> bool:
         """Return whether the time is over."""
-        return self._context.step >= self._step
+        return self._context.step >= self.step
 
 
 class Edge:

@@ -27,7 +27,7 @@ from osc2tx_runtime.language.tree.conditions import (
     Watch,
 )
 from osc2tx_runtime.language.tree.duration_limits import Limits
-from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, watch
+from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, rest_until, watch
 from osc2tx_runtime.language.tree.module_text import function_text
 
 __all__ = ["Call", "Emit", "Until", "Wait"]
@@ -76,7 +76,10 @@ class Wait(Leaf):
 
     def update(self) -> Status:
         """Succeed when it happened."""
-        return SUCCESS if self._happened() else RUNNING
+        if self._happened():
+            return SUCCESS
+        rest_until(self, (self._happened,), self.context)
+        return RUNNING
 
 
 class Emit(Leaf):
@@ -221,11 +224,20 @@ class Until(Node, Decorator):
         elif self._has_ended:
             status = self._missed()
         else:
-            status = self._pulse_child()
-            if status is SUCCESS and not self._may_end():
-                self._has_ended, status = True, self._missed()
+            status = self._run_behavior()
         if status is not RUNNING:
             self.stop(status)
+        return status
+
+    def _run_behavior(self) -> Status:
+        """Run it for one pass, unless it rests."""
+        resting, behavior = self.context.resting.nodes, self.decorated
+        status = RUNNING if behavior in resting else self._pulse_child()
+        if status is SUCCESS and not self._may_end():
+            self._has_ended = True
+            return self._missed()
+        if behavior in resting:
+            rest_until(self, self._happened, self.context)
         return status
 
     def _judge(self) -> Status:

@@ -121,6 +121,15 @@ class Limits:
         """The least duration in steps."""
         return self._node.context.steps(self._seconds[0])
 
+    def rest(self) -> bool:
+        """Have its node woken when the next of its ends comes; return whether it may rest now."""
+        context = self._node.context
+        step, ends = context.step, [end for end, _ in (self._low, self._end, self._high)]
+        if step >= min(ends[1:]):
+            return False
+        context.resting.until(self._node, min(end for end in ends if end > step))
+        return True
+
     def judge(self, status: Status, open_ended: bool, late: float = 0.0) -> Status:
         """Return the node's status for that of its content.
 

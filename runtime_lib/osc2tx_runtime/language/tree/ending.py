@@ -81,7 +81,11 @@ class Ending(Node, Decorator):
         """Run the tree, then see whether it said that it is over; failures count first."""
         if self.status is not RUNNING:
             self._begin()
-        status = self._pulse_child()
+        resting = self.context.resting.nodes
+        status = RUNNING if self.decorated in resting else self._pulse_child()
+        if self.decorated in resting:  # and nothing in it ends the scenario
+            resting.add(self)
+            return RUNNING
         reached = [end for end in self._ends if end.status is RUNNING]
         failed = [end for end in reached if isinstance(end, Fail)]
         if status is RUNNING and reached and not self.context.settled:

@@ -12,13 +12,22 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.tree.conditions import Condition, Watch, evaluate, watch_level
+from osc2tx_runtime.language.tree.conditions import (
+    Condition,
+    Deadline,
+    Edge,
+    Level,
+    Watch,
+    evaluate,
+)
 from osc2tx_runtime.language.tree.module_text import function_text
 
 if TYPE_CHECKING:
+    from py_trees.behaviour import Behaviour
+
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Event", "Guard", "Trigger", "describe", "watch"]
+__all__ = ["Event", "Guard", "Trigger", "describe", "rest_until", "watch"]
 
 
 class Event:
@@ -128,7 +137,7 @@ def watch(trigger: Trigger, only_if: Guard | None, context: ExecutionContext) ->
         return watch_event(trigger.meant(), only_if, context)
     happened = trigger.watch(context) if isinstance(trigger, Condition) else None
     if happened is None:
-        happened = watch_level(trigger, context)  # type: ignore[arg-type]
+        happened = Level(trigger, context)  # type: ignore[arg-type]
     if only_if is None:
         return happened
     first, second = happened, watch_guard(only_if, context)
@@ -139,7 +148,7 @@ def watch_guard(guard: Guard, context: ExecutionContext) -> Watch:
     """Start watching a guard; a function is sampled anew in each snapshot."""
     if isinstance(guard, Condition):
         return guard.watch(context)
-    return watch_level(guard, context)
+    return Level(guard, context)
 
 
 def watch_event(event: Event, only_if: Guard | None, context: ExecutionContext) -> Watch:
@@ -182,6 +191,11 @@ class Occurrences:
         self._context = context
         self._seen = context.tick
 
+    @property
+    def comes_by_itself(self) -> bool:
+        """Whether nothing needs to be asked until an event occurs."""
+        return self._holds is None
+
     def is_allowed(self) -> bool:
         """Return whether the guard is true now, for the arguments that the event has."""
         if self._holds is not None:
@@ -207,6 +221,22 @@ class Occurrences:
             if self.is_allowed():
                 self.matching.append(arguments)
         return bool(self.matching)
+
+
+def rest_until(node: Behaviour, watches: Sequence[Watch], context: ExecutionContext) -> None:
+    """Let a node rest until one of its watches may say yes, where that can be known."""
+    resting = context.resting
+    asked = []
+    for each in watches:
+        if isinstance(each, Edge | Level):
+            asked.append(each)
+        elif isinstance(each, Deadline):
+            resting.until(node, each.step)
+        elif not (isinstance(each, Occurrences) and each.comes_by_itself):
+            return
+    if asked:
+        resting.unless(node, asked)
+    resting.nodes.add(node)
 
 
 def describe(trigger: Trigger, condition: Guard | None = None) -> str:

@@ -93,7 +93,8 @@ class Parallel(Composition, ParallelComposite):
         self._bounding = frozenset(child for child in self._lasting() if not is_open(child))
         if self.overlap != "start" or self.start_to_start or self.end_to_end is not None:
             self._schedule = self._plan()
-        self._is_plain = self._is_plain and not self._services and self._schedule is None
+        self._may_rest = not self._services and self._schedule is None
+        self._is_plain = self._is_plain and self._may_rest
 
     def initialise(self) -> None:
         """Start with all members, or as planned."""
