@@ -99,10 +99,14 @@ def manifest(corpus: Path) -> list[dict[str, str]]:
 
 def compilation_of(corpus: Path, row: Mapping[str, str]) -> Compilation:
     """Return the compilation of a file of the manifest; no stage has run yet."""
-    file, dialect = row["file"], row["dialect"]
-    folders = (file.partition("/")[0], *ROOTS.get(dialect, ()))
-    roots = [corpus / folder for folder in folders]
-    return Compilation(corpus / file, file, OPTIONS[dialect], roots=roots)
+    file = row["file"]
+    return Compilation(corpus / file, file, OPTIONS[row["dialect"]], roots=roots_of(corpus, row))
+
+
+def roots_of(corpus: Path, row: Mapping[str, str]) -> list[Path]:
+    """Return where a file looks for what it imports."""
+    folders = (row["file"].partition("/")[0], *ROOTS.get(row["dialect"], ()))
+    return [corpus / folder for folder in folders]
 
 
 def _compile(corpus: Path, row: Mapping[str, str]) -> Result:

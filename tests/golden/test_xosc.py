@@ -3,7 +3,7 @@
 `scenario.xosc` is the document in 1.3, if there is one, `parameters.xosc` the one with the values
 of open ranges, `report.json` the loss report. `versions.txt` says which versions can say it, and
 what the others lack. A first line `# osc2tx: …` of a case names options: `one_of=first`,
-`profile=esmini`, `signal=go@1s`, `allow_approx`.
+`profile=esmini`, `dialect=carla`, `signal=go@1s`, `allow_approx`.
 """
 
 import json
@@ -36,6 +36,7 @@ def given(text: str) -> GivenOptions:
     words = first.removeprefix(MARK).split() if first.startswith(MARK) else []
     pairs = dict(word.partition("=")[::2] for word in words)
     return GivenOptions(
+        dialect=pairs.get("dialect"),
         one_of=pairs.get("one_of"),
         xml_profile=pairs.get("profile"),
         allow_approx=True if "allow_approx" in pairs else None,

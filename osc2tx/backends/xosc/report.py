@@ -79,6 +79,10 @@ class Inexpressible(Exception):
         self.remedy = remedy
 
 
+class NoPlace(Inexpressible):
+    """There is no place for an actor at the start: the embedded world has none, either."""
+
+
 @dataclass(frozen=True, slots=True)
 class Metres:
     """How far an actor is from its place, at most.

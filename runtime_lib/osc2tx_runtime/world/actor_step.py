@@ -36,7 +36,7 @@ from .seam_smoothing import Residual, crossed
 from .state import ActorState
 from .step_inputs import StepInputs
 
-__all__ = ["ANY_LANE", "CRUISE", "MovingActor", "cruise_of"]
+__all__ = ["ALIGNED", "ANY_LANE", "CRUISE", "MovingActor", "cruise_of"]
 
 CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
 """Speed (m/s) at which those who stand set out on a course; vehicles: `CRUISE_VEHICLE`."""
@@ -57,7 +57,7 @@ ANY_LANE = DRIVING | {
 
 _NEAR = 0.5  # m: how far outside a lane an actor is still on it
 _STILL = 1e-9  # m/s
-_ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
+ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 
 @dataclass
@@ -358,7 +358,7 @@ class MovingActor:
         turn = turn_from(road_map, home, state)
         offset = offset_from(road_map, home, state.x, state.y)
         inside = abs(offset) <= 0.5 * road_map.lane_width(home.road, home.lane, home.s)
-        if inside and abs(turn) <= (_ALIGNED if state.v > 0.5 else 1e-3):
+        if inside and abs(turn) <= (ALIGNED if state.v > 0.5 else 1e-3):
             rate = state.v * math.sin(turn)
             profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.limits)
             self.bound = LanePosition(home.road, home.lane, home.s, offset)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from osc2tx.backends.xosc.actions.xml_positions import (
     UNKNOWN,
@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import (
     MapSegment,
-    begin_of,
+    beginnings_of,
     crossing_of,
     points_of_route,
 )
@@ -87,25 +87,32 @@ def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
 
 
 def point_along(ctx: Context, route: Constant | None, offset: float) -> LanePosition | Pose:
-    """Return the place so far (m) along a route or a path.
+    """Return the place so far (m) along a route or a path; see `points_along`."""
+    return next(points_along(ctx, route, offset))
+
+
+def points_along(
+    ctx: Context, route: Constant | None, offset: float
+) -> Iterator[LanePosition | Pose]:
+    """Yield the places so far (m) along a path, or along each lane in which a route begins.
 
     Raises:
-        Inexpressible: It is not known before the run, or ends before.
+        Inexpressible: They are not known before the run, or it ends before.
     """
     roads = required_roads(ctx)
     segment = segment_of(ctx, route)
     if segment is not None and crossing_of(segment) is None:
-        place = roads.ahead(begin_of(roads, segment), offset)
-        if place is None:
-            raise Inexpressible(f"the route ends before {offset:g} m")
-        return place
+        for begin in beginnings_of(roads, segment):
+            place = roads.ahead(begin, offset)
+            if place is None:
+                raise Inexpressible(f"the route ends before {offset:g} m")
+            yield place
+        return
     line = line_of_route(ctx, route)
     first = sample_curve(line.points, is_timed=False, is_smooth=False, offsets=(offset, 0.0))[0]
     on = roads.locate(first.x, first.y, first.z)
-    if on is not None:
-        return on
     heading = 0.0 if first.h is None else round(first.h, 9)
-    return Pose(round(first.x, 6), round(first.y, 6), round(first.z, 6), heading)
+    yield on or Pose(round(first.x, 6), round(first.y, 6), round(first.z, 6), heading)
 
 
 def line_of_route(ctx: Context, route: Constant | None) -> Line:

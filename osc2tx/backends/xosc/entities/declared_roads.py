@@ -36,6 +36,15 @@ def segment_of(ctx: Context, value: Constant | None) -> MapSegment | None:
     return _segments(ctx).get(value.name)
 
 
+def check_declared(ctx: Context) -> None:
+    """See to it that the map has the roads that are declared, whether they are used or not."""
+    if ctx.roads is not None:
+        try:
+            _segments(ctx)
+        except Inexpressible as error:
+            ctx.report.cannot("roads of the map", ctx.scenario.span, error.reason)
+
+
 def check_map(ctx: Context, placement: ir.Placement) -> None:
     """See to it that the map is as its modifiers want it.
 

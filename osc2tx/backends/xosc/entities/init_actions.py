@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.speed_changes import speed_action
 from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.placing import InitialPlacing
 from osc2tx.backends.xosc.entities.start_orientations import note_turn
-from osc2tx.backends.xosc.entities.start_positions import position_of
 from osc2tx.backends.xosc.entities.start_statements import (
     Start,
     in_order,
@@ -13,9 +13,9 @@ from osc2tx.backends.xosc.entities.start_statements import (
     starts_of,
 )
 from osc2tx.backends.xosc.entities.towing import towing
-from osc2tx.backends.xosc.state import ActorState, known
+from osc2tx.backends.xosc.report import NoPlace
+from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.xml.tree import Element, element
-from osc2tx_classes import replace
 
 OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})
 """Modifiers that say nothing about the start, and are written down with their invocation."""
@@ -25,26 +25,30 @@ def initial_actions(ctx: Context) -> list[Element]:
     """Return the start of each actor, references first, and note what is known about them."""
     for member in ctx.entities:
         ctx.states[member.name] = ActorState()
+    starts = starts_of(ctx)
+    placing = InitialPlacing(ctx, towing(ctx))
+    try:
+        placing.fill(starts)
+    except NoPlace as error:
+        ctx.report.cannot("placement", error.span or ctx.scenario.span, error.reason)
     privates = []
-    tows = towing(ctx)
-    for start in in_order(starts_of(ctx)):
-        tow = tows.get(start.member.name)
-        if tow is not None:  # where it is follows from the vehicle that tows it
-            ctx.states[start.member.name] = replace(ctx.states[tow], lane=None)
-            continue
-        with ctx.within(start.scope), ctx.report_as("placement", start.span):
-            privates.append(_private(ctx, start))
+    for start in in_order(starts):
+        if start.id in placing.refused:
+            refusal = placing.refused[start.id]
+            span = refusal.span or start.span
+            ctx.report.cannot("placement", span, refusal.reason, refusal.remedy)
+        elif start.id in placing.positions:
+            with ctx.within(start.scope), ctx.report_as("placement", start.span):
+                note_turn(ctx, start)
+                privates.append(_private(ctx, start, placing.positions[start.id]))
     ctx.at_start = dict(ctx.states)
     return privates
 
 
-def _private(ctx: Context, start: Start) -> Element:
+def _private(ctx: Context, start: Start, position: Element) -> Element:
     member = start.member
-    position, state = position_of(ctx, start)
     actions = [element("PrivateAction", element("TeleportAction", element("Position", position)))]
     speed = speed_at_start(ctx, start)
-    ctx.states[member.name] = replace(state, speed=known(speed))
-    note_turn(ctx, start, ctx.states[member.name])
     if speed != 0.0:
         actions.append(speed_action(speed, "step", "time", 0.0))
     tows = start.modifiers.get("tow_trailer")

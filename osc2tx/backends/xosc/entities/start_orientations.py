@@ -9,16 +9,19 @@ from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start
-from osc2tx.backends.xosc.facts.actors import Linear, apart, course_of_shift
+from osc2tx.backends.xosc.entities.stationary_actors import stands
+from osc2tx.backends.xosc.facts.actors import ALIGNED, Linear, apart, course_of_shift, lost_across
 from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.report import Inexpressible, Metres
-from osc2tx.backends.xosc.state import ActorState
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 """Angle (rad) between the lines that `yaw_measure_by` names."""
 
 at_start("yaw", "orientation")
+
+STRAIGHT = 1e-6
+"""Sine of an angle to a lane that counts as none."""
 
 NEAR = 0.05
 """Metres beside its lane that count as in it."""
@@ -48,12 +51,10 @@ def turned(ctx: Context, start: Start, along: float) -> tuple[float, float | Non
 
 
 def _heading_of(ctx: Context, other: CastMember, source: Arguments) -> float:
-    state = ctx.states[other.name]
-    if state.pose is not None:
-        return state.pose.h
-    if state.lane is None or ctx.roads is None:
+    pose = ctx.start_poses.get(other.name)
+    if pose is None:
         raise Inexpressible(f"the heading of {other.name} is not known", source.source.span)
-    return ctx.roads.pose(state.lane).h
+    return pose.h
 
 
 def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) -> Element | None:
@@ -72,22 +73,33 @@ def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) 
     )
 
 
-def note_turn(ctx: Context, start: Start, state: ActorState) -> None:
-    """Report that who moves and is turned in its lane comes into its direction in a curve."""
+def note_turn(ctx: Context, start: Start) -> None:
+    """Report that who drives and is turned in its lane comes into its direction in a curve.
+
+    Raises:
+        Inexpressible: It looks so far away from the lane that it does not come into it at all.
+    """
+    roads, member, pose = ctx.roads, start.member, ctx.start_poses.get(start.id)
+    lane = None if pose is None or roads is None else roads.locate(*pose[:3])
+    if member.walks or pose is None or roads is None or lane is None:
+        return
+    angle = math.remainder(pose.h - roads.pose(lane).h, math.tau)
+    speed = ctx.states[member.name].speed
+    v = 0.0 if speed is None else speed.low
+    if abs(math.sin(angle)) < STRAIGHT or (v == 0.0 and stands(ctx, member.name)):
+        return
     given = start.modifiers.get("yaw") or start.modifiers.get("orientation")
-    if given is None or state.lane is None or ctx.roads is None or not state.speed:
-        return
-    along = ctx.roads.pose(state.lane).h
-    angle = math.remainder(turned(ctx, start, along)[0] - along, math.tau)
-    rate = state.speed.low * math.sin(angle)
-    if start.member.walks or rate == 0.0:
-        return
-    course = course_of_shift(0.0, "none", None, None, start.member.limits, rate)
-    off = apart(course, Linear(0.0, 0.0, 0.0))
-    if off > NEAR:
-        ctx.report.approximate(
-            "orientation at the start",
-            given.source.span,
-            "it comes into the direction of its lane in a curve; a tool may turn it at once",
-            Metres(off, "beside its lane"),
-        )
+    span = start.span if given is None else given.source.span
+    if math.cos(angle) <= 0.0:
+        along = Remedy(instead="a heading along its lane is exact")
+        raise Inexpressible("it looks away from its lane, in which a tool may keep it", span, along)
+    bound: Metres | str = "until it is in its lane, as far as the curve is longer"
+    if v > 0.0 and abs(angle) <= ALIGNED:
+        rate = v * math.sin(angle)
+        course = course_of_shift(-lane.offset, "none", None, None, member.limits, rate)
+        off = math.hypot(apart(course, Linear(0.0, 0.0, 0.0)), lost_across(course, v))
+        if off <= NEAR:
+            return
+        bound = Metres(off, "beside its lane")
+    reason = "it comes into the direction of its lane in a curve; a tool may turn it at once"
+    ctx.report.approximate("orientation at the start", span, reason, bound)

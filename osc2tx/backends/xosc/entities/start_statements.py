@@ -4,20 +4,31 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments
-from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
+from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.entities.declared_roads import check_map, is_map
+from osc2tx.backends.xosc.entities.declared_roads import check_declared, check_map, is_map
 from osc2tx.backends.xosc.entities.towing import towing
+from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
 from osc2tx.diagnostics import Span
-from osc2tx_classes import dataclass
+from osc2tx_classes import dataclass, replace
 
 
 @dataclass(slots=True)
 class Start:
-    """The start of one actor: modifiers by name, whom it refers to, and whether by its place."""
+    """The start of one actor.
+
+    Attributes:
+        member: Who.
+        scope: Where it is said.
+        placement: What is said; `None`: nothing.
+        modifiers: The same, by name.
+        references: Whom it refers to.
+        is_beside: It refers to somebody's place.
+        is_given: An option says where it is.
+    """
 
     member: CastMember
     scope: Scope
@@ -25,6 +36,25 @@ class Start:
     modifiers: dict[str, Arguments]
     references: tuple[str, ...]
     is_beside: bool = False
+    is_given: bool = False
+
+    @property
+    def id(self) -> str:
+        """Who."""
+        return self.member.name
+
+    @property
+    def rank(self) -> int:
+        """Points come before what is relative, open places last."""
+        if "location" in self.modifiers or is_at_point(self.modifiers.get("position")):
+            return 0
+        return 1 if self.references or self.is_given else 2
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is left open how far along the road it starts, or in which lane."""
+        told = "lane" if "along" in self.modifiers else "position"
+        return self.rank == 2 and told not in self.modifiers
 
     @property
     def span(self) -> Span:
@@ -36,14 +66,18 @@ RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
 FASTER = {"faster_than": 1.0, "slower_than": -1.0}
 """Parameters that name whose speed another one is relative to, with the sign of the difference."""
 
-TURNS = frozenset({"orientation", "speed", "tow_trailer", "yaw"})
-"""Modifiers that name others without a place beside them."""
+BESIDE = frozenset({"lane", "position"})
+"""Modifiers that say a place beside the actors that they name."""
 
-without_form("modifier", "on_path", "which piece of road it is, only the embedded world finds out")
+
+def is_at_point(position: Arguments | None) -> bool:
+    """Whether a position is a point in the world."""
+    return position is not None and ("at_point" in position or "x" in position)
 
 
 def starts_of(ctx: Context) -> list[Start]:
     """Return the start of each actor; what is wrong with one is in the report."""
+    check_declared(ctx)
     found: dict[str, Start] = {}
     for scope in ctx.scope.all():
         for placement in scope.scenario.placements:
@@ -60,11 +94,13 @@ def starts_of(ctx: Context) -> list[Start]:
                     raise Inexpressible(f"{member.name} is placed twice")
                 found[member.name] = _start(ctx, scope, member, placement)
     tows = towing(ctx)
-    return [
+    starts = [
         found.get(member.name)
         or Start(member, ctx.scope, None, {}, tuple(tows.get(member.name, "").split()))
         for member in ctx.entities
     ]
+    given = dict(map(read_spawn, ctx.options.spawns))
+    return [replace(start, is_given=start.id in given) for start in starts]
 
 
 def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placement) -> Start:
@@ -80,19 +116,19 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
             other = arguments.entity(name)
             if other is not None:
                 references.append(other.name)
-                is_beside = is_beside or modifier not in TURNS
+                is_beside = is_beside or modifier in BESIDE
     return Start(member, scope, placement, modifiers, tuple(references), is_beside)
 
 
 def in_order(starts: list[Start]) -> list[Start]:
-    """Sort so that references come first; a ring keeps its order, and is refused later."""
+    """Sort so that references come first: tools put actors somewhere one after the other."""
     placed: set[str] = set()
     ordered: list[Start] = []
     waiting = list(starts)
     while waiting:
         ready = next((s for s in waiting if placed.issuperset(s.references)), waiting[0])
         waiting.remove(ready)
-        placed.add(ready.member.name)
+        placed.add(ready.id)
         ordered.append(ready)
     return ordered
 

@@ -18,6 +18,11 @@ def standing_heading(ctx: Context, entity: str) -> float | None:
         return None
     if not state.speed.is_known or state.speed.low != 0.0:
         return None
+    return state.pose.h if stands(ctx, entity) else None
+
+
+def stands(ctx: Context, entity: str) -> bool:
+    """Whether who stands at the start is told nothing that moves or turns it."""
     for scope in ctx.root.all():
         for node in ir.walk_behaviors(scope.scenario.body):
             if not isinstance(node, ir.Invoke) or node.action in STILL:
@@ -26,8 +31,8 @@ def standing_heading(ctx: Context, entity: str) -> float | None:
                 scope.cast.get(node.actor.name) if isinstance(node.actor, ir.FieldRef) else None
             )
             if member is None or member.name == entity:
-                return None
-    return state.pose.h
+                return False
+    return True
 
 
 def faces_along(ctx: Context, me: str, other: str) -> bool:

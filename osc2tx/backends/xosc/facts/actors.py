@@ -7,6 +7,7 @@ set of formulas for profiles and one reader of OpenDRIVE.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import sqrt
 from typing import Protocol
 
 from osc2tx.backends.xosc.report import Inexpressible
@@ -23,6 +24,7 @@ from osc2tx_runtime.world.actor_dimensions import (
     shape_of,
 )
 from osc2tx_runtime.world.actor_motion import CRUISE as SPEEDS_AT_START
+from osc2tx_runtime.world.actor_step import ALIGNED
 from osc2tx_runtime.world.commands import AccelerationChange, SpeedChange
 from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral import shift_profile
@@ -34,6 +36,7 @@ from osc2tx_runtime.world.weather_effects import Surroundings
 
 __all__ = [
     "ADHESION",
+    "ALIGNED",
     "CATEGORIES",
     "COMFORT",
     "COSINE_PEAK",
@@ -58,6 +61,7 @@ __all__ = [
     "fastest",
     "held_by",
     "limits_of",
+    "lost_across",
     "road_condition",
     "shape_of",
     "way_between",
@@ -173,6 +177,13 @@ def apart(one: Course, other: Course) -> float:
     step = max(one.duration, other.duration) / STEPS
     times = (index * step for index in range(STEPS + 1))
     return max(abs(one.value(time) - other.value(time)) for time in times)
+
+
+def lost_across(course: Profile, speed: float) -> float:
+    """Return how far (m) who drives at a speed (m/s) stays behind because it shifts aside."""
+    step = course.duration / STEPS
+    rates = (course.rate((index + 0.5) * step) for index in range(STEPS))
+    return sum(step * (speed - sqrt(max(speed**2 - rate**2, 0.0))) for rate in rates)
 
 
 def fastest(course: Profile) -> float:

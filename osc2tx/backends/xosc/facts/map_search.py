@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
@@ -25,6 +25,7 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import (
     LaneSection,
     Road,
     RoadPart,
+    RoadPath,
     Route,
 )
 from osc2tx_runtime.enums import ConnectRoutePoints
@@ -39,6 +40,7 @@ __all__ = [
     "PartReference",
     "QueryValue",
     "begin_of",
+    "beginnings_of",
     "crossing_of",
     "end_of",
     "points_of_route",
@@ -46,6 +48,7 @@ __all__ = [
 ]
 
 PARTS: Mapping[str, type[RoadPart]] = {
+    "Path": RoadPath,
     "compound_lane": CompoundLane,
     "compound_route": CompoundRoute,
     "crossing": Crossing,
@@ -55,7 +58,7 @@ PARTS: Mapping[str, type[RoadPart]] = {
     "road": Road,
     "route": Route,
 }
-"""Type of the library (§8.12) -> what is looked for."""
+"""Type of the library (§8.12) or the dialect -> what is looked for."""
 
 
 class PartReference(NamedTuple):
@@ -151,6 +154,11 @@ def crossing_of(segment: MapSegment) -> tuple[Waypoint, Waypoint] | None:
 def begin_of(roads: Roads, segment: MapSegment) -> LanePosition:
     """Return where a segment begins, in direction of travel."""
     return graph_of(roads.map).begin(segment)
+
+
+def beginnings_of(roads: Roads, segment: MapSegment) -> Iterator[LanePosition]:
+    """Return where the lanes begin in which a segment begins."""
+    return graph_of(roads.map).beginnings(segment)
 
 
 def end_of(roads: Roads, segment: MapSegment) -> LanePosition:

@@ -22,6 +22,7 @@ from osc2tx_runtime.world.lane_neighbours import (
     lane_beside,
     lane_with_number,
     lanes_to_left,
+    offset_from,
 )
 from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.traffic_light_states import Signals
@@ -46,27 +47,6 @@ class Roads:
     def sharpest_bend(self) -> float:
         """The largest curvature (1/m) of a driving lane."""
         return BendsAhead(self.map).sharpest()
-
-    def numbered(self, number: int, edge: str, distance: float | None) -> LanePosition | None:
-        """Return the first place on a lane with a number, so far (m) along its road.
-
-        Without a distance it is where the road begins.
-        """
-        side: Literal["left", "right"] = "right" if edge == "right" else "left"
-        seen: set[tuple[str, int]] = set()
-        for point in self.map.spawn_points():
-            direction = self.map.travel_direction(point.road, point.lane)
-            if (point.road, direction) in seen:
-                continue
-            seen.add((point.road, direction))
-            start = point if distance is None else road_entry(self.map, point)
-            step = self.map.advance(start, distance or 0.0)
-            if abs(step.travelled - (distance or 0.0)) > 1e-6:
-                continue
-            place = lane_with_number(self.map, step.position, number, side)
-            if place is not None:
-                return place
-        return None
 
     def beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
         """Return the lane of its direction so many to the left of a place; negative: right."""
@@ -152,6 +132,10 @@ class Roads:
             return Pose(x, y, altitude, 0.0)
         near = self.map.pose(road)
         return Pose(x, y, near.z + altitude, near.h)
+
+    def offset_from(self, lane: LanePosition, pose: Pose) -> float:
+        """Return how far (m) a place is to the left of the centre of a lane."""
+        return offset_from(self.map, lane, pose.x, pose.y)
 
     def signal_position(self, signal: str) -> tuple[float, float]:
         """Return where a traffic light stands (m).

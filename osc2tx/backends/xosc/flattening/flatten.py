@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.leaves import invoke
 from osc2tx.backends.xosc.flattening.overridden_members import unless_active
-from osc2tx.backends.xosc.flattening.parallel_overlaps import starts_of
+from osc2tx.backends.xosc.flattening.parallel_overlaps import is_open, starts_of
 from osc2tx.backends.xosc.flattening.slot_conflicts import report_conflicts
 from osc2tx.backends.xosc.flattening.storyboard import Act
 from osc2tx.backends.xosc.flattening.storyboard_builder import (
@@ -107,9 +107,16 @@ class Flattener:
         flow = start
         for index, member in enumerate(node.members):
             flow = self._member(member, flow)
+            is_last = index + 1 == len(node.members)
+            if flow.is_never and not is_last and is_open(member):
+                raise Inexpressible(
+                    "it never ends by itself, so what follows would never start: every run fails",
+                    member.span,
+                    Remedy(instead="a duration or an `until` is exact"),
+                )
             if flow.is_never:
                 break
-            if index + 1 < len(node.members):
+            if not is_last:
                 following = self._builder.claimed(node.members[index + 1])
                 flow = end_open_actions(self._builder, flow, member, following)
         self._ctx.report.exact("serial", node.span)

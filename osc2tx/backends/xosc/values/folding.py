@@ -222,7 +222,7 @@ class Values:
         while isinstance(base, ir.Attribute):
             path.insert(0, base.name)
             base = base.base
-        if isinstance(base, (ir.FieldRef, ir.ParameterRef)):
+        if isinstance(base, (ir.FieldRef, ir.ParameterRef, ir.Index)):
             owner = self.of(base)
             if isinstance(owner, Named):
                 value = self.field(owner.name, tuple(path))

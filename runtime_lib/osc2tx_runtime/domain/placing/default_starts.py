@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import Lane, Position
 from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
+from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.lane_neighbours import lane_with_number, number_of_lane
-
-if TYPE_CHECKING:
-    from osc2tx_runtime.domain.actors import PhysicalObject
-    from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPath
 
 __all__ = ["StartPlaces"]
 
@@ -27,7 +23,7 @@ class StartPlaces:
 
     def given(
         self,
-        actor: PhysicalObject,
+        actor: str,
         spawn: LanePosition,
         lane: Lane | None,
         position: Position | None,
@@ -35,33 +31,33 @@ class StartPlaces:
         """The place of `--spawn`, checked against the scenario."""
         if position is not None or (lane is not None and lane.reference is not None):
             raise PlacementError(
-                f"{actor.id}: the scenario says where it starts, so it takes no --spawn"
+                f"{actor}: the scenario says where it starts, so it takes no --spawn"
             )
         try:
             self._map.pose(spawn)
         except MapError as error:
-            raise PlacementError(f"--spawn {actor.id}: {error.message}") from error
+            raise PlacementError(f"--spawn {actor}: {error.message}") from error
         length = self._map.roads[spawn.road].length
         if not 0.0 <= spawn.s <= length:
             raise PlacementError(
-                f"--spawn {actor.id}: road {spawn.road} is {length:.1f} m long, so there is no"
+                f"--spawn {actor}: road {spawn.road} is {length:.1f} m long, so there is no"
                 f" s = {spawn.s:g} m"
             )
         if lane is not None:
             number = number_of_lane(self._map, spawn, lane.from_)
             if number != lane.number:
                 raise PlacementError(
-                    f"--spawn {actor.id}: lane {spawn.lane} of road {spawn.road} is number"
+                    f"--spawn {actor}: lane {spawn.lane} of road {spawn.road} is number"
                     f" {number} from the {lane.from_}, the scenario asks for {lane.number}"
                     if number
-                    else f"--spawn {actor.id}: lane {spawn.lane} of road {spawn.road} is no"
+                    else f"--spawn {actor}: lane {spawn.lane} of road {spawn.road} is no"
                     " driving lane"
                 )
         return spawn
 
     def default(
         self,
-        actor: PhysicalObject,
+        actor: str,
         lane: Lane | None,
         distance: float | None,
         is_free: Callable[[LanePosition], bool],
@@ -96,12 +92,12 @@ class StartPlaces:
         wish = "" if lane is None else f" with a lane {lane.number} from the {lane.from_}"
         far = "" if distance is None else f", {distance:g} m from its start"
         raise PlacementError(
-            f"{actor.id}: map {self._map.name} has no free place on a road{wish}{far}"
+            f"{actor}: map {self._map.name} has no free place on a road{wish}{far}"
         )
 
     def _beside(
         self,
-        actor: PhysicalObject,
+        actor: str,
         lane: Lane | None,
         distance: float,
         place: LanePosition,
@@ -114,14 +110,14 @@ class StartPlaces:
             if is_free(found):
                 return found
         raise PlacementError(
-            f"{actor.id}: somebody else is {distance:g} m from the start of road {place.road}, in"
+            f"{actor}: somebody else is {distance:g} m from the start of road {place.road}, in"
             f" lane {place.lane}; give one of them another place"
         )
 
     def on_path(
         self,
-        actor: PhysicalObject,
-        path: RoadPath,
+        actor: str,
+        segment: MapSegment,
         lane: Lane | None,
         distance: float | None,
         is_free: Callable[[LanePosition], bool],
@@ -131,7 +127,6 @@ class StartPlaces:
         Without a distance it is from a third of it on, so that there is room for those who start
         behind; if all of that is taken, before.
         """
-        segment = path.found
         section = self._map.roads[segment.road].sections[segment.section or 0]
         third = (section.end - section.begin) / 3.0
 

@@ -13,18 +13,18 @@ from osc2tx_runtime.domain.modifiers import (
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_order import (
-    Start,
+    ActorStart,
     couple,
     cycle_of,
-    is_behind,
     joined,
 )
+from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
 from osc2tx_runtime.errors import InputError, PlacementError, ScenarioError, SettingsError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
-from osc2tx_runtime.world.collision import Box, box_of, overlapping
+from osc2tx_runtime.world.collision import box_of
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.towing import pose_behind
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["ScenarioInitializer"]
 
 
-class ScenarioInitializer:
+class ScenarioInitializer(StartRoom[ActorStart]):
     """Resolves placements in the order of their dependencies and fills the world.
 
     Args:
@@ -44,16 +44,16 @@ class ScenarioInitializer:
         map_objects: Roads, lanes and the like that the scenario declares.
     """
 
+    failure = PlacementError
+
     def __init__(
         self, context: ExecutionContext, map_objects: Sequence[DeclaredObject] = ()
     ) -> None:
+        super().__init__(most_tries=len(context.world.map.spawn_points()))
         self._context = context
         self._map_objects = map_objects
         self._world = context.world
         self._placer = Placer(context.world)
-        self._boxes: dict[str, Box] = {}
-        # Places that left no room for those that start relative to it.
-        self._tried: dict[str, list[LanePosition | None]] = {}
 
     def run(self, placements: Sequence[Placement]) -> None:
         """Places every physical actor and sets the routes of those with a destination.
@@ -63,26 +63,14 @@ class ScenarioInitializer:
             SettingsError: A destination is none.
         """
         self._fill_in_roads([p for p in placements if isinstance(p.actor, Map)])
-        waiting = self._starts([p for p in placements if not isinstance(p.actor, Map)])
-        for start in waiting:
+        starts = self._starts([p for p in placements if not isinstance(p.actor, Map)])
+        for start in starts:
             self._world.add(start.actor.spec())
         spawned = self._context.settings.spawn
-        for start in waiting:
-            if start.rank == 2 and start.actor.id in spawned:
+        for start in starts:
+            if start.rank == 2 and start.id in spawned:
                 start.rank = 1
-        placed: list[Start] = []
-        while waiting:
-            ready = [s for s in waiting if all(r.id in self._boxes for r in s.references)]
-            if not ready:
-                raise cycle_of(waiting)
-            start = min(ready, key=lambda s: s.rank)  # the first of equals: order of the cast
-            waiting.remove(start)
-            placed.append(start)
-            try:
-                self._place(start)
-            except PlacementError:
-                if not self._makes_room(placed):
-                    raise
+        self.fill(starts)
         self._set_routes()
         self._note_sizes()
 
@@ -139,7 +127,7 @@ class ScenarioInitializer:
                     4, "size", actor=actor.id, model=actor.model, source=actor.size_from
                 )
 
-    def _starts(self, placements: Sequence[Placement]) -> list[Start]:
+    def _starts(self, placements: Sequence[Placement]) -> list[ActorStart]:
         """One start per physical actor, in the order of the cast."""
         written: dict[str, Placement] = {}
         for placement in placements:
@@ -150,29 +138,29 @@ class ScenarioInitializer:
             given = written.get(actor.id)
             if isinstance(actor, PhysicalObject):
                 modifiers = () if given is None else given.modifiers
-                starts.append(Start(actor, modifiers, given.source if given else actor.source))
+                starts.append(ActorStart(actor, modifiers, given.source if given else actor.source))
             elif given is not None:
                 raise PlacementError(f"{actor.id} cannot be placed anywhere", given.source)
         couple(starts)
         return starts
 
-    def _place(self, start: Start) -> None:
+    def place(self, start: ActorStart) -> Placed:
+        """Places one actor."""
         actor = start.actor
         if start.towed_by is not None:
             tow = self._world.state(start.towed_by.id)
             self._world.place(actor.id, pose_behind(tow, actor.shape), tow.v)
             self._world.attach(start.towed_by.id, actor.id)
-            self._boxes[actor.id] = box_of(self._world.state(actor.id))
-            return
+            return self._placed_now(actor)
         try:
             initial = self._placer.initial_state(
                 actor,
                 start.modifiers,
                 spawn=self._spawn(actor.id),
-                is_free=lambda place: self._is_free(actor, place),
+                is_free=lambda place: self._is_free(start, place),
                 draws=self._context.random_for(f"{actor.id} start"),
             )
-            other = self._taken_by(actor, initial.at, initial.heading)
+            other = self._who_is_at(actor, initial.at, initial.heading)
             if other is not None:
                 raise PlacementError(f"{actor.id} overlaps {other} at its start")
             self._world.place(actor.id, *initial)
@@ -181,61 +169,27 @@ class ScenarioInitializer:
             raise
         except MapError as error:
             raise PlacementError(f"{actor.id}: {error.message}", start.source) from error
-        self._boxes[actor.id] = box_of(self._world.state(actor.id))
+        return self._placed_now(actor)
 
-    def _makes_room(self, placed: Sequence[Start]) -> bool:
-        """Put the last actor, by moving one whose place is open and that it starts relative to.
+    def cycle_of(self, waiting: Sequence[ActorStart]) -> PlacementError:
+        """The error that starts depend on each other."""
+        return cycle_of(waiting)
 
-        Those that start relative to that one move with it.
+    def _placed_now(self, actor: PhysicalObject) -> Placed:
+        state = self._world.state(actor.id)
+        at = state.lane_position
+        lane = None if at is None else LanePosition(at.road, at.lane, at.s)
+        return Placed(box_of(state), lane)
 
-        Args:
-            placed: Those that are placed, in that order; the last one does not fit.
-
-        Returns:
-            Whether there is such a place.
-        """
-        *_, start = placed
-        spawned = self._context.settings.spawn
-        movable = (each for each in placed if each.is_open and each.actor.id not in spawned)
-        anchor = next((each for each in movable if is_behind(start, each, placed)), None)
-        if anchor is None:
-            return False
-        moved = [each for each in placed if each is anchor or is_behind(each, anchor, placed)]
-        tried = self._tried.setdefault(anchor.actor.id, [])
-        for _ in self._world.map.spawn_points():
-            tried.append(self._centre_of(anchor))
-            for each in moved:
-                self._boxes.pop(each.actor.id, None)
-            try:
-                self._place(anchor)
-            except PlacementError:
-                return False
-            if self._centre_of(anchor) in tried:
-                return False
-            try:
-                for each in moved[1:]:
-                    self._place(each)
-            except PlacementError:
-                continue
-            return True
-        return False
-
-    def _centre_of(self, placed: Start) -> LanePosition | None:
-        """Where on the centre of its lane an actor is; None off the lanes."""
-        at = self._world.state(placed.actor.id).lane_position
-        return None if at is None else LanePosition(at.road, at.lane, at.s)
-
-    def _is_free(self, actor: PhysicalObject, place: LanePosition) -> bool:
+    def _is_free(self, start: ActorStart, place: LanePosition) -> bool:
         """Whether nobody is at a place, and it was not tried in vain."""
-        if place in self._tried.get(actor.id, ()):
-            return False
-        return self._taken_by(actor, place) is None
+        return not self.was_tried(start, place) and self._who_is_at(start.actor, place) is None
 
     def _spawn(self, actor_id: str) -> LanePosition | None:
         given = self._context.settings.spawn.get(actor_id)
         return None if given is None else LanePosition(*given)
 
-    def _taken_by(
+    def _who_is_at(
         self, actor: PhysicalObject, at: LanePosition | Pose, heading: float | None = None
     ) -> str | None:
         """Who stands there already."""
@@ -243,16 +197,13 @@ class ScenarioInitializer:
         if heading is not None:
             pose = Pose(pose.x, pose.y, pose.z, heading)
         box = box_of(ActorState(pose.x, pose.y, pose.z, pose.h, 0, 0, None, 0, actor.shape))
-        for other, taken in self._boxes.items():
-            if overlapping(box, taken):
-                return other
-        return None
+        return self.taken_by(box)
 
     # --- routes -------------------------------------------------------------------------------
 
     def _set_routes(self) -> None:
         for actor_id, goal in self._context.settings.destination.items():
-            if actor_id not in self._boxes:
+            if actor_id not in self._placed:
                 raise SettingsError(f"--destination {actor_id}={goal}: {actor_id} is not placed")
             place = self._goal(actor_id, goal)
             try:
@@ -261,7 +212,7 @@ class ScenarioInitializer:
                 raise SettingsError(f"--destination {actor_id}={goal}: {error.message}") from error
 
     def _goal(self, actor_id: str, goal: str) -> LanePosition:
-        if goal in self._boxes:
+        if goal in self._placed:
             state = self._world.state(goal)
             on = self._world.map.locate(state.x, state.y, state.z)
             if on is None:

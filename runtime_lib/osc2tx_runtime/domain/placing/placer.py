@@ -29,7 +29,7 @@ from osc2tx_runtime.domain.placing.initial_state import (
 from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
-from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
+from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
 from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["Placer"]
-
-_EXACT = 1e-7  # m to which a distance along the road is met
 
 
 class Placer:
@@ -112,7 +110,7 @@ class Placer:
     ) -> LanePosition | opendrive.Pose:
         position, lane = self._position(actor, modifiers), one_of_kind(modifiers, Lane)
         if spawn is not None:
-            return self._starts.given(actor, spawn, lane, position)
+            return self._starts.given(actor.id, spawn, lane, position)
         if position is not None and position.absolute:
             if position.at_point is not None and position.project_on_route:
                 return self._points.projected(actor, position.at_point, lane)
@@ -134,8 +132,8 @@ class Placer:
         distance = None if position is None else self._of(position.size())
         on_path = one_of_kind(modifiers, OnPath)
         if on_path is not None:
-            return self._starts.on_path(actor, on_path.path, lane, distance, is_free)
-        return self._starts.default(actor, lane, distance, is_free)
+            return self._starts.on_path(actor.id, on_path.path.found, lane, distance, is_free)
+        return self._starts.default(actor.id, lane, distance, is_free)
 
     @staticmethod
     def _position(actor: PhysicalObject, modifiers: Sequence[Modifier]) -> Position | None:
@@ -195,17 +193,9 @@ class Placer:
         if position.timed:
             wanted *= self._world.state(reference.id).v if position.ahead else speed
         wanted = wanted if position.ahead else -wanted
-        place = start
-        for _ in range(20):
-            measured = self._map.route_distance(origin, place)
-            if measured is None:
-                break
-            if abs(wanted - measured) < _EXACT:
-                return place
-            step = self._map.advance(place, wanted - measured)
-            if abs(step.travelled - (wanted - measured)) > 1e-6:
-                break
-            place = step.position
+        place = place_at_distance(self._map, start, origin, wanted)
+        if place is not None:
+            return place
         side = "ahead of" if wanted >= 0.0 else "behind"
         raise PlacementError(
             f"{actor.id}: the lane does not reach {abs(wanted):.1f} m {side} {reference.id}"

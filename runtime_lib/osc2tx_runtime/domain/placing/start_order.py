@@ -21,10 +21,10 @@ from osc2tx_runtime.errors import PlacementError
 if TYPE_CHECKING:
     from osc2tx_runtime.language.placement import Placement
 
-__all__ = ["Start", "couple", "cycle_of", "is_behind", "joined"]
+__all__ = ["ActorStart", "couple", "cycle_of", "joined"]
 
 
-class Start:
+class ActorStart:
     """One actor to be placed.
 
     Attributes:
@@ -42,7 +42,7 @@ class Start:
         self.actor = actor
         self.modifiers = modifiers
         self.source = source
-        self.references: list[PhysicalObject] = []
+        self.references: list[str] = []
         self.towed_by: PhysicalObject | None = None
         for modifier in modifiers:
             if not modifier.facts.placement:
@@ -52,11 +52,16 @@ class Start:
             reference = getattr(modifier, "reference", None)
             reference = reference or getattr(modifier, "relative_to", None)
             if reference is not None:
-                self.references.append(reference)
+                self.references.append(reference.id)
         position = one_of_kind(modifiers, Position)
         absolute = position is not None and position.absolute
         absolute = absolute or one_of_kind(modifiers, Location) is not None
         self.rank = 0 if absolute else 1 if self.references else 2
+
+    @property
+    def id(self) -> str:
+        """Who."""
+        return self.actor.id
 
     @property
     def is_open(self) -> bool:
@@ -66,20 +71,6 @@ class Start:
         if one_of_kind(self.modifiers, Along) is not None:
             return one_of_kind(self.modifiers, Lane) is None
         return one_of_kind(self.modifiers, Position) is None
-
-
-def is_behind(start: Start, anchor: Start, placed: Sequence[Start]) -> bool:
-    """Whether a start depends on another one, directly or through others."""
-    by_id = {each.actor.id: each for each in placed}
-    waiting, seen = [start], {start.actor.id}
-    while waiting:
-        for reference in waiting.pop().references:
-            if reference is anchor.actor:
-                return True
-            if reference.id in by_id and reference.id not in seen:
-                seen.add(reference.id)
-                waiting.append(by_id[reference.id])
-    return False
 
 
 def joined(first: Placement, second: Placement) -> Placement:
@@ -102,14 +93,14 @@ def _subject(modifier: Modifier) -> tuple[str, str]:
     return modifier.name, str(getattr(modifier, "direction", ""))
 
 
-def couple(starts: Sequence[Start]) -> None:
+def couple(starts: Sequence[ActorStart]) -> None:
     """Makes trailers wait for what tows them.
 
     Raises:
         PlacementError: A trailer has a place of its own, or two towing vehicles, or its coupler
             does not fit.
     """
-    by_id = {start.actor.id: start for start in starts}
+    by_id = {start.id: start for start in starts}
     for start in starts:
         tow = one_of_kind(start.modifiers, TowTrailer)
         if tow is None:
@@ -126,20 +117,20 @@ def couple(starts: Sequence[Start]) -> None:
             raise PlacementError(
                 f"{start.actor.id} cannot tow {trailer.actor.id}: {misfit}", start.source
             )
-        trailer.towed_by, trailer.references, trailer.rank = start.actor, [start.actor], 1
+        trailer.towed_by, trailer.references, trailer.rank = start.actor, [start.id], 1
 
 
-def cycle_of(waiting: Sequence[Start]) -> PlacementError:
+def cycle_of(waiting: Sequence[ActorStart]) -> PlacementError:
     """Name the starts that wait for each other."""
-    by_id = {start.actor.id: start for start in waiting}
+    by_id = {start.id: start for start in waiting}
     start, seen = waiting[0], []
     while start not in seen:
         seen.append(start)
-        blocking = [r.id for r in start.references if r.id in by_id]
+        blocking = [r for r in start.references if r in by_id]
         if not blocking:
-            missing = ", ".join(reference.id for reference in start.references)
-            return PlacementError(f"{start.actor.id} waits for {missing}", start.source)
+            missing = ", ".join(start.references)
+            return PlacementError(f"{start.id} waits for {missing}", start.source)
         start = by_id[blocking[0]]
     ring = seen[seen.index(start) :]
-    places = ", ".join(f"{each.actor.id} ({each.source})" for each in ring)
+    places = ", ".join(f"{each.id} ({each.source})" for each in ring)
     return PlacementError(f"the starts of {places} depend on each other", ring[-1].source)

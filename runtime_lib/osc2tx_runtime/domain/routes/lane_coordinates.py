@@ -16,15 +16,49 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 
-__all__ = ["along_lane", "place_of_odr", "place_of_route", "road_entry", "route_point_at"]
+__all__ = [
+    "along_lane",
+    "place_at_distance",
+    "place_of_odr",
+    "place_of_route",
+    "road_entry",
+    "route_point_at",
+]
 
 _AT_END = 1e-5  # m: so near to the end of a lane is there
 _MISS = 1e-6  # m by which a point may miss its road
+_EXACT = 1e-7  # m to which a distance along the road is met
+_ATTEMPTS = 20  # to meet it
 
 
 def along_lane(road_map: RoadMap, place: LanePosition) -> float:
     """Arc length (m) along the centre line of the lane, from where it begins on its road."""
     return road_map.route_distance(road_entry(road_map, place), place) or 0.0
+
+
+def place_at_distance(
+    road_map: RoadMap, start: LanePosition, origin: LanePosition, distance: float
+) -> LanePosition | None:
+    """The place on a lane that is so far (m) from a place along the road; None: it ends before.
+
+    Args:
+        road_map: The map.
+        start: A place on the lane.
+        origin: From where the distance counts; it may be on another lane.
+        distance: Positive ahead.
+    """
+    place = start
+    for _ in range(_ATTEMPTS):
+        measured = road_map.route_distance(origin, place)
+        if measured is None:
+            return None
+        if abs(distance - measured) < _EXACT:
+            return place
+        step = road_map.advance(place, distance - measured)
+        if abs(step.travelled - (distance - measured)) > _MISS:
+            return None
+        place = step.position
+    return None
 
 
 def route_point_at(road_map: RoadMap, place: LanePosition) -> RoutePoint:

@@ -1,0 +1,95 @@
+"""Places of all actors before the start: one after the other, as the embedded world puts them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.start_orientations import turned
+from osc2tx.backends.xosc.entities.start_positions import position_of
+from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx.backends.xosc.facts.start_places import Placed, StartRoom, box_at, trailer_pose
+from osc2tx.backends.xosc.report import Inexpressible, NoPlace
+from osc2tx.backends.xosc.state import ActorState, known
+from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_classes import replace
+
+
+class InitialPlacing(StartRoom[Start]):
+    """Finds the positions of all actors at the start, and notes what is known about them there.
+
+    Attributes:
+        positions: Elements, by actor.
+        refused: Why an actor has none.
+    """
+
+    failure = NoPlace
+
+    def __init__(self, ctx: Context, tows: Mapping[str, str]) -> None:
+        """Take the context, and who tows each trailer."""
+        super().__init__(0 if ctx.roads is None else len(ctx.roads.map.spawn_points()))
+        self._ctx = ctx
+        self._tows = tows
+        self.positions: dict[str, Element] = {}
+        self.refused: dict[str, Inexpressible] = {}
+
+    def place(self, start: Start) -> Placed:
+        """Find the position of an actor."""
+        self.refused.pop(start.id, None)
+        try:
+            with self._ctx.within(start.scope):
+                return self._tow(start) if start.id in self._tows else self._put(start)
+        except NoPlace as error:
+            error.span = error.span or start.span
+            raise
+        except Inexpressible as error:
+            self.refused[start.id] = error
+            return self._noted(start, None)
+
+    def cycle_of(self, waiting: Sequence[Start]) -> NoPlace:
+        """Return the failure that starts depend on each other."""
+        names = " and ".join(start.id for start in waiting)
+        return NoPlace(f"the starts of {names} depend on each other", waiting[0].span)
+
+    def _tow(self, start: Start) -> Placed:
+        """Note that where a trailer is follows from the vehicle that tows it."""
+        tow, ctx = self._tows[start.id], self._ctx
+        ctx.states[start.id] = replace(ctx.states[tow], lane=None)
+        pose = ctx.start_poses.get(tow)
+        if pose is not None:
+            shapes = {member.name: member.shape for member in ctx.entities}
+            pose = trailer_pose(pose, shapes[tow], shapes[start.id])
+        return self._noted(start, pose)
+
+    def _put(self, start: Start) -> Placed:
+        ctx = self._ctx
+        position, state = position_of(ctx, start, lambda place: self._is_free(start, place))
+        pose = self._pose(start, state)
+        other = None if pose is None else self.taken_by(box_at(pose, start.member.shape))
+        if other is not None:
+            raise NoPlace(f"{start.id} overlaps {other} at its start")
+        self.positions[start.id] = position
+        ctx.states[start.id] = replace(state, speed=known(speed_at_start(ctx, start)))
+        return self._noted(start, pose)
+
+    def _pose(self, start: Start, state: ActorState) -> Pose | None:
+        roads = self._ctx.roads
+        if state.pose is not None or state.lane is None or roads is None:
+            return state.pose
+        offset = 0.0 if state.offset is None else state.offset.low
+        pose = roads.pose(state.lane._replace(offset=offset))
+        return pose._replace(h=turned(self._ctx, start, pose.h)[0])
+
+    def _noted(self, start: Start, pose: Pose | None) -> Placed:
+        lane = self._ctx.states[start.id].lane
+        if pose is None:
+            return Placed(None, lane)
+        self._ctx.start_poses[start.id] = pose
+        return Placed(box_at(pose, start.member.shape), lane)
+
+    def _is_free(self, start: Start, place: LanePosition) -> bool:
+        roads = self._ctx.roads
+        assert roads is not None
+        box = box_at(roads.pose(place), start.member.shape)
+        return not self.was_tried(start, place) and self.taken_by(box) is None

@@ -1,0 +1,136 @@
+"""Start places that a scenario leaves open, and the room of actors, from the runtime."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal, NamedTuple
+
+from osc2tx.backends.xosc.facts.actors import Shape
+from osc2tx.backends.xosc.facts.map_search import MapSegment
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
+from osc2tx.backends.xosc.report import NoPlace
+from osc2tx_runtime.domain.modifiers import Lane
+from osc2tx_runtime.domain.placing.default_starts import StartPlaces
+from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
+from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.world.collision import Box, box_of
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.towing import pose_behind
+
+__all__ = [
+    "Box",
+    "IsFree",
+    "LaneNumber",
+    "Placed",
+    "StartRoom",
+    "box_at",
+    "given_place",
+    "lane_beside",
+    "open_place",
+    "place_ahead",
+    "trailer_pose",
+]
+
+IsFree = Callable[[LanePosition], bool]
+
+
+class LaneNumber(NamedTuple):
+    """A lane counted from an edge of the road."""
+
+    number: int
+    edge: str
+
+    @property
+    def modifier(self) -> Lane:
+        """The lane in terms of the runtime."""
+        side: Literal["left", "right"] = "right" if self.edge == "right" else "left"
+        return Lane(self.number, from_=side)
+
+
+def open_place(
+    roads: Roads,
+    name: str,
+    lane: LaneNumber | None,
+    distance: float | None,
+    segment: MapSegment | None,
+    is_free: IsFree,
+) -> LanePosition:
+    """Return where an actor starts whose place no other one and no point says.
+
+    Args:
+        roads: The map.
+        name: Of the actor.
+        lane: In which lane; `None`: any.
+        distance: Metres from the start of the road; `None`: anywhere.
+        segment: Piece of road that it starts on; `None`: any.
+        is_free: Whether nobody is there.
+
+    Raises:
+        NoPlace: There is no such place.
+    """
+    places, modifier = StartPlaces(roads.map), None if lane is None else lane.modifier
+    try:
+        if segment is None:
+            return places.default(name, modifier, distance, is_free)
+        return places.on_path(name, segment, modifier, distance, is_free)
+    except PlacementError as error:
+        raise NoPlace(error.message) from None
+
+
+def given_place(
+    roads: Roads, name: str, spawn: LanePosition, lane: LaneNumber | None
+) -> LanePosition:
+    """Return the place of `--spawn`, checked against map and scenario.
+
+    Raises:
+        NoPlace: The map has no such place, or it is in another lane than the scenario says.
+    """
+    try:
+        modifier = None if lane is None else lane.modifier
+        return StartPlaces(roads.map).given(name, spawn, modifier, None)
+    except PlacementError as error:
+        raise NoPlace(error.message) from None
+
+
+def lane_beside(roads: Roads, place: LanePosition, lanes: int) -> LanePosition:
+    """Return the lane so many to the left of a place.
+
+    Raises:
+        NoPlace: There is no such lane.
+    """
+    beside = roads.beside(place, lanes)
+    if beside is None:
+        side = "left" if lanes > 0 else "right"
+        raise NoPlace(f"there is no lane {abs(lanes)} to the {side} of lane {place.lane}")
+    return beside
+
+
+def place_ahead(
+    roads: Roads, lane: LanePosition, origin: LanePosition, distance: float
+) -> LanePosition:
+    """Return the place on a lane that is so far (m) ahead of a place on it or beside it.
+
+    Raises:
+        NoPlace: The lane does not reach as far.
+    """
+    place = place_at_distance(roads.map, lane, origin, distance)
+    if place is None:
+        way = "ahead" if distance >= 0.0 else "back"
+        raise NoPlace(f"the lane does not reach {abs(distance):g} m {way}")
+    return place
+
+
+def box_at(pose: Pose, shape: Shape) -> Box:
+    """Return the room that an actor takes."""
+    return box_of(_state(pose, shape))
+
+
+def trailer_pose(tow: Pose, tow_shape: Shape, trailer: Shape) -> Pose:
+    """Return where a trailer is, in line with what tows it."""
+    return pose_behind(_state(tow, tow_shape), trailer)
+
+
+def _state(pose: Pose, shape: Shape) -> ActorState:
+    x, y, z, h = map(float, pose[:4])
+    return ActorState(x, y, z, h, 0.0, 0.0, None, 0.0, shape)

@@ -1,0 +1,160 @@
+"""Placement one after the other: who comes when, who takes which room, who moves to make some."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
+
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.collision import Box, overlapping
+
+__all__ = ["Placed", "Start", "StartRoom"]
+
+
+class Start(Protocol):
+    """An actor that is to be placed."""
+
+    @property
+    def id(self) -> str:
+        """Who."""
+
+    @property
+    def references(self) -> Sequence[str]:
+        """Who has to be placed before."""
+
+    @property
+    def rank(self) -> int:
+        """Of those that can be placed, who has the least one comes first."""
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the scenario leaves open how far along the road it starts, or in which lane."""
+
+
+class Placed(NamedTuple):
+    """Where an actor is.
+
+    Attributes:
+        box: The room that it takes; None if that is not known.
+        lane: Where on the centre of its lane it is; None off the lanes.
+    """
+
+    box: Box | None
+    lane: LanePosition | None
+
+
+StartT = TypeVar("StartT", bound=Start)
+
+
+class StartRoom(ABC, Generic[StartT]):
+    """Places actors, references first, and keeps what room they take.
+
+    Args:
+        most_tries: Places to which one is moved to make room.
+    """
+
+    failure: ClassVar[type[Exception]]
+    """Raised where there is no place for an actor."""
+
+    def __init__(self, most_tries: int) -> None:
+        self._most_tries = most_tries
+        self._placed: dict[str, Placed] = {}
+        # Places that left no room for those that start relative to it.
+        self._tried: dict[str, list[LanePosition | None]] = {}
+
+    @abstractmethod
+    def place(self, start: StartT) -> Placed:
+        """Places one actor; what is taken already is known.
+
+        Raises:
+            failure: There is no place for it.
+        """
+
+    @abstractmethod
+    def cycle_of(self, waiting: Sequence[StartT]) -> Exception:
+        """The failure that starts depend on each other."""
+
+    def fill(self, starts: Sequence[StartT]) -> None:
+        """Places all, by rank and in their order.
+
+        Raises:
+            failure: There is no place for one of them, or it depends on itself.
+        """
+        waiting = list(starts)
+        placed: list[StartT] = []
+        while waiting:
+            ready = [s for s in waiting if all(r in self._placed for r in s.references)]
+            if not ready:
+                raise self.cycle_of(waiting)
+            start = min(ready, key=lambda s: s.rank)  # the first of equals: order of the cast
+            waiting.remove(start)
+            placed.append(start)
+            try:
+                self._placed[start.id] = self.place(start)
+            except self.failure:
+                if not self._makes_room(placed):
+                    raise
+
+    def taken_by(self, box: Box) -> str | None:
+        """Who stands there already."""
+        for other, (taken, _) in self._placed.items():
+            if taken is not None and overlapping(box, taken):
+                return other
+        return None
+
+    def was_tried(self, start: StartT, place: LanePosition) -> bool:
+        """Whether a place was tried in vain."""
+        return place in self._tried.get(start.id, ())
+
+    def _makes_room(self, placed: Sequence[StartT]) -> bool:
+        """Put the last actor, by moving one whose place is open and that it starts relative to.
+
+        Those that start relative to that one move with it.
+
+        Args:
+            placed: Those that are placed, in that order; the last one does not fit.
+
+        Returns:
+            Whether there is such a place.
+        """
+        *_, start = placed
+        movable = (each for each in placed if each.is_open)
+        anchor = next((each for each in movable if _is_behind(start, each, placed)), None)
+        if anchor is None:
+            return False
+        moved = [each for each in placed if each is anchor or _is_behind(each, anchor, placed)]
+        tried = self._tried.setdefault(anchor.id, [])
+        lane = self._placed[anchor.id].lane
+        for _ in range(self._most_tries):
+            tried.append(lane)
+            for each in moved:
+                self._placed.pop(each.id, None)
+            try:
+                self._placed[anchor.id] = self.place(anchor)
+            except self.failure:
+                return False
+            lane = self._placed[anchor.id].lane
+            if lane in tried:
+                return False
+            try:
+                for each in moved[1:]:
+                    self._placed[each.id] = self.place(each)
+            except self.failure:
+                continue
+            return True
+        return False
+
+
+def _is_behind(start: StartT, anchor: StartT, placed: Sequence[StartT]) -> bool:
+    """Whether a start depends on another one, directly or through others."""
+    by_id = {each.id: each for each in placed}
+    waiting, seen = [start], {start.id}
+    while waiting:
+        for reference in waiting.pop().references:
+            if reference == anchor.id:
+                return True
+            if reference in by_id and reference not in seen:
+                seen.add(reference)
+                waiting.append(by_id[reference])
+    return False
