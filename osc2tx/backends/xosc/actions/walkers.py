@@ -11,6 +11,7 @@ import math
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.paths import follow
 from osc2tx.backends.xosc.actions.speed_changes import jump_to, speed_action
+from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
@@ -80,7 +81,8 @@ def stand(leaf: Leaf) -> Change:
 
 def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> Element:
     """Return the action with which a walker goes on along its heading until something else."""
-    if not leaf.ctx.profile.walkers_keep_heading:
+    keeps_heading = leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN
+    if not keeps_heading:
         return _trajectory(leaf, start, course, LONG)
     goal = course.value(course.duration)
     shape = "linear" if course.duration else "step"
