@@ -90,15 +90,30 @@ def _at_point(ctx: Context, start: Start, position: Arguments) -> tuple[Element,
         x, y, z = (_part(ctx, point.name, (name,)) or 0.0 for name in "xyz")
         if position.get("project_on_route") is not False:
             return _near_point(ctx, start, (x, y, z))
-        heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
+        said = None
     else:
         x, y, z = (position.number(name) or 0.0 for name in "xyz")
-        heading = position.number("h") or 0.0
+        said = position.number("h")
         if position.text("frame") == "carla":  # left-handed, and of the centre of the box
-            heading, back = -heading, start.member.shape.centre
-            x, y = x - back * math.cos(heading), -y - back * math.sin(heading)
-    heading, pitch, roll = turned(ctx, start, heading)
+            said, back = -(said or 0.0), start.member.shape.centre
+            x, y = x - back * math.cos(said), -y - back * math.sin(said)
+    along = _heading_at(ctx, start, (x, y, z), said)
+    heading, pitch, roll = turned(ctx, start, along)
     return at_pose(Pose(x, y, z, heading), pitch, roll)
+
+
+def _heading_at(
+    ctx: Context, start: Start, point: tuple[float, float, float], said: float | None
+) -> float:
+    """Return the heading (rad) of who is put to a point; a vehicle looks along the lane there."""
+    if ctx.roads is None:
+        return said or 0.0
+    on = ctx.roads.locate(*point)
+    along = ctx.roads.direction_at(*point) if on is None else ctx.roads.pose(on).h
+    if said is None:
+        return along
+    is_in_lane = on is not None and not start.member.walks and math.cos(along - said) > 0.0
+    return along if is_in_lane else said
 
 
 def _near_point(
