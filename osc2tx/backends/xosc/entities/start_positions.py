@@ -41,6 +41,8 @@ def position_of(ctx: Context, start: Start, is_free: IsFree) -> tuple[Element, A
         Inexpressible: The XML has no such position, or it is not known before the run.
     """
     location, position = start.modifiers.get("location"), start.modifiers.get("position")
+    if start.is_given and (start.is_beside or location is not None or position is not None):
+        raise Inexpressible("the scenario says where it starts, so it takes no --spawn", start.span)
     path = start.modifiers.get("on_path")
     road = None if path is None else path.get("path")  # matters only to who has no other place
     if location is not None:
