@@ -109,14 +109,19 @@ def case_study(maps: Path) -> Given:
             map_path=(maps,),
         ),
         CompileOptions(dialect="carla"),
-        XmlOptions(signals=("go_signal@1s",), spawns=("hero=16,-3,5",), map_path=(str(maps),)),
+        XmlOptions(
+            profile="esmini",
+            signals=("go_signal@1s",),
+            spawns=("hero=16,-3,5",),
+            map_path=(str(maps),),
+        ),
         maps,
     )
 
 
 @pytest.mark.parametrize("name", OWN)
 def test_own_scenarios(name: str, tmp_path: Path) -> None:
-    given = Given(SCENARIOS / f"{name}.osc", xml=XmlOptions())
+    given = Given(SCENARIOS / f"{name}.osc", xml=XmlOptions(profile="esmini"))
     fine = compare(*both(given, name, FINE, tmp_path), FINE)
     coarse = compare(*both(given, name, COARSE, tmp_path), COARSE)
     assert fine.farthest < NEAR

@@ -14,7 +14,7 @@ from tests.xosc.case_texts import EGO, Case, indented, point, source
 from tests.xosc.cut_short import composed, cut
 from tests.xosc.modified import lines, relative, timed
 from tests.xosc.oncoming import oncoming
-from tests.xosc.starts import OPEN, starts, turned
+from tests.xosc.starts import OPEN, relative_starts, starts, turned, walkers
 
 # --- conditions on another actor ------------------------------------------------------------------
 
@@ -254,9 +254,11 @@ FAMILIES: Mapping[str, Family] = {
     "relative": _family(relative()),
     "lines": _family(lines()),
     "placed": _family(_placed()),
-    "starts": _family(starts(frozenset({"left_lane"}))),
-    "starts_in_a_bend": _family(starts(ALL_BUT_OPEN), "curve"),
-    "starts_on_the_left": _family(starts(ALL_BUT_OPEN), "left_hand"),
+    "starts": _family(starts("straight", frozenset({"left_lane"}))),
+    "starts_in_a_bend": _family(starts("bend", ALL_BUT_OPEN), "curve"),
+    "starts_on_the_left": _family(starts("left", ALL_BUT_OPEN), "left_hand"),
     "turned": _family(turned()),
+    "relative_starts": _family(relative_starts()),
+    "walkers": _family(walkers(), "curve"),
     "walks": _family(_walks(), "crossing"),
 }

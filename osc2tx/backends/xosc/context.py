@@ -9,7 +9,7 @@ from pathlib import Path
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import Roads, map_places, roads_of
+from osc2tx.backends.xosc.facts.maps import Pose, Roads, map_places, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
@@ -44,6 +44,7 @@ class Context:
         map_file: What the scenario calls its map.
         states: What is known about the actors at the present place of the tree.
         at_start: The states after the initial placement.
+        start_poses: Where actors start and how they look, as far as that is known, by name.
         init_gaps: Metres by which an actor starts behind another one.
         automatic_lights: What shines of vehicles whose lights follow the weather, by name.
         segments: Where declared roads and lanes are on the map, once they have been looked for.
@@ -92,6 +93,7 @@ class Context:
         self.map_places = tuple(map_places(self.map_file, folders))
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}
+        self.start_poses: dict[str, Pose] = {}
         self.demands: dict[str, float] = {}
         self.monitors: dict[str, bool] = {}
         self.weather: dict[str, float] = {}

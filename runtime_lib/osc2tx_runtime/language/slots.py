@@ -8,11 +8,10 @@ are carried out within the instant, all that are wanted at a time together.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
 from py_trees.behaviour import Behaviour
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.commands import Command
 from osc2tx_runtime.world.protocol import World
@@ -115,12 +114,11 @@ class Slots:
         self._passed.clear()
 
 
-@dataclass(frozen=True, slots=True)
-class Effect:
+class Effect(NamedTuple):
     """A change of state one action asks for."""
 
     owner: Owner
-    value: object
+    value: Any
     apply: Callable[[], None]
 
 

@@ -191,19 +191,18 @@ class LaneCursor:
         if (p is not self._place or not self._begin <= s < self._end) and not self._go_to(p):
             return None
         lane, line = self._lane, self._line
-        if not self._is_flat or p.offset != 0.0:
+        row = max(bisect_right(line.nodes, s) - 1, 0)
+        node, (length, rate, c, d) = line.nodes[row], line.rows[row]
+        if not self._is_flat or p.offset or c or d or rate <= SLOWEST_RATE:
             return None
         self._find_centre(lane, s)
         self._find_segment(lane, s)
+        t, *changes = self._centre
         curvature = self._segment.constant_curvature()
-        row = max(bisect_right(line.nodes, s) - 1, 0)
-        node, (length, rate, c, d) = line.nodes[row], line.rows[row]
         begin = max(self._begin, self._centre_start, self._segment_start, node) + _SHORT
         end = min(self._end, self._centre_end, self._segment_end)
         end = min([end, *line.nodes[row + 1 : row + 2]]) - _SHORT
-        t, *changes = self._centre
-        even = rate > SLOWEST_RATE and not (c or d or any(changes))
-        if curvature is None or not even or not begin <= s < end:
+        if curvature is None or any(changes) or not begin <= s < end:
             return None
         return Stretch(
             begin,

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 from osc2tx_runtime.language.outline import outline
@@ -38,8 +37,7 @@ OnProgress = Callable[[float, float], None]
 """Takes the time of the run and the time at which it has to end, in seconds."""
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
+class Outcome(NamedTuple):
     """How a tree ended: `success`, `failure` or `timeout`, why, after how many steps, and where."""
 
     status: str
@@ -179,14 +177,16 @@ def settle(
     Signals are visible from the first pass on, so a wait that starts just now does not see them.
     Those at the very start become visible one pass later: the first waits do see them.
     """
-    if context.step > 0:
+    if signals and context.step > 0:
         post_all(context, signals)
     context.begin_pass()
-    if context.step == 0:
+    if signals and context.step == 0:
         post_all(context, signals)
     resting = context.resting.nodes
     status = RUNNING if root in resting else pulse()
-    while status is RUNNING and (context.has_news() or assigns(context) or context.settles()):
+    while status is RUNNING:
+        if not (context.has_news() or assigns(context) or context.settles()):
+            return status
         context.begin_pass()
         status = RUNNING if root in resting else pulse()
     assigns(context)

@@ -9,7 +9,7 @@ from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import Pose, RoadMap
 
 from .acceleration import AssignedSpeed, ConstantAcceleration
-from .actor_step import ANY_LANE, CRUISE, MovingActor, cruise_of
+from .actor_step import MovingActor
 from .attitude_control import Turning
 from .collision_avoidance import Cautious
 from .commands import Command, FollowRoute, KeepLane, RunOut, Turn
@@ -32,7 +32,7 @@ from .state import ActorState
 from .step_inputs import StepInputs
 from .tracking import Tracking
 
-__all__ = ["ANY_LANE", "CRUISE", "CommandedActor", "cruise_of"]
+__all__ = ["CommandedActor"]
 
 STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset, ProfileRun, Shift})
 """Kinds of commands at work that cannot fail."""

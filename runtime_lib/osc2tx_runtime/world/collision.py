@@ -117,8 +117,9 @@ def overlapping(a: Box, b: Box) -> bool:
     """True if two boxes have a common point."""
     if a.low > b.high or b.low > a.high:
         return False
-    found = contact_interval(a, b, 0.0, 0.0)
-    return found is not None
+    if abs(a.x - b.x) > a.reach_x + b.reach_x or abs(a.y - b.y) > a.reach_y + b.reach_y:
+        return False
+    return contact_interval(a, b, 0.0, 0.0) is not None
 
 
 class Swept(NamedTuple):

@@ -19,7 +19,7 @@ from .state import ActorState
 
 __all__ = ["Contacts"]
 
-_STEPS = 20  # with the ways of the present one, for which a search holds
+_STEPS = 10  # with the ways of the present one, for which a search holds
 _NARROW = 1.0  # m: the least margin of a search
 _ROUNDING = 1e-3  # m: who is nearer is looked at in each step
 _CREEP = 1e-6  # m of a step: coming nearer by less is rounding

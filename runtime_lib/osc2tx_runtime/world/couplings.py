@@ -36,7 +36,7 @@ class Couplings:
 
     def towed(self) -> Collection[str]:
         """Who hangs on another one."""
-        return self._towed.values() if self._towed else ()
+        return self._towed.values()
 
     def is_towed(self, actor: str) -> bool:
         """Whether an actor hangs on another one."""

@@ -331,7 +331,8 @@ class EmbeddedWorld:
         members, ids = self._members, self._ids
         # All read the snapshot; none is replaced before every actor has moved.
         before = [member.state for member in members]
-        towed = self._couplings.towed()
+        coupled = self._couplings.pairs()
+        towed = self._couplings.towed() if coupled else NOBODY
         wished, others = [], []
         for member in members:
             state = member.reference if member.still else member.cruised()
@@ -339,7 +340,8 @@ class EmbeddedWorld:
                 others.append(member)
                 state = self._wish(member, towed)
             wished.append(state)
-        self._couplings.draw(self._cast, wished, self.dt, self.map)
+        if coupled:
+            self._couplings.draw(self._cast, wished, self.dt, self.map)
         jumped = frozenset([m.spec.id for m in others if m.jumped]) if others else NOBODY
         put, kicked = self._take_changes() if self._changes else (NOBODY, NOBODY)
         elsewhere = put | jumped
@@ -354,11 +356,12 @@ class EmbeddedWorld:
         else:
             for member, state in zip(members, wished, strict=True):
                 member.state = member.reference = state
-        for tow, trailer, angle in self._couplings.take_folded():
-            self._scene.note_jack_knife(tow, trailer, angle)
+        if coupled:
+            for tow, trailer, angle in self._couplings.take_folded():
+                self._scene.note_jack_knife(tow, trailer, angle)
         self._track.add(ids, before, jumped)
         ways = [member.way for member in members]
-        self._contacts.step(ids, before, states, ways, jumped, self._couplings.pairs())
+        self._contacts.step(ids, before, states, ways, jumped, coupled)
         self._friction.step(members, elsewhere, self._surroundings.road)
         for member in self._outside:
             member.observe(self)

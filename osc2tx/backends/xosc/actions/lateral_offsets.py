@@ -20,6 +20,23 @@ def offset_in_lane(
     Raises:
         Inexpressible: It says no distance, or the width of the lane is not known.
     """
+    width = None
+    if ctx.roads is not None and place is not None:
+        width = ctx.roads.map.lane_width(place.road, place.lane, place.s)
+    return left_of(arguments, member.shape.width, width)
+
+
+def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
+    """Return how far (m) left of the centre of a lane or an actor `lateral` puts an actor.
+
+    Args:
+        arguments: Of the modifier.
+        own: Width of the actor (m).
+        theirs: That of the lane or the other actor; `None` if it is not known.
+
+    Raises:
+        Inexpressible: As of `offset_in_lane`.
+    """
     distance = arguments.number("distance")
     if distance is None:
         distance = arguments.number("distance_range")
@@ -30,11 +47,10 @@ def offset_in_lane(
     measured = arguments.member("measure_by", "center_to_center")
     if measured == "center_to_center":
         return left
-    if ctx.roads is None or place is None:
+    if theirs is None:
         raise Inexpressible("how wide the lane is is only known during the run")
-    own, lane = member.shape.width, ctx.roads.map.lane_width(place.road, place.lane, place.s)
     if measured == "closest":
-        reach = 0.5 * (own + lane)
+        reach = 0.5 * (own + theirs)
         return left + (reach if left > 0.0 or (left == 0.0 and side == "left") else -reach)
-    mine, _, theirs = measured.split("_")
-    return round(left + EDGES[theirs] * lane - EDGES[mine] * own, 6)
+    edge, _, other_edge = measured.split("_")
+    return round(left + EDGES[other_edge] * theirs - EDGES[edge] * own, 6)

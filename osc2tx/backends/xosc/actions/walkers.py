@@ -1,7 +1,7 @@
 """Walkers off the lanes: trajectories straight on.
 
-Tools move a pedestrian along the lane when they are told a speed, whatever its heading; only a
-trajectory takes it across the road.
+Most tools move a pedestrian along the lane when they are told a speed, whatever its heading; only
+a trajectory takes it across the road.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import math
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.paths import follow
-from osc2tx.backends.xosc.actions.speed_changes import jump_to
+from osc2tx.backends.xosc.actions.speed_changes import jump_to, speed_action
+from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
@@ -37,7 +38,7 @@ def walk_on(leaf: Leaf, target: float | None) -> Change:
     start = state.speed.low
     goal = start if target is None else target
     course = course_of_speed(start, goal, "none", None, None, leaf.limits)
-    action = _trajectory(leaf, state.pose, course, LONG)
+    action = _straight_on(leaf, state.pose, course)
     during = replace(state, speed=state.speed.over(known(goal)), pose=None)
     if leaf.duration is None:
         return Change(WAY, (action,), None, during, during)
@@ -50,7 +51,7 @@ def change_pace(leaf: Leaf, goal: float, course: Profile) -> Change:
     """Return the walk straight on during which the speed comes to a goal (m/s), and on."""
     state = leaf.state
     assert state.pose is not None
-    action = _trajectory(leaf, state.pose, course, LONG)
+    action = _straight_on(leaf, state.pose, course)
     pose = _ahead(state.pose, _covered(course, course.duration))
     after = replace(state, speed=known(goal), pose=pose)
     passed = known(goal) if state.speed is None else state.speed.over(known(goal))
@@ -78,8 +79,18 @@ def stand(leaf: Leaf) -> Change:
     return change_pace(leaf, 0.0, course)
 
 
+def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> Element:
+    """Return the action with which a walker goes on along its heading until something else."""
+    keeps_heading = leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN
+    if not keeps_heading:
+        return _trajectory(leaf, start, course, LONG)
+    goal = course.value(course.duration)
+    shape = "linear" if course.duration else "step"
+    return speed_action(goal, shape, "time", course.duration)
+
+
 def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Element:
-    """Return the action; its last stretch is long, for whoever is not stopped goes on."""
+    """Return the way of a walker; its last stretch is long."""
     times = [0.0]
     if course.duration > 0.0:
         times += [course.duration * index / SAMPLES for index in range(1, SAMPLES + 1)]

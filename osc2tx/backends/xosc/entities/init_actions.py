@@ -39,7 +39,7 @@ def initial_actions(ctx: Context) -> list[Element]:
             ctx.report.cannot("placement", span, refusal.reason, refusal.remedy)
         elif start.id in placing.positions:
             with ctx.within(start.scope), ctx.report_as("placement", start.span):
-                note_turn(ctx, start, placing.poses[start.id])
+                note_turn(ctx, start)
                 privates.append(_private(ctx, start, placing.positions[start.id]))
     ctx.at_start = dict(ctx.states)
     return privates

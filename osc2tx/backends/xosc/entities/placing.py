@@ -21,7 +21,6 @@ class InitialPlacing(StartRoom[Start]):
 
     Attributes:
         positions: Elements, by actor.
-        poses: Where actors are, as far as that is known.
         refused: Why an actor has none.
     """
 
@@ -33,7 +32,6 @@ class InitialPlacing(StartRoom[Start]):
         self._ctx = ctx
         self._tows = tows
         self.positions: dict[str, Element] = {}
-        self.poses: dict[str, Pose | None] = {}
         self.refused: dict[str, Inexpressible] = {}
 
     def place(self, start: Start) -> Placed:
@@ -58,7 +56,7 @@ class InitialPlacing(StartRoom[Start]):
         """Note that where a trailer is follows from the vehicle that tows it."""
         tow, ctx = self._tows[start.id], self._ctx
         ctx.states[start.id] = replace(ctx.states[tow], lane=None)
-        pose = self.poses[tow]
+        pose = ctx.start_poses.get(tow)
         if pose is not None:
             shapes = {member.name: member.shape for member in ctx.entities}
             pose = trailer_pose(pose, shapes[tow], shapes[start.id])
@@ -84,9 +82,11 @@ class InitialPlacing(StartRoom[Start]):
         return pose._replace(h=turned(self._ctx, start, pose.h)[0])
 
     def _noted(self, start: Start, pose: Pose | None) -> Placed:
-        self.poses[start.id] = pose
-        box = None if pose is None else box_at(pose, start.member.shape)
-        return Placed(box, self._ctx.states[start.id].lane)
+        lane = self._ctx.states[start.id].lane
+        if pose is None:
+            return Placed(None, lane)
+        self._ctx.start_poses[start.id] = pose
+        return Placed(box_at(pose, start.member.shape), lane)
 
     def _is_free(self, start: Start, place: LanePosition) -> bool:
         roads = self._ctx.roads

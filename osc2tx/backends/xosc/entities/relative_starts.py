@@ -4,121 +4,196 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.leaf import Arguments
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.entities.declared_roads import required_roads
-from osc2tx.backends.xosc.entities.start_lanes import in_lane, lateral_of
+from osc2tx.backends.xosc.entities.start_lanes import (
+    goes_straight,
+    in_lane,
+    lane_number,
+    lateral_of,
+)
 from osc2tx.backends.xosc.entities.start_orientations import orientation_in_lane
 from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start
-from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.facts.start_places import place_beside
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.facts.actors import ALIGNED
+from osc2tx.backends.xosc.facts.maps import LanePosition, Roads
+from osc2tx.backends.xosc.facts.start_places import LaneNumber, lane_beside, place_ahead
+from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_classes import dataclass
 
 NEAR = 1e-3
 """Metres between two places that count as one."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Said:
+    """What is said about a start beside others.
+
+    Attributes:
+        in_lane_of: In or beside whose lane it is.
+        lanes: How many to the left of that one.
+        number: The lane, where it has a number.
+        ahead_of: Ahead of whom it is.
+        along: So far (m); negative: behind.
+        from_entry: Metres from the start of the road, instead.
+    """
+
+    in_lane_of: CastMember | None
+    lanes: int
+    number: LaneNumber | None
+    ahead_of: CastMember | None
+    along: float
+    from_entry: float | None
+
+    @property
+    def reference(self) -> CastMember:
+        """Who is beside."""
+        reference = self.ahead_of or self.in_lane_of
+        assert reference is not None
+        return reference
+
+    @property
+    def is_of_one(self) -> bool:
+        """Whether it is relative to one actor alone."""
+        names = {each.name for each in (self.in_lane_of, self.ahead_of) if each is not None}
+        return len(names) == 1 and self.from_entry is None
+
+
 def beside(ctx: Context, start: Start) -> tuple[Element, ActorState]:
     """Return a place in or beside the lane of another actor, so far ahead of it or behind it."""
-    lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
-    along, ahead_of = _along(ctx, start, position)
-    lanes, in_lane_of = _lanes_beside(ctx, lane, ahead_of)
-    reference = ahead_of or in_lane_of
-    span = start.span
-    if reference is None or (in_lane_of is not None and in_lane_of is not reference):
-        raise Inexpressible("it starts relative to several actors", span)
-    theirs = ctx.states[reference.name]
-    ctx.init_gaps[start.member.name, reference.name] = -along
-    mine = None
-    if ctx.roads is not None and theirs.lane is not None:
-        mine = place_beside(ctx.roads, theirs.lane, lanes, along)
-        if not _is_where_tools_put_it(ctx, theirs.lane, lanes, along, mine):
-            return in_lane(ctx, start, mine)
+    said = _said(ctx, start)
+    if said.is_of_one:
+        ctx.init_gaps[start.id, said.reference.name] = -said.along
+    if ctx.roads is None:
+        if said.number is not None or not said.is_of_one:
+            raise Inexpressible(
+                f"its lane needs the map {ctx.map_file}, which is not at hand: give its folder"
+                " with --map-path",
+                start.span,
+            )
+        return _relative(ctx, start, said, said.lanes, None)
+    mine = _place(ctx, ctx.roads, said)
+    lanes = _lanes_for_tools(ctx, ctx.roads, said, mine)
+    if lanes is None or goes_straight(ctx, start):
+        return in_lane(ctx, start, mine)
+    return _relative(ctx, start, said, lanes, mine)
+
+
+def _relative(
+    ctx: Context, start: Start, said: Said, lanes: int, mine: LanePosition | None
+) -> tuple[Element, ActorState]:
     offset = lateral_of(ctx, start, mine)
-    state = ActorState(speed=known(0.0), offset=known(offset), lane=mine)
-    turn = orientation_in_lane(ctx, start, mine)
-    distance = {"ds" if ctx.version == "1.0" else "dsLane": along}
-    name = reference.name
-    relative = element(
-        "RelativeLanePosition", turn, entityRef=name, dLane=lanes, **distance, offset=offset
+    distance = {"ds" if ctx.version == "1.0" else "dsLane": said.along}
+    position = element(
+        "RelativeLanePosition",
+        orientation_in_lane(ctx, start, mine),
+        entityRef=said.reference.name,
+        dLane=lanes,
+        **distance,
+        offset=offset,
     )
-    return relative, state
+    return position, ActorState(speed=known(0.0), offset=known(offset), lane=mine)
 
 
-def _is_where_tools_put_it(
-    ctx: Context, theirs: LanePosition, lanes: int, along: float, mine: LanePosition
-) -> bool:
-    """Whether metres along the lane of a reference, then across, lead to a place.
+def _place(ctx: Context, roads: Roads, said: Said) -> LanePosition:
+    """Return where it is, as the embedded world finds it."""
+    place = _centre(ctx, roads, said.in_lane_of or said.reference)
+    if said.lanes:
+        place = lane_beside(roads, place, said.lanes)
+    if said.ahead_of is not None:
+        place = place_ahead(roads, place, _centre(ctx, roads, said.ahead_of), said.along)
+    elif said.from_entry is not None:
+        along = roads.from_entry(place, said.from_entry)
+        if along is None:
+            raise NoPlace(f"lane {place.lane} ends before {said.from_entry:g} m")
+        place = along
+    if said.number is None:
+        return place
+    numbered = roads.with_number(place, *said.number)
+    if numbered is None:
+        raise NoPlace(f"there is no lane {said.number.number} beside {said.reference.name}")
+    return numbered
 
-    In a bend they do not: the world measures along the way between the two.
+
+def _centre(ctx: Context, roads: Roads, member: CastMember) -> LanePosition:
+    """Return the place of an actor, on the centre of its driving lane."""
+    pose = ctx.start_poses.get(member.name)
+    if pose is None:
+        raise Inexpressible(f"where {member.name} starts is not known")
+    lane = ctx.states[member.name].lane or roads.map.locate(*pose[:3])
+    if lane is None:
+        raise NoPlace(f"{member.name} is not on a road, so it has no lane")
+    return lane._replace(offset=0.0)
+
+
+def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition) -> int | None:
+    """Return how many lanes to the left tools count to a place; `None` if they do not get there.
+
+    They go metres along the lane of the reference as it looks, and then across; the world measures
+    along the way between the two, which is another one in a bend. XML 1.0 counts along the road.
     """
-    roads = required_roads(ctx)
-    if ctx.version == "1.0":  # it counts along the reference line
+    if not said.is_of_one:
+        return None
+    theirs, pose = _centre(ctx, roads, said.reference), ctx.start_poses[said.reference.name]
+    on = roads.locate(*pose[:3])
+    turn = math.remainder(pose.h - roads.pose(theirs).h, math.tau)
+    if on is None or (on.road, on.lane) != (theirs.road, theirs.lane) or abs(turn) > ALIGNED:
+        return None
+    lanes = said.lanes if said.number is None else roads.lanes_between(theirs, mine)
+    if lanes is None:
+        return None
+    if ctx.version == "1.0":
         leads_along = roads.map.travel_direction(theirs.road, theirs.lane) > 0
-        return leads_along and mine.road == theirs.road and abs(mine.s - theirs.s - along) < NEAR
-    ahead = roads.ahead(theirs, along)
+        is_there = mine.road == theirs.road and abs(mine.s - theirs.s - said.along) < NEAR
+        return lanes if leads_along and is_there else None
+    ahead = roads.ahead(theirs, said.along)
     place = None if ahead is None else roads.beside(ahead, lanes)
     if place is None:
-        return False
+        return None
     there, here = roads.pose(place), roads.pose(mine)
-    return math.dist(there[:2], here[:2]) < NEAR
+    return lanes if math.dist(there[:2], here[:2]) < NEAR else None
 
 
-def _lanes_beside(
-    ctx: Context, lane: Arguments | None, reference: CastMember | None
-) -> tuple[int, CastMember | None]:
-    if lane is None:
-        return 0, None
-    same = lane.entity("same_as")
-    if same is not None:
-        return 0, same
-    beside = lane.entity("side_of")
-    number = lane.number("lane")
-    count = 1 if number is None else round(number)
-    if beside is None and reference is not None:
-        return _lanes_to_number(ctx, lane, reference, count), reference
-    if beside is None:
-        raise Inexpressible("a lane without a place along the road", lane.source.span)
-    return (count if lane.member("side", "left") == "left" else -count), beside
+def _said(ctx: Context, start: Start) -> Said:
+    lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
+    in_lane_of, number, lanes = None, None, 0
+    if lane is not None:
+        same, side_of = lane.entity("same_as"), lane.entity("side_of")
+        in_lane_of = same or side_of
+        if side_of is not None:
+            count = lane.number("lane")
+            lanes = 1 if count is None else round(count)
+            lanes = lanes if lane.member("side", "left") == "left" else -lanes
+        elif same is None:
+            number = lane_number(start)
+    ahead_of = behind = None
+    distance: float | None = None
+    if position is not None:
+        ahead_of, behind = position.entity("ahead_of"), position.entity("behind")
+        distance = position.number("distance")
+    reference = ahead_of or behind
+    if reference is not None and distance is None:
+        distance = _distance_in_time(ctx, start, reference, is_behind=behind is not None)
+    if position is not None and distance is None:
+        raise Inexpressible("it says no distance", position.source.span)
+    along = 0.0 if distance is None or reference is None else distance
+    return Said(
+        in_lane_of=in_lane_of,
+        lanes=lanes,
+        number=number,
+        ahead_of=reference,
+        along=-along if behind is not None else along,
+        from_entry=distance if reference is None else None,
+    )
 
 
-def _lanes_to_number(ctx: Context, lane: Arguments, reference: CastMember, number: int) -> int:
-    """Return how many lanes to the left of a reference the lane with a number is."""
-    theirs = ctx.states[reference.name].lane
-    if ctx.roads is None or theirs is None:
-        raise Inexpressible(
-            f"a numbered lane needs the map {ctx.map_file}, which is not at hand: give its folder"
-            " with --map-path",
-            lane.source.span,
-        )
-    target = ctx.roads.with_number(theirs, number, lane.member("from", "right"))
-    between = None if target is None else ctx.roads.lanes_between(theirs, target)
-    if between is None:
-        raise Inexpressible(f"there is no lane {number} beside {reference.name}", lane.source.span)
-    return between
-
-
-def _along(
-    ctx: Context, start: Start, position: Arguments | None
-) -> tuple[float, CastMember | None]:
-    """Return the distance (m, positive ahead) and from whom."""
-    if position is None:
-        return 0.0, None
-    ahead, behind = position.entity("ahead_of"), position.entity("behind")
-    reference = ahead or behind
-    if reference is None:
-        raise Inexpressible(
-            "a distance along the road in the lane of an actor", position.source.span
-        )
-    distance = position.number("distance")
-    if distance is None:
-        time = position.number("time")
-        if time is None:
-            raise Inexpressible("it says no distance", position.source.span)
-        theirs = ctx.states[reference.name].speed
-        own = speed_at_start(ctx, start)
-        distance = time * (own if behind else theirs.low if theirs is not None else 0.0)
-    return (distance if ahead is not None else -distance), reference
+def _distance_in_time(
+    ctx: Context, start: Start, reference: CastMember, *, is_behind: bool
+) -> float | None:
+    """Return the way (m) that the one behind drives in the time between two."""
+    time = start.modifiers["position"].number("time")
+    if time is None:
+        return None
+    theirs = ctx.states[reference.name].speed
+    return time * (speed_at_start(ctx, start) if is_behind else theirs.low if theirs else 0.0)

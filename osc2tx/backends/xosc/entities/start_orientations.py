@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start
 from osc2tx.backends.xosc.entities.stationary_actors import stands
 from osc2tx.backends.xosc.facts.actors import ALIGNED, Linear, apart, course_of_shift, lost_across
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -51,12 +51,10 @@ def turned(ctx: Context, start: Start, along: float) -> tuple[float, float | Non
 
 
 def _heading_of(ctx: Context, other: CastMember, source: Arguments) -> float:
-    state = ctx.states[other.name]
-    if state.pose is not None:
-        return state.pose.h
-    if state.lane is None or ctx.roads is None:
+    pose = ctx.start_poses.get(other.name)
+    if pose is None:
         raise Inexpressible(f"the heading of {other.name} is not known", source.source.span)
-    return ctx.roads.pose(state.lane).h
+    return pose.h
 
 
 def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) -> Element | None:
@@ -75,18 +73,13 @@ def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) 
     )
 
 
-def note_turn(ctx: Context, start: Start, pose: Pose | None) -> None:
+def note_turn(ctx: Context, start: Start) -> None:
     """Report that who drives and is turned in its lane comes into its direction in a curve.
-
-    Args:
-        ctx: The context.
-        start: What is said about its start.
-        pose: Where it is; `None` if unknown.
 
     Raises:
         Inexpressible: It looks so far away from the lane that it does not come into it at all.
     """
-    roads, member = ctx.roads, start.member
+    roads, member, pose = ctx.roads, start.member, ctx.start_poses.get(start.id)
     lane = None if pose is None or roads is None else roads.locate(*pose[:3])
     if member.walks or pose is None or roads is None or lane is None:
         return

@@ -10,21 +10,20 @@ from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.entities.relative_starts import beside
-from osc2tx.backends.xosc.entities.start_lanes import in_lane
+from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number
 from osc2tx.backends.xosc.entities.start_orientations import turned
 from osc2tx.backends.xosc.entities.start_statements import Start, is_at_point
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.facts.start_places import (
     IsFree,
-    LaneNumber,
     given_place,
     open_place,
 )
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
-from osc2tx.backends.xosc.state import ActorState, known
+from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.backends.xosc.xml.tree import Element
 
 at_start("location", "position", "along", "lane", "lateral", "on_path")
 
@@ -73,7 +72,7 @@ def _at_pose(ctx: Context, start: Start, location: Arguments) -> tuple[Element, 
     }
     x, y, z = (numbers[name] or 0.0 for name in "xyz")
     h = numbers["h"] or 0.0
-    return _world(Pose(x, y, z, h), numbers["p"], numbers["r"])
+    return at_pose(Pose(x, y, z, h), numbers["p"], numbers["r"])
 
 
 def _part(ctx: Context, owner: str, path: tuple[str, ...]) -> float | None:
@@ -81,19 +80,6 @@ def _part(ctx: Context, owner: str, path: tuple[str, ...]) -> float | None:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return None
     return float(value)
-
-
-def _world(pose: Pose, pitch: float | None, roll: float | None) -> tuple[Element, ActorState]:
-    position = element(
-        "WorldPosition",
-        x=pose.x,
-        y=pose.y,
-        z=pose.z,
-        h=pose.h,
-        p=pitch or None,
-        r=roll or None,
-    )
-    return position, ActorState(speed=known(0.0), offset=None, pose=pose)
 
 
 def _at_point(ctx: Context, start: Start, position: Arguments) -> tuple[Element, ActorState]:
@@ -104,15 +90,30 @@ def _at_point(ctx: Context, start: Start, position: Arguments) -> tuple[Element,
         x, y, z = (_part(ctx, point.name, (name,)) or 0.0 for name in "xyz")
         if position.get("project_on_route") is not False:
             return _near_point(ctx, start, (x, y, z))
-        heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
+        said = None
     else:
         x, y, z = (position.number(name) or 0.0 for name in "xyz")
-        heading = position.number("h") or 0.0
+        said = position.number("h")
         if position.text("frame") == "carla":  # left-handed, and of the centre of the box
-            heading, back = -heading, start.member.shape.centre
-            x, y = x - back * math.cos(heading), -y - back * math.sin(heading)
-    heading, pitch, roll = turned(ctx, start, heading)
-    return _world(Pose(x, y, z, heading), pitch, roll)
+            said, back = -(said or 0.0), start.member.shape.centre
+            x, y = x - back * math.cos(said), -y - back * math.sin(said)
+    along = _heading_at(ctx, start, (x, y, z), said)
+    heading, pitch, roll = turned(ctx, start, along)
+    return at_pose(Pose(x, y, z, heading), pitch, roll)
+
+
+def _heading_at(
+    ctx: Context, start: Start, point: tuple[float, float, float], said: float | None
+) -> float:
+    """Return the heading (rad) of who is put to a point; a vehicle looks along the lane there."""
+    if ctx.roads is None:
+        return said or 0.0
+    on = ctx.roads.locate(*point)
+    along = ctx.roads.direction_at(*point) if on is None else ctx.roads.pose(on).h
+    if said is None:
+        return along
+    is_in_lane = on is not None and not start.member.walks and math.cos(along - said) > 0.0
+    return along if is_in_lane else said
 
 
 def _near_point(
@@ -149,7 +150,7 @@ def _on_route(
         if not isinstance(place, LanePosition):
             if lane is not None:
                 raise Inexpressible("a lane of a way off the lanes", lane.source.span)
-            return _world(place, None, None)
+            return at_pose(place, None, None)
         if lane is not None or is_free(place):
             return in_lane(ctx, start, _numbered(ctx, start, place))
     raise NoPlace(f"the route has no free lane {offset:g} m along it")
@@ -158,7 +159,7 @@ def _on_route(
 def _on_road(
     ctx: Context, start: Start, road: Constant | None, is_free: IsFree
 ) -> tuple[Element, ActorState]:
-    name, position, lane = start.id, start.modifiers.get("position"), _lane_number(start)
+    name, position, lane = start.id, start.modifiers.get("position"), lane_number(start)
     spawn = dict(map(read_spawn, ctx.options.spawns)).get(name)
     if ctx.roads is None:
         if spawn is None:
@@ -175,10 +176,3 @@ def _on_road(
     distance = None if position is None else position.number("distance")
     segment = segment_of(ctx, road)
     return in_lane(ctx, start, open_place(ctx.roads, name, lane, distance, segment, is_free))
-
-
-def _lane_number(start: Start) -> LaneNumber | None:
-    lane = start.modifiers.get("lane")
-    if lane is None:
-        return None
-    return LaneNumber(round(lane.number("lane") or 1), lane.member("from", "right"))

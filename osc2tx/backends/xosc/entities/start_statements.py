@@ -66,8 +66,8 @@ RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
 FASTER = {"faster_than": 1.0, "slower_than": -1.0}
 """Parameters that name whose speed another one is relative to, with the sign of the difference."""
 
-TURNS = frozenset({"orientation", "speed", "tow_trailer", "yaw"})
-"""Modifiers that name others without a place beside them."""
+BESIDE = frozenset({"lane", "position"})
+"""Modifiers that say a place beside the actors that they name."""
 
 
 def is_at_point(position: Arguments | None) -> bool:
@@ -116,7 +116,7 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
             other = arguments.entity(name)
             if other is not None:
                 references.append(other.name)
-                is_beside = is_beside or modifier not in TURNS
+                is_beside = is_beside or modifier in BESIDE
     return Start(member, scope, placement, modifiers, tuple(references), is_beside)
 
 

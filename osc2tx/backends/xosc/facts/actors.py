@@ -23,13 +23,13 @@ from osc2tx_runtime.world.actor_dimensions import (
     limits_of,
     shape_of,
 )
-from osc2tx_runtime.world.actor_motion import CRUISE as SPEEDS_AT_START
-from osc2tx_runtime.world.actor_step import ALIGNED
 from osc2tx_runtime.world.commands import AccelerationChange, SpeedChange
 from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral import shift_profile
 from osc2tx_runtime.world.lateral_limits import SIDEWAYS
 from osc2tx_runtime.world.longitudinal import speed_profile
+from osc2tx_runtime.world.moving_body import ALIGNED
+from osc2tx_runtime.world.moving_body import CRUISE as SPEEDS_AT_START
 from osc2tx_runtime.world.profiles import COSINE_PEAK, Cosine, Linear, Profile, Quintic, SCurve
 from osc2tx_runtime.world.towing import DRAWBAR
 from osc2tx_runtime.world.weather_effects import Surroundings

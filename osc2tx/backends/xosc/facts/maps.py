@@ -22,6 +22,7 @@ from osc2tx_runtime.world.lane_neighbours import (
     lane_beside,
     lane_with_number,
     lanes_to_left,
+    offset_from,
 )
 from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.traffic_light_states import Signals
@@ -131,6 +132,10 @@ class Roads:
             return Pose(x, y, altitude, 0.0)
         near = self.map.pose(road)
         return Pose(x, y, near.z + altitude, near.h)
+
+    def offset_from(self, lane: LanePosition, pose: Pose) -> float:
+        """Return how far (m) a place is to the left of the centre of a lane."""
+        return offset_from(self.map, lane, pose.x, pose.y)
 
     def signal_position(self, signal: str) -> tuple[float, float]:
         """Return where a traffic light stands (m).

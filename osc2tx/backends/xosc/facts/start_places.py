@@ -26,8 +26,9 @@ __all__ = [
     "StartRoom",
     "box_at",
     "given_place",
+    "lane_beside",
     "open_place",
-    "place_beside",
+    "place_ahead",
     "trailer_pose",
 ]
 
@@ -92,20 +93,31 @@ def given_place(
         raise NoPlace(error.message) from None
 
 
-def place_beside(roads: Roads, reference: LanePosition, lanes: int, along: float) -> LanePosition:
-    """Return the place so many lanes to the left of a reference and so far (m) ahead of it.
+def lane_beside(roads: Roads, place: LanePosition, lanes: int) -> LanePosition:
+    """Return the lane so many to the left of a place.
 
     Raises:
-        NoPlace: There is no such lane, or it does not reach as far.
+        NoPlace: There is no such lane.
     """
-    beside = roads.beside(reference, lanes)
+    beside = roads.beside(place, lanes)
     if beside is None:
         side = "left" if lanes > 0 else "right"
-        raise NoPlace(f"there is no lane {abs(lanes)} to the {side} of lane {reference.lane}")
-    place = place_at_distance(roads.map, beside, reference, along)
+        raise NoPlace(f"there is no lane {abs(lanes)} to the {side} of lane {place.lane}")
+    return beside
+
+
+def place_ahead(
+    roads: Roads, lane: LanePosition, origin: LanePosition, distance: float
+) -> LanePosition:
+    """Return the place on a lane that is so far (m) ahead of a place on it or beside it.
+
+    Raises:
+        NoPlace: The lane does not reach as far.
+    """
+    place = place_at_distance(roads.map, lane, origin, distance)
     if place is None:
-        way = "ahead" if along >= 0.0 else "back"
-        raise NoPlace(f"the lane does not reach {abs(along):g} m {way}")
+        way = "ahead" if distance >= 0.0 else "back"
+        raise NoPlace(f"the lane does not reach {abs(distance):g} m {way}")
     return place
 
 

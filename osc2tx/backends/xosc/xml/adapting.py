@@ -9,7 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from osc2tx.backends.xosc.conditions.flow import Flow, Group, Test, at_time, single, state_of
+from osc2tx.backends.xosc.conditions.flow import (
+    Flow,
+    Group,
+    Test,
+    at_time,
+    run_start,
+    single,
+    state_of,
+)
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.storyboard import Act, Event
 from osc2tx.backends.xosc.report import Remedy
@@ -36,7 +44,29 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ..
             for part in (*event.actions, *_conditions(event)):
                 for node in _walk(part):
                     _check(ctx, event, node)
-    return (tuple(acts) if ctx.profile.has_delays else _Watch(ctx).through(acts)), end
+    if not ctx.profile.has_delays:
+        acts = _Watch(ctx).through(acts)
+    if ctx.profile.begins_with_texts:
+        acts = (*_beginning(ctx, acts), *acts)
+    return tuple(acts), end
+
+
+def _beginning(ctx: Context, acts: Sequence[Act]) -> Iterator[Act]:
+    """Yield the act that gives their first value to variables that something compares with it."""
+    compared = {
+        str(node.get("parameterRef"))
+        for act in acts
+        for event in act.all_events()
+        for part in _conditions(event)
+        for node in _walk(part)
+        if node.name == "ParameterCondition" and node.get("value") == "0"
+    }
+    if compared:
+        name, span = ctx.names.new("begin"), ctx.scenario.span
+        act = Act(ctx.names.new(f"act_{name}"), single(run_start()))
+        actions = tuple(ctx.set_variable(variable, "false") for variable in sorted(compared))
+        act.add(None, Event(name, actions, single(run_start()), span))
+        yield act
 
 
 def _conditions(event: Event) -> Iterator[Element]:

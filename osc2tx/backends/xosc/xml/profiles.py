@@ -37,6 +37,9 @@ class ToolProfile:
         signals_by_place: It knows traffic lights by where they stand, in coordinates of CARLA, not
             by their ids in the map.
         knows_towns: Maps have names for it, not only files.
+        begins_with_texts: A variable holds the text of its declaration, which equals no number,
+            until something sets it.
+        walkers_keep_heading: Whether a walker that is told a speed goes along its heading.
         moves_maps: What it does with the offset in the header of a map; empty if it leaves maps
             where they are.
     """
@@ -58,6 +61,8 @@ class ToolProfile:
     signals_by_place: bool = False
     knows_towns: bool = False
     moves_maps: str = ""
+    begins_with_texts: bool = False
+    walkers_keep_heading: bool = False
 
 
 _ESMINI_IGNORES = {
@@ -132,5 +137,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         ego_property="ego_vehicle",
         signals_by_place=True,
         knows_towns=True,
+        begins_with_texts=True,
+        walkers_keep_heading=True,
     ),
 }

@@ -10,10 +10,10 @@ from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.actor_motion import cruise_of
 from osc2tx_runtime.world.commands import Command, Cover, GapCourse
 from osc2tx_runtime.world.distances import along_lanes
 from osc2tx_runtime.world.function_profiles import Mapped, change_profile
+from osc2tx_runtime.world.moving_body import cruise_of
 
 from .feasibility import check_course, check_peak
 from .goals import way_to

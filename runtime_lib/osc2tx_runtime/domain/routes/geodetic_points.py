@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.points_and_poses import GeodeticPoint
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import GeoReferenceError, Pose, RoadMap
-from osc2tx_runtime.world.actor_motion import ANY_LANE
+from osc2tx_runtime.world.moving_body import ANY_LANE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
