@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from traceback import format_exception
 from typing import TYPE_CHECKING
 
 from osc2tx.compilation.inputs import find_inputs
@@ -139,6 +138,8 @@ def find_bug(
     except InternalCompilerError as error:
         return f"{told}: {error}"
     except Exception as error:  # whatever it is, it is ours, and the other files need not wait
+        from traceback import format_exception
+
         trace = "".join(format_exception(error))
         return f"{trace}{told}: {error!r}"
     return ""

@@ -15,7 +15,6 @@ import signal
 import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
-from traceback import format_exc
 from typing import NoReturn
 
 import click
@@ -125,6 +124,8 @@ def _run(arguments: Sequence[str], session: Session) -> int:
         complain(f"osc2tx: error: {error}")
         return _fail(Exit.UNREADABLE, str(error), arguments, session)
     except Exception:  # the edge of the process: a bug must not look like exit code 1, stale
+        from traceback import format_exc
+
         put(format_exc(), err=True)
         complain(BUG_REPORT)
         return _fail(Exit.BUG, "osc2tx failed; this is a bug of it", arguments, session)

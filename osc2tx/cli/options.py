@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.shell_completion import CompletionItem
 
 from osc2tx.config import GivenOptions
 from osc2tx.options import (
@@ -36,7 +35,7 @@ def scenario_option(verb: str) -> Callable[..., Any]:
 
 def _complete_scenario(
     context: click.Context, parameter: click.Parameter, incomplete: str
-) -> list[CompletionItem]:
+) -> list[str]:
     """Offer the scenarios of the file, as one sees them without compiling it."""
     words = [context.params.get("file"), *context.args]  # there as long as the line is incomplete
     paths = [Path(str(word)) for word in words if word is not None]
@@ -47,7 +46,7 @@ def _complete_scenario(
         names = dict.fromkeys(_NAMES[path.suffix].findall(path.read_text(encoding="utf-8")))
     except (OSError, ValueError):
         return []
-    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+    return [name for name in names if name.startswith(incomplete)]
 
 
 def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 import click
-from click.shell_completion import CompletionItem
 
 from osc2tx.cli.explain import put_explanations
 from osc2tx.diagnostics.code_lookup import find_code
@@ -15,11 +14,9 @@ from osc2tx.reference import as_data, as_text, entries, find
 from osc2tx_text import in_json, put
 
 
-def _complete(
-    context: click.Context, parameter: click.Parameter, incomplete: str
-) -> list[CompletionItem]:
+def _complete(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
     names = dict.fromkeys(each.declaration.name for each in entries())
-    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+    return [name for name in names if name.startswith(incomplete)]
 
 
 @click.command()

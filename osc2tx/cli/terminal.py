@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from shutil import get_terminal_size
 
 from osc2tx_text import is_watched
 
@@ -22,4 +21,8 @@ def wants_color(*, err: bool = False) -> bool:
 
 def columns() -> int | None:
     """Return the width of the terminal at standard output; None for files and pipes."""
-    return get_terminal_size().columns if is_watched(err=False) else None
+    if not is_watched(err=False):
+        return None
+    from shutil import get_terminal_size  # with all that it knows of archives
+
+    return get_terminal_size().columns
