@@ -171,12 +171,11 @@ def _link(source: Source) -> str:
 
 
 def _examples(places: Sequence[str]) -> str:
-    """A few files, and how many there are."""
+    """A few files, and whether there are others."""
     by_name = {_short(place): place for place in reversed(places)}
     names = list(dict.fromkeys(_short(place) for place in places))
     short = [f"[{name}](../{by_name[name]})" for name in names[:SHOWN]]
-    more = len(names) - len(short)
-    return ", ".join(short) + (f" and {more} more" if more else "")
+    return ", ".join(short) + (" and others" if len(names) > len(short) else "")
 
 
 def _short(place: str) -> str:
