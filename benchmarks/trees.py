@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import py_trees
 from costs import best, growth, upto
 from py_trees.common import ParallelPolicy, Status
 
+from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -22,17 +22,18 @@ from osc2tx_runtime.language.tree import (
     Wait,
     elapsed,
 )
+from osc2tx_runtime.opendrive import read_map
 from osc2tx_runtime.running.loop import settle
 from osc2tx_runtime.running.runner import setup_tree
+from osc2tx_runtime.world import EmbeddedWorld
 
 LEAVES = (10, 100, 1000)
 DEPTHS = (10, 50, 200)
 
 
 def started(tree: Behaviour) -> tuple[ExecutionContext, Behaviour]:
-    """Set a tree up in a run without a world, and start it."""
-    world: Any = None
-    context = ExecutionContext(world)
+    """Set a tree up in a run without actors, and start it."""
+    context = ExecutionContext(EmbeddedWorld(read_map(SHIPPED / "crossing.xodr"), 0.05))
     setup_tree(tree, context)
     context.begin_step(0)
     context.begin_pass()
@@ -88,7 +89,7 @@ def instant(tree: Behaviour) -> Callable[[], object]:
 
     def next_step() -> None:
         context.begin_step(context.step + 1)
-        settle(started_tree.tick_once, context, ())  # type: ignore[arg-type]
+        settle(started_tree, started_tree.tick_once, context, ())  # type: ignore[arg-type]
 
     return next_step
 
