@@ -6,7 +6,8 @@ Prints
 
 - trees: one pass over the runtime's compositions beside py_trees' own (the floor), and how the cost
   grows with the number of leaves and with depth;
-- the world: one step for 1 to 500 actors, and how the cost grows with them;
+- the world: one step for 1 to 500 actors, and how the cost grows with them, on a road that they
+  crowd (more and more of them drive into each other) and on one that is as long as they need;
 - whole scenarios, tree and world together, as multiples of real time, against the budget.
 
 Times are CPU seconds, the least of a few runs. Ratios count, not seconds: U is one `next()` of a
@@ -16,6 +17,7 @@ trivial generator on the same machine.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,12 +28,13 @@ import osc2tx_runtime
 from osc2tx_runtime import Map, RunSettings, Scenario, Vehicle, rise, run_scenario
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Wait, elapsed
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
+from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map, read_map_text
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
 
 DT = 0.05  # s, 20 Hz
+ROOM = 20.0  # m of road for each actor, where the road is as long as they need
 ACTORS = (1, 5, 20, 100, 500)
 
 
@@ -67,13 +70,26 @@ def drive(world: EmbeddedWorld, steps: int) -> None:
         world.step()
 
 
-def print_world(road_map: RoadMap, u: float, largest: int) -> None:
+def straight_road(length: float) -> RoadMap:
+    """A road with four lanes and nothing else."""
+    width = '<width sOffset="0" a="3.5" b="0" c="0" d="0"/>'
+    lanes = "".join(f'<lane id="{-i}" type="driving">{width}</lane>' for i in range(1, 5))
+    return read_map_text(
+        f'<OpenDRIVE><header/><road id="1" length="{length}" junction="-1"><planView>'
+        f'<geometry s="0" x="0" y="0" hdg="0" length="{length}"><line/></geometry></planView>'
+        '<lanes><laneSection s="0"><center><lane id="0" type="none"/></center>'
+        f"<right>{lanes}</right></laneSection></lanes></road></OpenDRIVE>",
+        "straight",
+    )
+
+
+def print_world(where: str, map_of: Callable[[int], RoadMap], u: float, largest: int) -> None:
     sizes = upto(largest, ACTORS)
-    print(f"\n{'world: one step':24}{'us':>10}{'us/actor':>10}{'U/actor':>10}{'x real time':>14}")
+    print(f"\n{where:24}{'us':>10}{'us/actor':>10}{'U/actor':>10}{'x real time':>14}")
     costs = []
     for actors in sizes:
         steps = 2000 // actors + 100
-        worlds = [filled_world(road_map, actors) for _ in range(3)]
+        worlds = [filled_world(map_of(actors), actors) for _ in range(3)]
         cost = min(spent(lambda w=world, n=steps: drive(w, n), 1) for world in worlds) / steps
         costs.append(cost)
         print(
@@ -173,7 +189,9 @@ def main() -> None:
     u = unit()
     print(f"map {road_map.name}; U = {u * 1e9:.1f} ns (one next() on a trivial generator)")
     print_trees(u, arguments.largest)
-    print_world(road_map, u, arguments.largest)
+    print_world("world: one step", lambda _: road_map, u, arguments.largest)
+    roads = {actors: straight_road(500.0 + ROOM * actors) for actors in ACTORS}
+    print_world("as dense, longer road", roads.__getitem__, u, arguments.largest)
     print_scenarios(arguments.largest)
 
 
