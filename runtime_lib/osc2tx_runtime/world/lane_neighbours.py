@@ -85,12 +85,15 @@ def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosit
         place: In a driving lane, or beside the innermost one in a lane of oncoming traffic.
         lanes: How many; negative: to the right.
     """
-    wanted = _lanes_beyond(road_map, place) + lanes
+    beyond = _lanes_beyond(road_map, place)
+    wanted = beyond + lanes
     target = _beside(road_map, place, wanted)
+    own = LanePosition(place.road, place.lane, place.s)
+    if target is None and 0 < abs(wanted) <= abs(beyond) and wanted * beyond > 0:
+        return own._replace(offset=wanted * road_map.lane_width(own.road, own.lane, own.s))
     if target is None or not are_opposed(road_map, place, target):
         return target
     step = 1 if wanted > 0 else -1
-    own = LanePosition(place.road, place.lane, place.s)
     while (further := road_map.neighbour(own, _side(step))) is not None:
         own = further
     centre = road_map.pose(target)
@@ -100,8 +103,7 @@ def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosit
 def actual_lane(road_map: RoadMap, place: LanePosition) -> LanePosition:
     """Centre of the lane that a place is in, which may be one of oncoming traffic."""
     lane = _beside(road_map, place, _lanes_beyond(road_map, place))
-    assert lane is not None
-    return lane
+    return LanePosition(place.road, place.lane, place.s) if lane is None else lane
 
 
 def seen_along(road_map: RoadMap, place: LanePosition, heading: float) -> LanePosition:
@@ -162,13 +164,19 @@ def _beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition 
 
 
 def _lanes_beyond(road_map: RoadMap, place: LanePosition) -> int:
-    """How many lanes of oncoming traffic to the left of its lane a place is by its offset."""
-    if abs(place.offset) <= 0.5 * road_map.lane_width(place.road, place.lane, place.s):
+    """How many lanes of oncoming traffic to the left of its lane a place is by its offset.
+
+    In a junction, where roads have none beside them, they go on as wide as its own lane.
+    """
+    width = road_map.lane_width(place.road, place.lane, place.s)
+    if abs(place.offset) <= 0.5 * width:
         return 0
     here, lanes, apart = road_map.pose(place), 0, abs(place.offset)
     step = 1 if place.offset > 0.0 else -1
     while True:
         further = _beside(road_map, place, lanes + step)
+        if further is None and lanes == 0 and road_map.roads[place.road].junction is not None:
+            return round(place.offset / width)
         if further is None or not are_opposed(road_map, place, further):
             return lanes
         nearer = abs(offset_from(road_map, further, here.x, here.y))

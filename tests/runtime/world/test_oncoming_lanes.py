@@ -150,6 +150,17 @@ def test_lanes_are_counted_over_both_directions() -> None:
     assert width_at(UNEVEN, LanePosition("1", -1, 0.0, 4.0)) == 5.0
 
 
+def test_back_from_there_in_a_junction() -> None:
+    """Its road has no lanes of oncoming traffic there; one still comes back to the lane beside."""
+    one_way = lanes().replace('id="1" type="driving"', 'id="1" type="none"')
+    crossing = one_road("line", 60.0, lanes=one_way, junction="7")
+    there = LanePosition("1", -1, 20.0, 2.8)
+    assert lane_beside(crossing, there, 0) == LanePosition("1", -1, 20.0, 3.0)
+    assert lane_beside(crossing, there, -1) == LanePosition("1", -1, 20.0)
+    assert lane_beside(crossing, there, -2) == LanePosition("1", -2, 20.0)
+    assert lane_beside(crossing, there, 1) is None
+
+
 def test_what_lies_between_ends_the_lanes() -> None:
     divided = lanes().replace('id="1" type="driving"', 'id="1" type="median"')
     road_map = one_road("line", 600.0, lanes=divided)
