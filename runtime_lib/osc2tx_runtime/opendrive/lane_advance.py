@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import math
 
+from .angles import wrap
 from .lane_distances import Route
 from .lane_line import lane_line
 from .model import Advance, Lane, LanePosition
 from .network import lane_order
 
-__all__ = ["Forks", "advance", "lane_heading", "wrap"]
+__all__ = ["Forks", "advance", "lane_heading"]
 
 _PROBE = 50.0  # m into a branch at which its direction is compared
 _IDLE_HOPS = 1000  # lanes without length in a row: a loop of them would never end
-
-
-def wrap(angle: float) -> float:
-    """An angle in (-pi, pi]."""
-    return math.pi - (math.pi - angle) % math.tau
 
 
 def lane_heading(lane: Lane, s: float) -> float:

@@ -6,7 +6,8 @@ import math
 
 from osc2tx_classes import dataclass
 
-from .lane_advance import lane_heading, wrap
+from .angles import wrap
+from .lane_advance import lane_heading
 from .model import Lane, LanePosition, Road
 from .road_index import RoadIndex
 

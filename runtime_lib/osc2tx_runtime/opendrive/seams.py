@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from osc2tx_classes import dataclass, replace
 
-from .lane_advance import wrap
+from .angles import wrap
 from .model import DRIVING, Lane, Pose, Road
 from .poses import lane_pose
 

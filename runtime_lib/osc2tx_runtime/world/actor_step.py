@@ -6,6 +6,7 @@ import math
 
 from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
+from osc2tx_runtime.opendrive.angles import wrap
 from osc2tx_runtime.opendrive.model import new_tuple
 
 from .acceleration import AssignedSpeed
@@ -203,7 +204,7 @@ class MovingActor(MovingBody):
             bound = bound._replace(offset=bound.offset + residual.aside)
         if rate and abs(speed) > STILL:
             h += math.asin(min(max(rate / speed, -SIDEWAYS), SIDEWAYS))
-            h = math.pi - (math.pi - h) % math.tau
+            h = wrap(h)
         elif abs(speed) <= STILL and self._half_way(bound):
             h = self.reference.h  # standing half way through a lane change
         under = lane_under(road_map, bound, pose) if bound.offset else bound
@@ -211,7 +212,7 @@ class MovingActor(MovingBody):
         if self.tilt is not LEVEL or pose.pitch or pose.roll:
             pitch, roll = self._tilted(pose, h)
         if residual is not None:
-            h = math.pi - (math.pi - h) % math.tau
+            h = wrap(h)
             rate += residual.drift(speed)
         shape = self.spec.shape
         return new_tuple(

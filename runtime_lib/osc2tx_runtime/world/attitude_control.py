@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from osc2tx_runtime.opendrive.angles import wrap
 
 from .attitude import Tilt
 from .commands import Turn
@@ -33,7 +33,7 @@ class Turning:
             tilt.pitch if self._command.pitch is None else state.pitch + pitch,
             tilt.roll if self._command.roll is None else state.roll + roll,
         )
-        return math.pi - (math.pi - state.h - heading) % math.tau, told
+        return wrap(state.h + heading), told
 
     def progress(self, state: ActorState) -> Progress:
         """Done when it is turned so."""

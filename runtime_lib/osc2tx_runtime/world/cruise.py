@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from osc2tx_runtime.opendrive import LanePosition, Stretch
-from osc2tx_runtime.opendrive.lane_advance import wrap
+from osc2tx_runtime.opendrive.angles import wrap
 from osc2tx_runtime.opendrive.model import new_tuple
 
 from .actor_dimensions import Shape

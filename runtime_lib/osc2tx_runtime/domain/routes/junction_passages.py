@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from osc2tx_runtime.domain.routes.map_segments import MapSegment
+from osc2tx_runtime.opendrive.angles import wrap
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.routes.lane_graph import LaneGraph
@@ -51,7 +52,7 @@ def passages_of(graph: LaneGraph) -> tuple[Passage, ...]:
             for out in graph.after(via):
                 if graph.map.roads[out.road].junction is None:
                     turn = graph.heading(out, at_end=False) - graph.heading(lane, at_end=True)
-                    turn = math.pi - (math.pi - turn) % math.tau
+                    turn = wrap(turn)
                     found.append(Passage(inside, lane, via, out, turn))
     return tuple(found)
 

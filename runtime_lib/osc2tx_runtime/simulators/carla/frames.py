@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 
 from osc2tx_runtime.opendrive import Pose
+from osc2tx_runtime.opendrive.angles import wrap
 from osc2tx_runtime.world.measurement import Measurement
 
 __all__ = ["measurement_from", "pose_from", "transform_of", "vector_of"]
@@ -31,7 +32,7 @@ def transform_of(pose: Pose, ahead: float = 0.0, up: float = 0.0) -> list[float]
 def pose_from(transform: Sequence[float], ahead: float = 0.0, up: float = 0.0) -> Pose:
     """Return the pose of the reference point; see `transform_of`."""
     x, y, z, pitch, yaw, roll = transform
-    h = math.pi - (math.pi + math.radians(yaw)) % math.tau
+    h = wrap(-math.radians(yaw))
     place = (x + ahead * math.cos(h), -y + ahead * math.sin(h), z - up, h)
     return Pose(*place, -math.radians(pitch), math.radians(roll))
 
