@@ -4,7 +4,7 @@ import warnings
 from pathlib import Path
 
 import pytest
-from scenariogeneration.xosc import NotAValidElement, ParseOpenScenario
+from scenariogeneration.xosc import NotAValidElement, ParseOpenScenario, xosc_reader
 
 ROOT = Path(__file__).parents[4]
 WRITTEN = [
@@ -13,6 +13,12 @@ WRITTEN = [
 ]
 UNKNOWN = "<RelativeClearanceCondition"
 """The parser has no word for it."""
+
+
+@pytest.fixture(autouse=True)
+def _is_valid(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Schemas are tested elsewhere, by a library that takes much less time."""
+    monkeypatch.setattr(xosc_reader, "validate_schema", lambda _: True)
 
 
 def parsed(path: Path) -> ParseOpenScenario:
