@@ -210,7 +210,7 @@ class LaneCursor:
             node,
             length,
             rate,
-            t + p.offset * lane.direction,
+            t,
             lane.direction,
             self._segment,
             self._segment_start,

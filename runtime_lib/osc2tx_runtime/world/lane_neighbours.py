@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import ScenarioError
@@ -58,11 +59,9 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
     over, beyond = _lanes_beyond(road_map, lane), _lanes_beyond(road_map, place)
     if not are_opposed(road_map, place, lane):
         return numbers[0] + over - numbers[1] - beyond
-    for lanes in range(1, len(road_map.roads[place.road].section_at(place.s).lanes)):
-        for signed in (lanes, -lanes):
-            found = _beside(road_map, place, signed)
-            if found is not None and found.lane == lane.lane:
-                return signed - over - beyond
+    for lanes, found in _around(road_map, place):
+        if found.lane == lane.lane:
+            return lanes - over - beyond
     raise ScenarioError(
         f"lane {lane.lane} of road {lane.road} is no driving lane beside lane {place.lane}"
     )
@@ -89,7 +88,7 @@ def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosit
     wanted = beyond + lanes
     target = _beside(road_map, place, wanted)
     own = LanePosition(place.road, place.lane, place.s)
-    if target is None and 0 < abs(wanted) <= abs(beyond) and wanted * beyond > 0:
+    if target is None and wanted * beyond > 0 and abs(wanted) <= abs(beyond):
         return own._replace(offset=wanted * road_map.lane_width(own.road, own.lane, own.s))
     if target is None or not are_opposed(road_map, place, target):
         return target
@@ -115,12 +114,9 @@ def seen_along(road_map: RoadMap, place: LanePosition, heading: float) -> LanePo
     pose = road_map.pose(place)
     if math.cos(heading - pose.h) >= 0.0:
         return place
-    across = len(road_map.roads[place.road].section_at(place.s).lanes)
-    for lanes in range(1, across):
-        for signed in (lanes, -lanes):
-            own = _beside(road_map, place, signed)
-            if own is not None and are_opposed(road_map, place, own):
-                return own._replace(offset=offset_from(road_map, own, pose.x, pose.y))
+    for _, own in _around(road_map, place):
+        if are_opposed(road_map, place, own):
+            return own._replace(offset=offset_from(road_map, own, pose.x, pose.y))
     return place
 
 
@@ -161,6 +157,15 @@ def _beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition 
     if lanes == 0:
         return LanePosition(place.road, place.lane, place.s)
     return road_map.neighbour(place, _side(lanes), abs(lanes), either_way=True)
+
+
+def _around(road_map: RoadMap, place: LanePosition) -> Iterator[tuple[int, LanePosition]]:
+    """Yield the lanes beside a place of any direction, the nearest first, and how many left."""
+    for lanes in range(1, len(road_map.roads[place.road].section_at(place.s).lanes)):
+        for signed in (lanes, -lanes):
+            lane = _beside(road_map, place, signed)
+            if lane is not None:
+                yield signed, lane
 
 
 def _lanes_beyond(road_map: RoadMap, place: LanePosition) -> int:

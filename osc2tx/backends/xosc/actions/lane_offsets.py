@@ -6,6 +6,7 @@ import math
 
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.lanes import (
+    NO_ONE_SIDE,
     lanes_to_segment,
     lateral,
     note_drift,
@@ -50,7 +51,7 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
     """
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is not None and lane is not None and is_oncoming(roads.map, lane):
-        raise Inexpressible("an offset in a lane of oncoming traffic has no one side")
+        raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     way = abs(offset - offset_of(leaf.state))
     course = course_of_shift(way, profile, peak, None, leaf.limits)
     note_drift(leaf, way, (profile, peak, None), course)

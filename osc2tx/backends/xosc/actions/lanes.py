@@ -24,6 +24,8 @@ from osc2tx_classes import replace
 LANE_WIDTH = 3.5
 """Metres between lanes where there is no map to ask."""
 
+NO_ONE_SIDE = "an offset in a lane of oncoming traffic has no one side"
+
 
 @action("change_lane")
 def _change_lane(leaf: Leaf) -> Performance:
@@ -175,7 +177,7 @@ def _number_among_oncoming(
             leaf.node.span,
         )
     if offset:
-        raise Inexpressible("an offset in a lane of oncoming traffic has no one side")
+        raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     return number if oncoming is target else target.lane
 
 

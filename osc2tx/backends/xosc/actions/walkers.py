@@ -83,18 +83,18 @@ def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> Element:
     """Return the action with which a walker goes on along its heading until something else."""
     keeps_heading = leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN
     if not keeps_heading:
-        return _trajectory(leaf, start, course, LONG)
+        return _trajectory(leaf, start, course)
     goal = course.value(course.duration)
     shape = "linear" if course.duration else "step"
     return speed_action(goal, shape, "time", course.duration)
 
 
-def _trajectory(leaf: Leaf, start: Pose, course: Profile, length: float) -> Element:
+def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> Element:
     """Return the way of a walker; its last stretch is long."""
     times = [0.0]
     if course.duration > 0.0:
         times += [course.duration * index / SAMPLES for index in range(1, SAMPLES + 1)]
-    times.append(times[-1] + length)
+    times.append(times[-1] + LONG)
     places = ((time, _ahead(start, _covered(course, time))) for time in times)
     points = [Waypoint(time, place.x, place.y, place.z, place.h) for time, place in places]
     vertices = [

@@ -53,18 +53,20 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ..
 
 def _beginning(ctx: Context, acts: Sequence[Act]) -> Iterator[Act]:
     """Yield the act that gives their first value to variables that something compares with it."""
-    compared = {
-        str(node.get("parameterRef"))
+    first = {name: value for name, (_, value) in ctx.variables.items()}
+    conditions = (
+        (str(node.get("parameterRef")), node.get("value"))
         for act in acts
         for event in act.all_events()
         for part in _conditions(event)
         for node in _walk(part)
-        if node.name == "ParameterCondition" and node.get("value") == "0"
-    }
+        if node.name == "ParameterCondition"
+    )
+    compared = {name for name, value in conditions if first.get(name) == value}
     if compared:
         name, span = ctx.names.new("begin"), ctx.scenario.span
         act = Act(ctx.names.new(f"act_{name}"), single(run_start()))
-        actions = tuple(ctx.set_variable(variable, "false") for variable in sorted(compared))
+        actions = tuple(ctx.set_variable(each, first[each]) for each in sorted(compared))
         act.add(None, Event(name, actions, single(run_start()), span))
         yield act
 
