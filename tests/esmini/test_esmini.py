@@ -23,6 +23,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.processes import HANGING
 from tests.unit.backends.xosc.documents import PLAIN, compiled
+from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
 from tests.xosc.played import (
     Played,
     compare,
@@ -98,25 +99,9 @@ CAPABILITIES = [
 
 
 def case_study(maps: Path) -> Given:
-    """The scenario of the case study, with what its users supply at run time."""
-    return Given(
-        SCENARIOS / "hello_world.osc",
-        RunSettings(
-            dt=FINE,
-            signal={"go_signal": 1.0},
-            spawn={"hero": ("16", -3, 5.0)},
-            destination={"hero": "obstacle", "npc": "obstacle"},
-            map_path=(maps,),
-        ),
-        CompileOptions(dialect="carla"),
-        XmlOptions(
-            profile="esmini",
-            signals=("go_signal@1s",),
-            spawns=("hero=16,-3,5",),
-            map_path=(str(maps),),
-        ),
-        maps,
-    )
+    """Return the scenario of the case study with what its user supplies."""
+    settings, xml = run_settings(maps, FINE), xml_options(maps, "esmini")
+    return Given(SCENARIO, settings, OPTIONS, xml, maps)
 
 
 @pytest.mark.parametrize("name", OWN)
@@ -130,7 +115,7 @@ def test_own_scenarios(name: str, tmp_path: Path) -> None:
 
 
 def test_case_study(test_data: Path, tmp_path: Path) -> None:
-    given = case_study(test_data / "maps" / "carla-2020")
+    given = case_study(maps_in(test_data))
     # Half a kilometre and three minutes, with courses that stop at others' places
     assert compare(*both(given, "hello_world", FINE, tmp_path), FINE).farthest < 0.25
 

@@ -1,7 +1,8 @@
 """Run by ScenarioRunner's Python: plays a document as its command line does, and says what happens.
 
 `play.py CHECKOUT PORT FILE.xosc`: a line of JSON for the start and the end of each event, as its
-tree notes them, and one for the end of the run. Ends with exit code 0 if the tree came to its end.
+tree notes them, one for each actor and step, with its place in the coordinates of OpenDRIVE, and
+one for the end of the run. Ends with exit code 0 if the tree came to its end.
 """
 
 import json
@@ -12,6 +13,7 @@ sys.path.insert(0, checkout)
 
 import py_trees
 import scenario_runner
+from srunner.scenariomanager.carla_data_provider import CarlaDataProvider
 from srunner.scenariomanager.scenario_manager import ScenarioManager
 from srunner.scenariomanager.timer import GameTime
 
@@ -29,6 +31,10 @@ class TellingManager(ScenarioManager):
 
     def _tick_scenario(self, timestamp):
         super()._tick_scenario(timestamp)
+        for actor in CarlaDataProvider.get_all_actors():
+            name, place = actor.attributes.get("role_name"), CarlaDataProvider.get_location(actor)
+            if name and place is not None:
+                tell(GameTime.get_time(), "AT", name, place.x, -place.y)
         for key, time in vars(py_trees.blackboard.Blackboard()).items():
             if key.startswith(EVENT) and key not in told:
                 told[key] = time

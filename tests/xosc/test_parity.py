@@ -11,12 +11,13 @@ import pytest
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.config import GivenOptions
-from osc2tx.options import CompileOptions, XmlOptions, XmlProfile, XmlVersion
+from osc2tx.options import XmlOptions, XmlProfile, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.golden.test_xosc import CASES
 from tests.golden.test_xosc import given as stated
 from tests.unit.backends.xosc.checks import schema_errors
 from tests.unit.backends.xosc.deprecations import deprecated
+from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
 from tests.xosc.parity import (
     FINE,
     WRITTEN,
@@ -91,21 +92,8 @@ def given(path: Path) -> Given:
 
 def case_study(maps: Path) -> Given:
     """Return the scenario of the case study with what its user supplies."""
-    settings = RunSettings(
-        dt=FINE,
-        signal={"go_signal": 1.0},
-        spawn={"hero": ("16", -3, 5.0)},
-        destination={"hero": "obstacle", "npc": "obstacle"},
-        map_path=(maps,),
-    )
-    xml = XmlOptions(
-        profile="esmini",
-        signals=("go_signal@1s",),
-        spawns=("hero=16,-3,5",),
-        map_path=(str(maps),),
-    )
-    path = SCENARIOS / "hello_world.osc"
-    return Given(path, settings, CompileOptions(dialect="carla"), xml, (maps,))
+    settings, xml = run_settings(maps, FINE), xml_options(maps, "esmini")
+    return Given(SCENARIO, settings, OPTIONS, xml, (maps,))
 
 
 def slow_but(path: Path) -> object:
@@ -147,7 +135,7 @@ def test_all_versions_and_profiles(path: Path, profile: XmlProfile, version: Xml
 
 @pytest.mark.slow
 def test_case_study(test_data: Path) -> None:
-    source = case_study(test_data / "maps" / "carla-2020")
+    source = case_study(maps_in(test_data))
     (document,) = scenarios(source)
     assert is_exact(document), document.report.obstacles
     check(source, document)

@@ -107,8 +107,9 @@ def hold(
 
     Without limits a tool keeps it rigid: so it is said where it is there already.
     """
-    if time is not None:
-        leaf.ctx.require_support("LongitudinalDistanceAction/timeGap", leaf.node.span)
+    controls_gaps = "LongitudinalDistanceAction" not in leaf.ctx.profile.unsupported
+    if not controls_gaps and time is None and _is_there(missing, keeps=keeps):
+        return _keep_speed_of(leaf, gap.reference.name)
     newer = leaf.ctx.version >= "1.1"
     _require_side(leaf, gap)
     is_rigid = _is_rigid(leaf, gap, keeps=keeps, missing=missing)
@@ -144,20 +145,40 @@ def hold(
     return Change(LONGITUDINAL, (action,), inf if keeps else None, during, during)
 
 
+def _is_there(missing: float | None, *, keeps: bool) -> bool:
+    return keeps and missing is not None and missing <= SURE
+
+
+def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
+    """Return what keeps a gap that is there in tools that control none: the speed of the other."""
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        f"{leaf.ctx.profile.name} controls no gap; it gets the speed of {reference} in each step",
+        "by the way that it takes to change its speed",
+        GENERIC,
+    )
+    action = element(
+        "SpeedAction",
+        element("SpeedActionDynamics", dynamicsShape="step", dynamicsDimension="time", value=0.0),
+        element(
+            "SpeedActionTarget",
+            element(
+                "RelativeTargetSpeed",
+                entityRef=reference,
+                value=0.0,
+                speedTargetValueType="delta",
+                continuous=True,
+            ),
+        ),
+    )
+    during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
+    return Change(LONGITUDINAL, (longitudinal(action),), inf, during, during)
+
+
 def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bool:
     """Whether a gap is kept that is there; else report that the way to it is up to the tool."""
-    tool = leaf.ctx.profile
-    is_there = keeps and missing is not None and missing <= SURE
-    if is_there and "LongitudinalDistanceAction/rigid" in tool.unsupported:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
-            f"{tool.name} keeps a distance by a control of its own, not exactly",
-            "by as much as that control lets it change",
-            GENERIC,
-        )
-        return False
-    if is_there:
+    if _is_there(missing, keeps=keeps):
         mine, theirs = leaf.limits, gap.reference.limits
         if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
             leaf.ctx.report.approximate(

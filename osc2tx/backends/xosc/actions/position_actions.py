@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.actions.xml_positions import (
     at_place,
     world_position,
 )
-from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import Pose
@@ -47,7 +47,7 @@ def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
     else:
         offset = None if target.lane is None else known(round(target.lane.offset, 6))
         after = replace(state, lane=target.lane, offset=offset, pose=None)
-    teleport = element("TeleportAction", element("Position", place))
+    teleport = _teleport(leaf, place)
     return (Change(LATERAL, (element("PrivateAction", teleport),), 0.0, after, after),)
 
 
@@ -121,6 +121,14 @@ def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: 
     )
 
 
+def _teleport(leaf: Leaf, place: Element) -> Element:
+    """Return the action that puts an actor somewhere, who may be on its way."""
+    speed = leaf.state.speed
+    if leaf.member.kind == VEHICLE or speed is None or speed != known(0.0):
+        leaf.ctx.require_support("TeleportAction/moving", leaf.node.span)
+    return element("TeleportAction", element("Position", place))
+
+
 @action("assign_orientation")
 def _assign_orientation(leaf: Leaf) -> Performance:
     ctx, given = leaf.ctx, leaf.arguments.get("orientation")
@@ -146,7 +154,7 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         )
         place = element("RelativeObjectPosition", turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
     after = replace(leaf.state, pose=pose)
-    teleport = element("TeleportAction", element("Position", place))
+    teleport = _teleport(leaf, place)
     return Performance(
         (Change(LATERAL, (element("PrivateAction", teleport),), 0.0, after, after),), "goal"
     )

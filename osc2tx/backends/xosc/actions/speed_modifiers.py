@@ -155,13 +155,16 @@ def _relative(
         speedTargetValueType="factor" if is_factor else "delta",
         continuous=follows,
     )
+    dimension, value = ("time", leaf.duration) if in_time else ("rate", rate)
+    if follows and "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
+        dimension, value = "time", 0.0  # such a tool takes up each speed at once
     action = element(
         "SpeedAction",
         element(
             "SpeedActionDynamics",
             dynamicsShape="linear",
-            dynamicsDimension="time" if in_time else "rate",
-            value=leaf.duration if in_time else rate,
+            dynamicsDimension=dimension,
+            value=value,
         ),
         element("SpeedActionTarget", goal),
     )

@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import automatic_light
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 
 AUTO = "auto"
@@ -31,7 +31,15 @@ def _set_lights(leaf: Leaf) -> Performance:
     if lit not in LIGHTS:
         raise Inexpressible(f"there is no counterpart of the light mode `{mode}`", leaf.node.span)
     # The schema of 1.2 asks for both alternatives of each choice at once.
-    ctx.require("a light", "1.3", leaf.node.span)
+    if ctx.version < "1.3":
+        ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            f"a light is not in OpenSCENARIO XML {ctx.version}",
+            "the lights stay as they are; nothing that moves and no event is affected",
+            Remedy(version="1.3"),
+        )
+        return Performance((), "instant")
     ctx.require_support("LightStateAction", leaf.node.span)
     ctx.automatic_lights.pop(leaf.member.name, None)
     if mode == AUTO:

@@ -16,6 +16,7 @@ from osc2tx.backends.xosc.entities.categories import (
 )
 from osc2tx.backends.xosc.entities.towing import couplings, towing
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
+from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.values.constants import Member
 from osc2tx.backends.xosc.xml.schema import has_attribute
 from osc2tx.backends.xosc.xml.tree import Element, element
@@ -69,6 +70,7 @@ def _scenario_object(ctx: Context, member: CastMember) -> Element:
 
 
 def _vehicle(ctx: Context, member: CastMember) -> Element:
+    _note_origin(ctx, member)
     limits = member.limits
     demand = round(ctx.demands.get(member.name, 0.0), 6)
     jerk = limits.jerk if ctx.version >= "1.2" else None
@@ -94,6 +96,18 @@ def _vehicle(ctx: Context, member: CastMember) -> Element:
     )
 
 
+def _note_origin(ctx: Context, member: CastMember) -> None:
+    """Report where the models of a tool have their origin; in the standard it is the rear axle."""
+    if ctx.profile.has_middle_origins and member.shape.centre:
+        ctx.report.approximate(
+            f"actor {member.actor.type}",
+            member.actor.span,
+            f"{ctx.profile.name} takes a model of its own, and the middle of it for the rear axle",
+            Metres(abs(member.shape.centre), "behind its place, and a size of its own"),
+            Remedy(profile="generic"),
+        )
+
+
 def _category(ctx: Context, member: CastMember) -> str:
     trailer = ctx.values.field(member.actor.name, ("trailer_category",))
     if isinstance(trailer, Member):
@@ -103,13 +117,14 @@ def _category(ctx: Context, member: CastMember) -> str:
 
 def _pedestrian(ctx: Context, member: CastMember) -> Element:
     is_animal = "animal" in member.actor.lineage
+    model = member.model or ctx.profile.person_model or member.name
     return element(
         "Pedestrian",
         _bounding_box(ctx, member),
         _properties(ctx, member),
-        name=member.model or member.name,
+        name=model,
         mass=MASS[PEDESTRIAN],
-        model=member.model or member.name if ctx.version == "1.0" else None,
+        model=model if ctx.version == "1.0" else None,
         model3d=_looks(ctx, member, PEDESTRIAN),
         role=_role(ctx, member, PEDESTRIAN),
         pedestrianCategory="animal" if is_animal else "pedestrian",

@@ -52,9 +52,9 @@ def _holds(body: ir.Behavior, node: ir.Invoke) -> bool:
     return any(each is node for each in ir.walk_behaviors(body))
 
 
-def is_last(body: ir.Behavior, node: ir.Invoke) -> bool:
-    """Whether the run ends with an invocation."""
-    if isinstance(body, ir.Serial):
+def is_last(body: ir.Behavior, node: ir.Behavior) -> bool:
+    """Whether the run ends with a member."""
+    if isinstance(body, ir.Serial) and body is not node:
         members = [each for each in body.members if not isinstance(each, ir.Emit)]
         return bool(members) and is_last(members[-1], node)
     return body is node

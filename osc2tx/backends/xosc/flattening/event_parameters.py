@@ -38,6 +38,8 @@ def parameter_condition(
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if not is_number and rule not in ORDERLESS:
         raise Inexpressible("an order of what is no number", argument.span)
+    if not isinstance(value, (int, float)):
+        ctx.require_support("ParameterCondition/text", argument.span)
     variable = _variable(ctx, argument.event, argument.parameter, value)
     return ctx.variable_is(variable, rule, value_text(value))
 

@@ -12,9 +12,10 @@ from functools import partial
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, chosen, single, state_of
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, chosen
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.action_endings import end_open_actions
+from osc2tx.backends.xosc.flattening.adjacent_members import is_last
 from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.leaves import invoke
@@ -201,6 +202,7 @@ class Flattener:
         branch = self._ctx.choosing.branch(self._ctx.scope, node)
         if branch is None:
             return self._member(node.members[0], start)
+        self._ctx.require_support("ParameterCondition/text", node.span)
         start = self._builder.latched(start, self._builder.name_of(node))
         before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
         end = NEVER
@@ -275,12 +277,12 @@ class Flattener:
         for goes on.
         """
         ctx, builder = self._ctx, self._builder
-        if not ctx.profile.has_act_stop:
-            reason = f"{ctx.profile.name} does not stop acts"
+        if not ctx.profile.has_act_stop and not is_last(ctx.scenario.body, node):
+            reason = f"{ctx.profile.name} looks at events of an act again that has been stopped"
             raise Inexpressible(reason, node.span, Remedy(profile="generic"))
         name = f"act_{builder.name_of(node)}"
         act = builder.open_act(name, start)
-        end = body(single(state_of("act", act.name, "runningState")))
+        end = body(builder.running(act))
         mark = None
         if not end.is_never:
             mark = ctx.names.new(f"end_{act.name}")

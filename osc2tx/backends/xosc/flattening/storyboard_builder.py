@@ -142,8 +142,7 @@ class StoryboardBuilder:
             if not act.events:
                 name = self.ctx.names.new(f"mark_{act.name}")
                 is_outermost = act is self._outermost
-                running = single(state_of("act", act.name, "runningState"))
-                start = RUN_START if is_outermost else running
+                start = RUN_START if is_outermost else _is_running(act)
                 actions = (self.ctx.mark(name),)
                 act.add(None, Event(name, actions, start, self.ctx.scenario.span))
             around = dict.fromkeys(act.stops_around())
@@ -152,6 +151,12 @@ class StoryboardBuilder:
                 act.start = act.start & single(Test(condition))
             for mark in (*act.stops, *around):
                 act.stop = act.stop | self.is_set(mark)
+
+    def running(self, act: Act) -> Flow:
+        """Return when the present act runs; tools that do not know such states want a mark."""
+        if "state/runningState" not in self.ctx.profile.unsupported:
+            return _is_running(act)
+        return self.keep(self.ctx.names.new(f"begin_{act.name}"), RUN_START)
 
     def name_of(self, node: ir.Behavior) -> str:
         """Return what a member of the scenario that is being written down is called."""
@@ -296,3 +301,7 @@ def construct_of(node: ir.Behavior) -> str:
         case ir.InvokeScenario():
             return "scenario invocation"
     return type(node).__name__.lower()
+
+
+def _is_running(act: Act) -> Flow:
+    return single(state_of("act", act.name, "runningState"))

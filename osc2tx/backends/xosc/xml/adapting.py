@@ -80,8 +80,9 @@ def _features(node: Element) -> Iterator[str]:
     """Yield what an element asks of a tool, as in `ToolProfile.unsupported` and `deviates`."""
     yield f"{node.name}/{node.get('dynamicsDimension')}"
     yield f"state/{node.get('state')}"
-    if node.get("freespace") == "true":
-        yield f"{node.name}/freespace"
+    for flag in ("alongRoute", "freespace"):
+        if node.get(flag) == "true":
+            yield f"{node.name}/{flag}"
     if node.get("dynamicsShape") != "step":
         yield node.name
 

@@ -23,7 +23,7 @@ APPROXIMATED = {
     "cut_in_and_evade": XML_VERSIONS[:-1],
     "follow_leader": XML_VERSIONS,
     "pedestrian_crossing": XML_VERSIONS,
-    "hello_world": ("1.3",),
+    "hello_world": XML_VERSIONS[:-1],
 }
 OUTSIDE = {"hello_world": {"signals": ("go_signal@1s",), "spawns": ("hero=16,-3,5",)}}
 PROFILES: dict[str, XmlProfile] = {"cut_in_and_evade": "esmini", "hello_world": "esmini"}

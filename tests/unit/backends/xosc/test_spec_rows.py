@@ -293,6 +293,11 @@ def test_other_versions_say_why_they_cannot(id_: str) -> None:
 IN_SCENARIO_RUNNER = {
     "//Event//AssignRouteAction | //Event//AcquirePositionAction": "inexpressible",
     "//Event//FollowTrajectoryAction": "inexpressible",
+    "//OpenSCENARIO[//Vehicle]//Event//TeleportAction": "inexpressible",
+    "//LateralDistanceAction": "inexpressible",
+    "//LongitudinalDistanceAction": "inexpressible",
+    "//DistanceCondition[@alongRoute='true']": "inexpressible",
+    "//Vehicle[BoundingBox/Center/@x != 0]": "approximated",
     "//Event//*[@dynamicsShape != 'step']": "approximated",
 }
 
