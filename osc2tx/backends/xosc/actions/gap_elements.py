@@ -155,7 +155,7 @@ def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
         leaf.construct,
         leaf.node.span,
         f"{leaf.ctx.profile.name} controls no gap; it gets the speed of {reference} in each step",
-        "by the way that it takes to change its speed",
+        "off by the way that it takes to change its speed",
         GENERIC,
     )
     action = element(

@@ -117,6 +117,14 @@ def _category(ctx: Context, member: CastMember) -> str:
 
 def _pedestrian(ctx: Context, member: CastMember) -> Element:
     is_animal = "animal" in member.actor.lineage
+    if is_animal and ctx.profile.person_model:
+        ctx.report.approximate(
+            f"actor {member.actor.type}",
+            member.actor.span,
+            f"{ctx.profile.name} has no animals",
+            "it looks like a person",
+            Remedy(profile="generic"),
+        )
     model = member.model or ctx.profile.person_model or member.name
     return element(
         "Pedestrian",

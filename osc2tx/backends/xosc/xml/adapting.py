@@ -78,7 +78,8 @@ def _conditions(event: Event) -> Iterator[Element]:
 
 def _features(node: Element) -> Iterator[str]:
     """Yield what an element asks of a tool, as in `ToolProfile.unsupported` and `deviates`."""
-    yield f"{node.name}/{node.get('dynamicsDimension')}"
+    for kind in ("dynamicsDimension", "relativeDistanceType", "rule"):
+        yield f"{node.name}/{node.get(kind)}"
     yield f"state/{node.get('state')}"
     for flag in ("alongRoute", "freespace"):
         if node.get(flag) == "true":
@@ -105,7 +106,6 @@ def _check(ctx: Context, event: Event, node: Element) -> None:
         if feature in profile.deviates:
             does, bound = profile.deviates[feature]
             ctx.report.approximate(construct, span, f"in {profile.name} {does}", bound, GENERIC)
-            return
 
 
 # What does not hold while a comparison does; where the two sides are equal, both may.

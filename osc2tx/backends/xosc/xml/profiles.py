@@ -80,25 +80,28 @@ _ESMINI_IGNORES = {
     "UserDefinedValueCondition": "the condition is dropped",
 }
 _SCENARIO_RUNNER_IGNORES = {
+    "AbsoluteTargetLane": "the action is not known",
+    "AccelerationCondition": "it compares the amount, speeding up or slowing down",
     "AcquirePositionAction": "it raises an error",
     "AssignRouteAction": "it raises an error",
-    "FollowTrajectoryAction": "its controller of vehicles raises an error where the way ends",
-    "AbsoluteTargetLane": "the action is not known",
     "CustomCommandAction": "it runs a command of the shell",
     "DistanceCondition/alongRoute": "its planner raises an error on a road that nothing follows",
     "DistanceCondition/freespace": "it counts between reference points",
+    "FollowTrajectoryAction": "its controller of vehicles raises an error where the way ends",
     "LaneChangeActionDynamics/time": "only a distance is understood",
+    "LateralDistanceAction": "it comes to another distance and never ends",
+    "LongitudinalDistanceAction": "it passes by who is straight ahead and never ends",
     "ParameterCondition/text": "it compares numbers only",
     "Precipitation/snow": "there is no snow",
     "RelativeTargetLane/entityRef": "lanes are counted from the actor itself",
-    "SpeedActionDynamics/rate": "the rate is taken for a time",
     "RoutePosition": "it raises an error",
+    "SpeedActionDynamics/rate": "the rate is taken for a time",
     "SpeedProfileAction": "the action is not known",
     "TeleportAction/moving": "its controllers go on along the way that they were on",
+    "TimeHeadwayCondition": "it divides by the difference of the speeds",
+    "TrafficSignalControllerAction": "it raises an error at more than one phase",
     "UserDefinedValueCondition": "it raises an error",
     "VisibilityAction": "the action is not known",
-    "LateralDistanceAction": "it comes to another distance and never ends",
-    "LongitudinalDistanceAction": "it passes by who is straight ahead and never ends",
     "state/runningState": "it raises an error",
 }
 _SCENARIO_RUNNER_DEVIATES = {
@@ -110,10 +113,26 @@ _SCENARIO_RUNNER_DEVIATES = {
         "the offset is the aim from the start on",
         "it begins at the right time and may be over 1 s early",
     ),
+    "RelativeDistanceCondition/freespace": (
+        "free space counts between boxes of its models",
+        "off by half of what both are longer or shorter there",
+    ),
+    "RelativeDistanceCondition/longitudinal": (
+        "a distance between two roads is the length of the route to the other one",
+        "the same while the other one is ahead or on the same road",
+    ),
     "SpeedActionDynamics": (
         "the new speed is the aim from the start on, whatever the shape",
         "start and length of the change are exact; the way meanwhile is off by at most half that"
         " length times the change",
+    ),
+    "SpeedCondition/equalTo": (
+        "a speed that is told to physics is nearly reached",
+        "true later than it should be, or not at all",
+    ),
+    "TimeToCollisionCondition": (
+        "it is the straight distance by the difference of the speeds",
+        "the same while both go the same way in one lane",
     ),
 }
 
