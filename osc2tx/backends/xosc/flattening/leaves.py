@@ -8,6 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.speed_notes import note_cut
+from osc2tx.backends.xosc.actions.speed_steps import in_steps
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.actions.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
@@ -56,16 +57,20 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     is_cut = bool(node.until or overriding or builder.is_race)
+    lasting = _least_length(builder, node, performance)
     if actions:
         length = 0.0 if is_cut else _event_length(performance)
-        goal = builder.add(name, actions, start, actor=member.name, lasting=length)
+        is_whole = not overriding and all(_is_over(c, lasting) for c in performance.changes)
+        steps = in_steps(leaf, performance) if is_whole else ()
+        goal = _steps(builder, leaf, steps, start)
+        if not steps:
+            goal = builder.add(name, actions, start, actor=member.name, lasting=length)
         for other, action, word in leaf.others:
             follows = ctx.names.new(f"{other.name}_{word}")
             builder.add(follows, (action,), goal, actor=other.name)
             state = replace(ctx.states[other.name], speed=None)
             ctx.states[other.name] = state.finished(LONGITUDINAL)
     ends = _ends(builder, node, start, goal, performance)
-    lasting = _least_length(builder, node, performance)
     successors = builder.claimed_by(overriding)
     for change in performance.changes:
         is_over = not overriding and _is_over(change, lasting)
@@ -76,6 +81,15 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
     return builder.mark_end(node, ends)
+
+
+def _steps(builder: StoryboardBuilder, leaf: Leaf, steps: tuple[Element, ...], start: Flow) -> Flow:
+    """Add an event for each step of a change, one after the other; return when the last is over."""
+    goal, names = start, builder.ctx.names
+    for index, step in enumerate(steps):
+        name = names.new(leaf.event) if index else leaf.event
+        goal = builder.add(name, (step,), goal, actor=leaf.member.name, is_step=True)
+    return goal
 
 
 def _ends(

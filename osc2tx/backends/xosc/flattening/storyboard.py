@@ -40,6 +40,7 @@ class Event:
         place: Where the member stands that it belongs to.
         priority: What it does to running events of its maneuver.
         repeats: How often it may start.
+        is_step: It is one step of a change that is reported as a whole.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Event:
     place: Span
     priority: str = "parallel"
     repeats: int | None = None
+    is_step: bool = False
 
 
 @dataclass(slots=True)

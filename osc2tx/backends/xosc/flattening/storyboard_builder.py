@@ -75,6 +75,7 @@ class StoryboardBuilder:
         actor: str | None = None,
         repeats: int | None = None,
         lasting: float = 0.0,
+        is_step: bool = False,
     ) -> Flow:
         """Add an event to the maneuver of an actor.
 
@@ -85,11 +86,13 @@ class StoryboardBuilder:
             actor: The actor; `None` for what concerns no entity.
             repeats: How often it may start.
             lasting: Seconds that it surely takes.
+            is_step: It is one step of a change that is reported as a whole.
 
         Returns:
             When it is complete.
         """
-        self.act.add(actor, Event(name, actions, start, self.place, repeats=repeats))
+        made = Event(name, actions, start, self.place, repeats=repeats, is_step=is_step)
+        self.act.add(actor, made)
         # Which of two ends is the later one must not depend on open parameters.
         is_open = bool(self.ctx.choosing.parameters)
         follows = () if is_open else start.followed_after(lasting)

@@ -103,7 +103,7 @@ def _check(ctx: Context, event: Event, node: Element) -> None:
             reason = f"{profile.name} does not carry out {feature}: {profile.unsupported[feature]}"
             ctx.report.cannot(construct, span, reason, GENERIC)
             return
-        if feature in profile.deviates:
+        if feature in profile.deviates and not event.is_step:
             does, bound = profile.deviates[feature]
             ctx.report.approximate(construct, span, f"in {profile.name} {does}", bound, GENERIC)
 

@@ -30,6 +30,7 @@ class ToolProfile:
         needs_lane_range: It finds no lane where a condition names none; in the standard that is
             all.
         has_shapes: It looks at the shape of the dynamics.
+        takes_speeds_at_once: A new speed is the aim from the start of its action on.
         has_booleans: It compares variables with `true` and `false`, not only with numbers.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
             standard it begins without any.
@@ -58,6 +59,7 @@ class ToolProfile:
     stop_name: str = ""
     needs_lane_range: bool = False
     has_shapes: bool = True
+    takes_speeds_at_once: bool = False
     has_booleans: bool = True
     carries_acceleration: bool = False
     ego_property: str = ""
@@ -123,8 +125,8 @@ _SCENARIO_RUNNER_DEVIATES = {
     ),
     "SpeedActionDynamics": (
         "the new speed is the aim from the start on, whatever the shape",
-        "start and length of the change are exact; the way meanwhile is off by at most half that"
-        " length times the change",
+        "start and length of the action are exact; the way meanwhile is off by at most half that"
+        " length times the change, more where its throttle and brakes are not enough",
     ),
     "SpeedCondition/equalTo": (
         "a speed that is told to physics is nearly reached",
@@ -161,6 +163,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         has_act_stop=False,
         stop_name="criteria_end",
         has_shapes=False,
+        takes_speeds_at_once=True,
         has_booleans=False,
         ego_property="ego_vehicle",
         person_model="walker.pedestrian.0001",
