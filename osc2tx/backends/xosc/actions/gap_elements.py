@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.relative_speeds import relative_speed
 from osc2tx.backends.xosc.actions.speed_changes import longitudinal
 from osc2tx.backends.xosc.actions.speed_notes import GENERIC
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
@@ -158,22 +159,9 @@ def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
         "off by the way that it takes to change its speed",
         GENERIC,
     )
-    action = element(
-        "SpeedAction",
-        element("SpeedActionDynamics", dynamicsShape="step", dynamicsDimension="time", value=0.0),
-        element(
-            "SpeedActionTarget",
-            element(
-                "RelativeTargetSpeed",
-                entityRef=reference,
-                value=0.0,
-                speedTargetValueType="delta",
-                continuous=True,
-            ),
-        ),
-    )
+    action = relative_speed(reference, continuous=True)
     during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    return Change(LONGITUDINAL, (longitudinal(action),), inf, during, during)
+    return Change(LONGITUDINAL, (action,), inf, during, during)
 
 
 def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bool:

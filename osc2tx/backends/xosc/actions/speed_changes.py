@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.relative_speeds import relative_speed
 from osc2tx.backends.xosc.actions.speed_notes import (
     GENERIC,
     note_acceleration,
@@ -233,27 +234,7 @@ def speed_action(target: float, shape: str, dimension: str, value: float) -> Ele
 
 def hold_speed(entity: str) -> Element:
     """Return the action that ends a change of the speed where it is."""
-    return longitudinal(
-        element(
-            "SpeedAction",
-            element(
-                "SpeedActionDynamics",
-                dynamicsShape="step",
-                dynamicsDimension="time",
-                value=0.0,
-            ),
-            element(
-                "SpeedActionTarget",
-                element(
-                    "RelativeTargetSpeed",
-                    entityRef=entity,
-                    value=0.0,
-                    speedTargetValueType="delta",
-                    continuous=False,
-                ),
-            ),
-        )
-    )
+    return relative_speed(entity, continuous=False)
 
 
 def longitudinal(action: Element) -> Element:

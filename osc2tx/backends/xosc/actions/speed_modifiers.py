@@ -8,12 +8,13 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.acceleration import shape_of
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
+from osc2tx.backends.xosc.actions.relative_speeds import relative_speed
 from osc2tx.backends.xosc.actions.speed_changes import (
     change_speed,
     jump_to,
-    longitudinal,
     speed_action,
 )
+from osc2tx.backends.xosc.actions.speed_notes import GENERIC
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
@@ -21,7 +22,6 @@ from osc2tx.backends.xosc.facts.actors import COMFORT, Course
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.backends.xosc.xml.tree import element
 from osc2tx_classes import replace
 
 RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
@@ -148,29 +148,30 @@ def _relative(
     follows = call.at != "end"
     in_time = not follows and leaf.duration is not None
     rate = _rate_towards(leaf, call, reference, factor if is_factor else None, difference)
-    goal = element(
-        "RelativeTargetSpeed",
-        entityRef=reference.name,
-        value=factor if is_factor else difference,
-        speedTargetValueType="factor" if is_factor else "delta",
+    shape, dimension, length = "linear", "rate", rate
+    if in_time and leaf.duration is not None:
+        dimension, length = "time", leaf.duration
+    elif follows and "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
+        shape, dimension, length = "step", "time", 0.0
+        leaf.ctx.report.approximate(
+            f"modifier {call.name}",
+            call.span,
+            f"{leaf.ctx.profile.name} takes up such a speed at once",
+            "until the speed is reached; the speed itself is exact",
+            GENERIC,
+        )
+    action = relative_speed(
+        reference.name,
+        factor if is_factor and factor is not None else difference,
+        "factor" if is_factor else "delta",
         continuous=follows,
-    )
-    dimension, value = ("time", leaf.duration) if in_time else ("rate", rate)
-    if follows and "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
-        dimension, value = "time", 0.0  # such a tool takes up each speed at once
-    action = element(
-        "SpeedAction",
-        element(
-            "SpeedActionDynamics",
-            dynamicsShape="linear",
-            dynamicsDimension=dimension,
-            value=value,
-        ),
-        element("SpeedActionTarget", goal),
+        shape=shape,
+        dimension=dimension,
+        length=length,
     )
     after = replace(leaf.state, speed=None).finished(LONGITUDINAL)
     time = inf if follows else leaf.duration
-    return Change(LONGITUDINAL, (longitudinal(action),), time, after, after)
+    return Change(LONGITUDINAL, (action,), time, after, after)
 
 
 def _rate_towards(
