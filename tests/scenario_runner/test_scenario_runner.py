@@ -14,18 +14,19 @@ import shutil
 import subprocess
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from osc2tx.options import CompileOptions, XmlOptions
+from osc2tx.options import XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.domain.routes.map_search import SHIPPED
 from tests.processes import HANGING
-from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
+from tests.unit.backends.xosc.documents import compiled, documents
 from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
+from tests.xosc.parity import Given
 from tests.xosc.played import Played, Row, compare, world
 
 CHECKOUT = os.environ.get("OSC2TX_SCENARIO_RUNNER", "")
@@ -62,17 +63,6 @@ def play(document: str, folder: Path, port: int) -> Played:
     return Played(ends[0], starts, track)
 
 
-@dataclass(frozen=True)
-class Given:
-    """A scenario, and what it needs from outside."""
-
-    path: Path
-    settings: RunSettings
-    options: CompileOptions = PLAIN
-    xml: XmlOptions = READ_BY_IT
-    maps: tuple[Path, ...] = (SHIPPED,)
-
-
 def check(given: Given, folder: Path, bound: Mapping[str, Any]) -> None:
     """Compare events and end in ScenarioRunner with those of the world, within a bound."""
     from tests.carla.stand_in.process import StandInProcess
@@ -95,7 +85,8 @@ def check(given: Given, folder: Path, bound: Mapping[str, Any]) -> None:
 @pytest.mark.parametrize("name", BOUNDS)
 def test_events_and_end_are_those_of_the_world(name: str, tmp_path: Path) -> None:
     (path,), bound = SCENARIOS.rglob(f"{name}.osc"), BOUNDS[name]
-    check(Given(path, RunSettings(dt=STEP, set=bound.get("values", {}))), tmp_path, bound)
+    settings = RunSettings(dt=STEP, set=bound.get("values", {}))
+    check(Given(path, settings, xml=READ_BY_IT), tmp_path, bound)
 
 
 def test_case_study(test_data: Path, tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Pose, Roads, map_places, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
-from osc2tx.backends.xosc.report import Inexpressible, LossReport, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.values.folding import Values
@@ -176,7 +176,7 @@ class Context:
             raise Inexpressible(
                 f"{self.profile.name} does not carry out {feature}: {instead}",
                 span,
-                Remedy(profile="generic"),
+                GENERIC,
             )
 
     def can(self, feature: str, since: XmlVersion) -> bool:

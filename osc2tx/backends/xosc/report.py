@@ -60,6 +60,7 @@ class Remedy:
 
 
 NOTHING = Remedy()
+GENERIC = Remedy(profile="generic")
 
 
 class Inexpressible(Exception):

@@ -12,7 +12,8 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance, Uneven
 from osc2tx.backends.xosc.actions.registry import action, modifier
-from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
+from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.actions.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.speed_notes import with_profiles
 from osc2tx.backends.xosc.actions.user_shapes import acceleration_by, user_shape
 from osc2tx.backends.xosc.facts.actors import (

@@ -9,14 +9,12 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.relative_speeds import relative_speed
-from osc2tx.backends.xosc.actions.speed_changes import longitudinal
-from osc2tx.backends.xosc.actions.speed_notes import GENERIC
+from osc2tx.backends.xosc.actions.speed_elements import longitudinal, relative_speed
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.flattening.adjacent_members import predecessor
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import dataclass, replace

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming, number_of_oncoming
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import replace
@@ -218,7 +218,7 @@ def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
             f"{leaf.ctx.profile.name} asks for its distance, and the speed may still be changing",
             f"it goes over {value:.3g} m, {time:.3g} s at {leaf.state.aim:.3g} m/s; slower, it is"
             " longer",
-            Remedy(profile="generic"),
+            GENERIC,
         )
     return element(
         "LaneChangeActionDynamics",

@@ -9,7 +9,8 @@ from __future__ import annotations
 from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
-from osc2tx.backends.xosc.actions.speed_changes import change_speed, hold_speed, jump_to
+from osc2tx.backends.xosc.actions.speed_changes import change_speed, jump_to
+from osc2tx.backends.xosc.actions.speed_elements import hold_speed
 from osc2tx.backends.xosc.actions.speed_modifiers import time_to_cover
 from osc2tx.backends.xosc.actions.steady_speeds import note_open_speed
 from osc2tx.backends.xosc.actions.walkers import change_pace, stand, walk_on

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.actions.path_steering import note_steering
 from osc2tx.backends.xosc.actions.paths import follow
 from osc2tx.backends.xosc.actions.points_and_lines import Line, xml_position
 from osc2tx.backends.xosc.actions.registry import action
-from osc2tx.backends.xosc.actions.speed_changes import speed_action
+from osc2tx.backends.xosc.actions.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.xml_positions import (
     XmlPosition,
     at_place,
@@ -47,8 +47,7 @@ def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
     else:
         offset = None if target.lane is None else known(round(target.lane.offset, 6))
         after = replace(state, lane=target.lane, offset=offset, pose=None)
-    teleport = _teleport(leaf, place)
-    return (Change(LATERAL, (element("PrivateAction", teleport),), 0.0, after, after),)
+    return (Change(LATERAL, (_teleport(leaf, place),), 0.0, after, after),)
 
 
 def _beside(leaf: Leaf) -> XmlPosition:
@@ -123,10 +122,9 @@ def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: 
 
 def _teleport(leaf: Leaf, place: Element) -> Element:
     """Return the action that puts an actor somewhere, who may be on its way."""
-    speed = leaf.state.speed
-    if leaf.member.kind == VEHICLE or speed is None or speed != known(0.0):
+    if leaf.member.kind == VEHICLE or leaf.state.speed != known(0.0):
         leaf.ctx.require_support("TeleportAction/moving", leaf.node.span)
-    return element("TeleportAction", element("Position", place))
+    return element("PrivateAction", element("TeleportAction", element("Position", place)))
 
 
 @action("assign_orientation")
@@ -154,10 +152,7 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         )
         place = element("RelativeObjectPosition", turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
     after = replace(leaf.state, pose=pose)
-    teleport = _teleport(leaf, place)
-    return Performance(
-        (Change(LATERAL, (element("PrivateAction", teleport),), 0.0, after, after),), "goal"
-    )
+    return Performance((Change(LATERAL, (_teleport(leaf, place),), 0.0, after, after),), "goal")
 
 
 @action("change_position")

@@ -7,7 +7,8 @@ from osc2tx.backends.xosc.actions.gap_elements import Gap, hold, missing_at_star
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.registry import modifier
-from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, speed_action, through_points
+from osc2tx.backends.xosc.actions.speed_changes import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.actions.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.speed_notes import NEAR, with_profiles
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.xml_positions import at_place

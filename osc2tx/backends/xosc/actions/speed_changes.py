@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.relative_speeds import relative_speed
+from osc2tx.backends.xosc.actions.speed_elements import longitudinal, speed_action
 from osc2tx.backends.xosc.actions.speed_notes import (
-    GENERIC,
     note_acceleration,
     note_even_change,
     refuse_contradiction,
@@ -30,7 +29,7 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_speed,
     fastest,
 )
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_classes import replace
@@ -214,32 +213,6 @@ def _limit_towards(leaf: Leaf, target: float, profile: str) -> float:
             Remedy(version="1.2"),
         )
     return taken
-
-
-def speed_action(target: float, shape: str, dimension: str, value: float) -> Element:
-    """Return a `SpeedAction` to an absolute speed."""
-    return longitudinal(
-        element(
-            "SpeedAction",
-            element(
-                "SpeedActionDynamics",
-                dynamicsShape=shape,
-                dynamicsDimension=dimension,
-                value=value,
-            ),
-            element("SpeedActionTarget", element("AbsoluteTargetSpeed", value=target)),
-        )
-    )
-
-
-def hold_speed(entity: str) -> Element:
-    """Return the action that ends a change of the speed where it is."""
-    return relative_speed(entity, continuous=False)
-
-
-def longitudinal(action: Element) -> Element:
-    """Return the private action around a longitudinal one."""
-    return element("PrivateAction", element("LongitudinalAction", action))
 
 
 def within_limits(target: float, limits: Limits, profile: str, peak: float | None) -> Element:

@@ -8,18 +8,16 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.acceleration import shape_of
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
-from osc2tx.backends.xosc.actions.relative_speeds import relative_speed
 from osc2tx.backends.xosc.actions.speed_changes import (
     change_speed,
     jump_to,
-    speed_action,
 )
-from osc2tx.backends.xosc.actions.speed_notes import GENERIC
+from osc2tx.backends.xosc.actions.speed_elements import relative_speed, speed_action
 from osc2tx.backends.xosc.actions.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, Course
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx_classes import replace
@@ -144,12 +142,13 @@ def _relative(
         raise Inexpressible(f"`{name}` names no actor", call.span)
     if factor not in (None, 1.0) and difference != 0.0:
         raise Inexpressible("a factor and a difference at once", call.span)
-    is_factor = factor not in (None, 1.0)
+    if factor == 1.0:
+        factor = None
     follows = call.at != "end"
-    in_time = not follows and leaf.duration is not None
-    rate = _rate_towards(leaf, call, reference, factor if is_factor else None, difference)
-    shape, dimension, length = "linear", "rate", rate
-    if in_time and leaf.duration is not None:
+    time = inf if follows else leaf.duration
+    shape, dimension = "linear", "rate"
+    length = _rate_towards(leaf, call, reference, factor, difference)
+    if not follows and leaf.duration is not None:
         dimension, length = "time", leaf.duration
     elif follows and "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
         shape, dimension, length = "step", "time", 0.0
@@ -162,15 +161,14 @@ def _relative(
         )
     action = relative_speed(
         reference.name,
-        factor if is_factor and factor is not None else difference,
-        "factor" if is_factor else "delta",
+        difference if factor is None else factor,
+        "delta" if factor is None else "factor",
         continuous=follows,
         shape=shape,
         dimension=dimension,
         length=length,
     )
     after = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    time = inf if follows else leaf.duration
     return Change(LONGITUDINAL, (action,), time, after, after)
 
 

@@ -13,10 +13,9 @@ from osc2tx.backends.xosc.facts.actors import (
     way_between,
     way_by_acceleration,
 )
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
 
-GENERIC = Remedy(profile="generic")
 SINCE_PROFILES = Remedy(version="1.2")
 
 STEP = 0.05

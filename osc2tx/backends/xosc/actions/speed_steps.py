@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import ceil
 
 from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
-from osc2tx.backends.xosc.actions.speed_changes import speed_action
-from osc2tx.backends.xosc.actions.speed_notes import GENERIC
+from osc2tx.backends.xosc.actions.speed_elements import speed_action
+from osc2tx.backends.xosc.report import GENERIC
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
 from osc2tx.backends.xosc.xml.tree import Element

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.leaf import Arguments
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import Roads
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 
@@ -220,5 +220,5 @@ def state_text(ctx: Context, signal: str, states: States) -> str:
     lit = [lamp[0] for lamp, s in zip(_lamps(ctx, signal), states, strict=True) if s != OFF]
     if len(lit) > 1:
         reason = f"scenario_runner knows one colour for a light, not {' and '.join(lit)}"
-        raise Inexpressible(reason, None, Remedy(profile="generic"))
+        raise Inexpressible(reason, None, GENERIC)
     return lit[0] if lit else "off"

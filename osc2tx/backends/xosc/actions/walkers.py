@@ -10,7 +10,8 @@ import math
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.paths import follow
-from osc2tx.backends.xosc.actions.speed_changes import jump_to, speed_action
+from osc2tx.backends.xosc.actions.speed_changes import jump_to
+from osc2tx.backends.xosc.actions.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
 from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.event_parameters import parameter_condition
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
 
 RULES = {
@@ -58,7 +58,7 @@ def _edge_flow(ctx: Context, expression: ir.Expression, *, rising: bool) -> Flow
     if _is_light(expression):
         if not ctx.profile.has_edges:
             reason = f"{ctx.profile.name} does not look at edges"
-            raise Inexpressible(reason, expression.span, Remedy(profile="generic"))
+            raise Inexpressible(reason, expression.span, GENERIC)
         return _light_edge(ctx, expression, rising=rising)
     if not (isinstance(expression, ir.Binary) and expression.operator in RULES):
         raise Inexpressible(

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.entities.categories import (
 )
 from osc2tx.backends.xosc.entities.towing import couplings, towing
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.report import Metres, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Metres
 from osc2tx.backends.xosc.values.constants import Member
 from osc2tx.backends.xosc.xml.schema import has_attribute
 from osc2tx.backends.xosc.xml.tree import Element, element
@@ -104,7 +104,7 @@ def _note_origin(ctx: Context, member: CastMember) -> None:
             member.actor.span,
             f"{ctx.profile.name} takes a model of its own, and the middle of it for the rear axle",
             Metres(abs(member.shape.centre), "behind its place, and a size of its own"),
-            Remedy(profile="generic"),
+            GENERIC,
         )
 
 
@@ -123,7 +123,7 @@ def _pedestrian(ctx: Context, member: CastMember) -> Element:
             member.actor.span,
             f"{ctx.profile.name} has no animals",
             "it looks like a person",
-            Remedy(profile="generic"),
+            GENERIC,
         )
     model = member.model or ctx.profile.person_model or member.name
     return element(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.speed_changes import hold_speed
+from osc2tx.backends.xosc.actions.speed_elements import hold_speed
 from osc2tx.backends.xosc.conditions.flow import Flow
 from osc2tx.backends.xosc.facts.actors import apart, course_of_shift
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder

@@ -34,7 +34,7 @@ from osc2tx.backends.xosc.flattening.tree_queries import (
     is_single,
     is_timed,
 )
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
 
@@ -279,7 +279,7 @@ class Flattener:
         ctx, builder = self._ctx, self._builder
         if not ctx.profile.has_act_stop and not is_last(ctx.scenario.body, node):
             reason = f"{ctx.profile.name} looks at events of an act again that has been stopped"
-            raise Inexpressible(reason, node.span, Remedy(profile="generic"))
+            raise Inexpressible(reason, node.span, GENERIC)
         name = f"act_{builder.name_of(node)}"
         act = builder.open_act(name, start)
         end = body(builder.running(act))

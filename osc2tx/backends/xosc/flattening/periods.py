@@ -9,7 +9,7 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import Flow, Test, single
 from osc2tx.backends.xosc.flattening.storyboard_builder import StoryboardBuilder
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.xml.tree import Element
 from osc2tx_classes import replace
 
@@ -28,7 +28,7 @@ def react_periodically(
     ctx = builder.ctx
     if not ctx.profile.has_edges:
         reason = f"{ctx.profile.name} does not start an event again"
-        raise Inexpressible(reason, node.span, Remedy(profile="generic"))
+        raise Inexpressible(reason, node.span, GENERIC)
     period = ctx.values.number(every.period)
     begin = start.later(0.0 if every.offset is None else ctx.values.number(every.offset))
     pulse = ctx.names.new("pulse")

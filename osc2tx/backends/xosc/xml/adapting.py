@@ -20,11 +20,9 @@ from osc2tx.backends.xosc.conditions.flow import (
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.storyboard import Act, Event
-from osc2tx.backends.xosc.report import Remedy
+from osc2tx.backends.xosc.report import GENERIC
 from osc2tx.backends.xosc.xml.tree import Element
 from osc2tx_classes import replace
-
-GENERIC = Remedy(profile="generic")
 
 
 def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ...], Flow]:

@@ -1,10 +1,26 @@
-"""Speeds relative to that of an actor, as elements."""
+"""Speeds as elements."""
 
 from __future__ import annotations
 
 from typing import Literal
 
 from osc2tx.backends.xosc.xml.tree import Element, element
+
+
+def speed_action(target: float, shape: str, dimension: str, value: float) -> Element:
+    """Return a `SpeedAction` to an absolute speed."""
+    return longitudinal(
+        element(
+            "SpeedAction",
+            element(
+                "SpeedActionDynamics",
+                dynamicsShape=shape,
+                dynamicsDimension=dimension,
+                value=value,
+            ),
+            element("SpeedActionTarget", element("AbsoluteTargetSpeed", value=target)),
+        )
+    )
 
 
 def relative_speed(
@@ -45,4 +61,14 @@ def relative_speed(
         ),
         element("SpeedActionTarget", goal),
     )
+    return longitudinal(action)
+
+
+def hold_speed(entity: str) -> Element:
+    """Return the action that ends a change of the speed where it is."""
+    return relative_speed(entity, continuous=False)
+
+
+def longitudinal(action: Element) -> Element:
+    """Return the private action around a longitudinal one."""
     return element("PrivateAction", element("LongitudinalAction", action))
